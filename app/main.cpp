@@ -11,9 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "app/options/idle_options.h"
 #include "app/options/named_files.h"
-#include "app/options/scene_file.h"
 #include "app/options/usage_faults.h"
 #include "app/process/build_version.h"
 #include "app/process/command_line.h"
@@ -128,13 +126,6 @@ bool is_command(std::string_view word) {
   return std::ranges::any_of(kCommands, [&](const Command& command) { return word == command.name; });
 }
 
-/// On stderr, unless quiet.
-void tell_idle_options(const CLI::App& command) {
-  const CLI::Option* const quiet = command.get_option_no_throw("--quiet");
-  for (const std::string& sentence : idle_options(command))
-    if (!quiet || quiet->count() == 0) std::cerr << "meniscus: " << escaped(sentence) << std::endl;
-}
-
 [[noreturn]] void refuse_unknown_command(std::string_view word) {
   std::vector<std::string_view> names;
   for (const Command& command : kCommands) names.emplace_back(command.name);
@@ -176,23 +167,16 @@ void run(int argc, char** argv) {
   let_the_last_count(program);
   program.footer(kExamples);
   for (const Command& command : kCommands) command.add(*program.add_subcommand(command.name)->group("Commands"));
-  SceneWords scene = with_scene(program, {words.begin() + 1, words.end()});
   // All options are known then, and no command has begun.
-  program.parse_complete_callback([&program, &scene] {
-    const CLI::App& command = named_command(program);
-    guard_named_files(command, scene.file);
-    tell_idle_options(command);
-  });
-  std::ranges::reverse(scene.words);
+  program.parse_complete_callback([&program] { NamedFiles(named_command(program)).check(); });
+  std::vector<std::string> arguments(words.rbegin(), words.rend() - 1);
   try {
-    program.parse(scene.words);
-  } catch (const SelectionError& error) {
-    throw SelectionError(scene.name_key(error.sentence()), error.picture());
+    program.parse(arguments);
   } catch (const CLI::Success& success) {
     program.exit(success);
   } catch (const CLI::ParseError& error) {
-    const std::string fault = dynamic_cast<const CLI::ExtrasError*>(&error) ? unknown_option_fault(program, words)
-                                                                            : scene.name_key(error.what());
+    const std::string fault =
+        dynamic_cast<const CLI::ExtrasError*>(&error) ? unknown_option_fault(program, words) : error.what();
     throw UsageError(fmt::format("{}; see {} --help", fault, command_path(named_command(program))));
   }
   finish_standard_output();

@@ -9,7 +9,7 @@
 
 namespace meniscus {
 
-std::vector<double> buried_by_chains(const MoleculeOptions& molecule, const Structure& structure,
+std::vector<double> buried_by_chains(const MoleculeRequest& molecule, const Structure& structure,
                                      std::vector<std::string>& names, bool all) {
   const auto wanted = std::ranges::find(names, "buried_area");
   if (wanted == names.end()) return {};

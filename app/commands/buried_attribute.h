@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "app/options/molecule_options.h"
+#include "core/scene/molecule.h"
 #include "core/structure/structure.h"
 
 namespace meniscus {
 
 /// Å² of each atom of the structure; empty where `names` does not have "buried_area". Of a molecule with copies, for
 /// which it cannot be said, the name goes from a list of all names, and is refused by RequestError in any other.
-std::vector<double> buried_by_chains(const MoleculeOptions& molecule, const Structure& structure,
+std::vector<double> buried_by_chains(const MoleculeRequest& molecule, const Structure& structure,
                                      std::vector<std::string>& names, bool all);
 
 }  // namespace meniscus

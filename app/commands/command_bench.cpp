@@ -12,26 +12,23 @@
 #include "app/commands/commands.h"
 #include "core/scene/molecule.h"
 #include "app/commands/paper_bench.h"
-#include "app/options/picture_options.h"
 #include "app/options/property_options.h"
 #include "app/process/program_error.h"
 #include "core/base/text.h"
 #include "core/structure/formats/formats.h"
 #include "app/reports/notes.h"
-#include "app/options/molecule_options.h"
+#include "app/options/scene_options.h"
 #include "core/reduced_surface/rolling_probe/rolling_probe.h"
 
 namespace meniscus {
 namespace {
 
-struct BenchCommand {
-  MoleculeOptions molecule;
+struct BenchCommand : SceneCommand {
   std::vector<std::string> files;
   int runs = 5;
   bool baseline = false;
   bool paper = false;
   bool numbers = false;
-  ViewRequest picture;  ///< size of the frames of --paper
 };
 
 /// One measured molecule: the run with the median total.
@@ -67,13 +64,13 @@ Row measure(const Structure& structure, const BenchCommand& command, Progress& p
   const std::vector<Ball> balls = balls_of(structure);
   Row row{std::filesystem::path(structure.file).filename().string(),
           balls.size(),
-          compute_surface(balls, command.molecule.surface).device,
+          compute_surface(balls, command.scene.molecule.surface).device,
           {},
           {}};
   std::vector<std::vector<StageTime>> times, baselines;
   for (int n = 0; n < command.runs; ++n) {
-    times.push_back(compute_surface(balls, command.molecule.surface).stages);
-    if (command.baseline) baselines.push_back(roll(balls, command.molecule.surface.probe_radius));
+    times.push_back(compute_surface(balls, command.scene.molecule.surface).stages);
+    if (command.baseline) baselines.push_back(roll(balls, command.scene.molecule.surface.probe_radius));
     progress.advance();
   }
   row.stages = median(std::move(times));
@@ -121,31 +118,31 @@ void print_table(const std::vector<Row>& rows) {
 void run_paper(BenchCommand& command) {
   if (command.numbers) throw UsageError("--numbers times surfaces, --paper frames; choose one");
   if (command.baseline) throw UsageError("--baseline times surfaces, --paper frames; choose one");
-  if (command.molecule.surface.verify) throw UsageError("--verify compares surfaces, --paper times frames");
-  if (command.molecule.surface.kind != SurfaceKind::ses)
+  if (command.scene.molecule.surface.verify) throw UsageError("--verify compares surfaces, --paper times frames");
+  if (command.scene.molecule.surface.kind != SurfaceKind::ses)
     throw UsageError("--paper draws solvent-excluded surfaces only");
   PaperBenchSettings settings;
-  settings.device = command.molecule.surface.gl;
-  settings.size = {command.picture.width, command.picture.height};
-  settings.probe_radius = command.molecule.surface.probe_radius;
+  settings.device = command.scene.molecule.surface.gl;
+  settings.size = {command.scene.picture.width, command.scene.picture.height};
+  settings.probe_radius = command.scene.molecule.surface.probe_radius;
   settings.runs = command.runs;
   std::vector<PaperBenchMolecule> molecules;
   for (const std::string& file : command.files) {
-    command.molecule.file = file;
-    molecules.push_back({std::filesystem::path(file).filename().string(), balls_of(read_and_tell(command.molecule))});
+    command.scene.molecule.file = file;
+    molecules.push_back({std::filesystem::path(file).filename().string(), balls_of(read_and_tell(command))});
   }
   print_paper_tables(molecules, settings);
 }
 
 void run(BenchCommand& command) {
   if (command.paper) return run_paper(command);
-  command.molecule.surface.drawn = !command.numbers;
-  Progress progress(progress_on_stderr(command.molecule), "bench",
+  command.scene.molecule.surface.drawn = !command.numbers;
+  Progress progress(progress_on_stderr(command), "bench",
                     command.files.size() * static_cast<std::size_t>(command.runs));
   std::vector<Row> rows;
   for (const std::string& file : command.files) {
-    command.molecule.file = file;
-    rows.push_back(measure(read_and_tell(command.molecule), command, progress));
+    command.scene.molecule.file = file;
+    rows.push_back(measure(read_and_tell(command), command, progress));
   }
   print_table(rows);
 }
@@ -160,20 +157,23 @@ void add_bench(CLI::App& command) {
       "  meniscus bench --paper 1crn.pdb 1vis.pdb 1tii.pdb   frames as in the paper, beside its own figures",
       "All times are wall-clock milliseconds, the medians of the runs, after one run that is not counted. Reading\n"
       "the file is not part of them.");
-  auto state = std::make_shared<BenchCommand>();
-  command.add_option("FILES", state->files, "Molecules: " + format_names() + "; .gz too")->required();
-  state->molecule.surface.timing = StageTiming::exact;
-  add_surface_options(command, state->molecule);
+  auto declared = std::make_shared<DeclaredCommand<BenchCommand>>(command, for_bench);
+  BenchCommand& state = declared->state;
+  command.add_option("FILES", state.files, "Molecules: " + format_names() + "; .gz too")->required();
   PropertyOptions options(command);
-  options.add("bench.runs", state->runs);
-  options.add("bench.numbers", state->numbers);
-  options.add("bench.baseline", state->baseline);
-  options.add("bench.paper", state->paper);
-  state->picture.width = 1024;
-  state->picture.height = 768;
-  add_size_option(command, state->picture, "With --paper: size of frames");
-  options.add("molecule.quiet", state->molecule.quiet);
-  command.callback([state] { run(*state); });
+  options.add("bench.runs", state.runs);
+  options.add("bench.numbers", state.numbers);
+  options.add("bench.baseline", state.baseline);
+  options.add("bench.paper", state.paper);
+  declared->options.option("image.size")->description("With --paper: size of frames in pixels [1024x768]");
+  command.callback([declared] {
+    BenchCommand& asked = declared->state;
+    asked.scene.molecule.surface.timing = StageTiming::exact;
+    declared->options.take();
+    if (!declared->options.is_given("image.size"))
+      std::tie(asked.scene.picture.width, asked.scene.picture.height) = std::pair(1024, 768);
+    run(asked);
+  });
 }
 
 }  // namespace meniscus

@@ -23,7 +23,7 @@
 #include "app/farm/status_report.h"
 #include "app/farm/verify.h"
 #include "app/farm/worker.h"
-#include "app/options/frame_options.h"
+#include "app/options/scene_options.h"
 #include "app/options/property_options.h"
 #include "app/process/installed_files.h"
 #include "app/options/value_words.h"
@@ -86,8 +86,7 @@ void bundle(BundleCommand command) {
     check_film_name(command.film);
     options.film = farm::Film{command.film, command.frames_per_second, command.film_format};
   }
-  farm::BundledCommand bundled;
-  farm::parse_bundled_command(command.words, bundled);
+  const farm::BundledCommand bundled = farm::parse_bundled_command(command.words);
   const farm::MadeBundle made = farm::make_bundle(options, bundled);
   for (const std::string& note : made.notes) std::cerr << "meniscus: note: " << escaped(note) << "\n";
   const farm::Chunking& chunking = made.bundle.chunking;
@@ -125,7 +124,10 @@ void add_bundle(CLI::App& command) {
   options.add("bundle.task_memory", state->options.chunking.asked_memory);
   CLI::Option* const film = options.add("bundle.film", state->film);
   options.add("bundle.fps", state->frames_per_second)->needs(film);
-  add_film_options(command, state->film_format);
+  options.add("frames.codec", state->film_format.codec)->check(one_of(film_codec_names()));
+  options.add("frames.crf", state->film_format.rate_factor);
+  options.add("frames.bits", state->film_format.bits)->check(CLI::IsMember({8, 10}).description(""));
+  options.add("frames.chroma", state->film_format.chroma)->check(CLI::IsMember({420, 422, 444}).description(""));
   options.add("bundle.farm_path", state->options.farm_path);
   options.add("bundle.link", state->link);
   options.add("bundle.addon", state->addon);

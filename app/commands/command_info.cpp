@@ -20,8 +20,7 @@
 #include "core/base/text.h"
 #include "app/reports/notes.h"
 #include "app/reports/assembly_table.h"
-#include "app/options/frame_options.h"
-#include "app/options/molecule_options.h"
+#include "app/options/scene_options.h"
 #include "core/trajectory/formats/formats.h"
 
 namespace meniscus {
@@ -117,8 +116,8 @@ void print_ranges(const Structure& structure) {
 }
 
 /// The atoms of a topology stand where the first frame has them.
-void print_structure(const MoleculeOptions& options, Trajectory* trajectory) {
-  ReadOptions everything = options.reading;
+void print_structure(const SceneCommand& command, Trajectory* trajectory) {
+  ReadOptions everything = command.scene.molecule.reading;
   everything.keep_water = everything.keep_ions = true;
   if (everything.unknown_element == UnknownElement::halt) everything.unknown_element = UnknownElement::guess;
   everything.list_assemblies = true;
@@ -127,26 +126,28 @@ void print_structure(const MoleculeOptions& options, Trajectory* trajectory) {
     trajectory->read(0, first);
     everything.positions = std::move(first.positions);
   }
-  const Structure structure = read_structure(options.file, everything);
+  const Structure structure = read_structure(command.scene.molecule.file, everything);
   fmt::print(std::cout, "molecule      {} ({}, {} {})\n", escaped(structure.file), structure.format,
              structure.report.models, structure.report.models == 1 ? "model" : "models");
   fmt::print(std::cout, "atoms         {} in the file; a surface takes {} of them\n",
-             with_thousands(structure.report.read), with_thousands(count_taken(structure, options.reading)));
+             with_thousands(structure.report.read),
+             with_thousands(count_taken(structure, command.scene.molecule.reading)));
   if (!structure.report.excluded.empty()) fmt::print(std::cout, "below         {}\n", structure.report.sentence());
   print_ranges(structure);
   print_classes_and_chains(structure);
   print_radii(structure);
   print_assemblies(structure);
-  say_warnings(options, structure);
+  say_warnings(command, structure);
 }
 
-void run(const MoleculeOptions& options, const std::string& trajectory_path) {
-  const bool alone = trajectory_path.empty() && !bare_trajectory_format(options.file).empty();
+void run(const SceneCommand& command, const std::string& trajectory_path) {
+  const bool alone = trajectory_path.empty() && !bare_trajectory_format(command.scene.molecule.file).empty();
   TrajectoryOptions opening{cache_folder()};
-  if (!alone) opening.atoms = [&] { return count_atoms(options.file, std::nullopt); };
+  if (!alone) opening.atoms = [&] { return count_atoms(command.scene.molecule.file, std::nullopt); };
   std::unique_ptr<Trajectory> trajectory;
-  if (alone || !trajectory_path.empty()) trajectory = open_trajectory(alone ? options.file : trajectory_path, opening);
-  if (!alone) print_structure(options, trajectory.get());
+  if (alone || !trajectory_path.empty())
+    trajectory = open_trajectory(alone ? command.scene.molecule.file : trajectory_path, opening);
+  if (!alone) print_structure(command, trajectory.get());
   if (!alone && trajectory) fmt::print(std::cout, "\n");
   if (trajectory) print_trajectory(*trajectory);
 }
@@ -162,15 +163,16 @@ void add_info(CLI::App& command) {
            "  meniscus info 1tii.pdb --radii-file amber.dat --radius 'element Zn=1.1'\n"
            "  meniscus info run.xtc                         frames, times and box of a trajectory\n"
            "  meniscus info run.psf --trajectory run.dcd");
-  auto options = std::make_shared<MoleculeOptions>();
-  add_atom_options(command, *options);
-  for (const char* option : {"--show", "--instances"}) command.remove_option(command.get_option(option));
+  auto declared = std::make_shared<DeclaredCommand<>>(command, for_info);
   command.get_option("--radii")->expected(0, 1);  // alone it asks for what is printed anyway
   auto trajectory = std::make_shared<std::string>();
   PropertyOptions(command)
       .add("frames.trajectory", *trajectory)
       ->description("Also report this trajectory: coordinates of the atoms of FILE, frame by frame");
-  command.callback([options, trajectory] { run(*options, *trajectory); });
+  command.callback([declared, trajectory] {
+    declared->options.take();
+    run(declared->state, *trajectory);
+  });
 }
 
 }  // namespace meniscus

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus pockets`: finds pockets, tunnels and cavities and prints their numbers; their solids as a mesh.
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -11,10 +10,8 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/pockets_command.h"
-#include "app/options/frame_options.h"
-#include "app/options/molecule_options.h"
+#include "app/options/scene_options.h"
 #include "app/options/property_options.h"
-#include "app/options/scene_file.h"
 #include "app/process/program_error.h"
 #include "app/reports/notes.h"
 #include "app/reports/pocket_figure.h"
@@ -43,7 +40,7 @@ const MeshFormat& format_of(const std::string& path) {
 
 void check_request(const PocketsCommand& command) {
   if (const std::string fault = pocket_fault(command.pockets); !fault.empty()) throw UsageError(fault);
-  if (command.molecule.division.instances != InstanceMode::none)
+  if (command.scene.molecule.division.instances != InstanceMode::none)
     throw UsageError("--instances: pockets are between all atoms, those of copies too; leave it away");
   if (command.json && command.csv == "-")
     throw UsageError("standard output holds one thing at a time: --json, or --csv -");
@@ -51,12 +48,12 @@ void check_request(const PocketsCommand& command) {
   if (!command.figure.empty() && !command.figure.ends_with(".json"))
     throw UsageError(
         fmt::format("--figure {}: scenes are JSON; choose a name that ends in .json", in_quotes(command.figure)));
-  if (!command.figure.empty() && command.molecule.file == "-")
+  if (!command.figure.empty() && command.scene.molecule.file == "-")
     throw UsageError("--figure: a scene names its molecule's file, which standard input is not");
   std::vector<std::string> paths;
   for (const std::string& path : {command.csv, command.mesh, command.figure})
     if (!path.empty()) paths.push_back(path);
-  if ((!command.mesh.empty() || !command.figure.empty()) && command.frames.asked())
+  if ((!command.mesh.empty() || !command.figure.empty()) && command.scene.frames.asked())
     throw UsageError("--mesh and --figure are of one molecule; leave them away where there are frames");
   // Whether the outputs can be written is known before the work begins; these vanish again.
   for (const std::string& path : paths)
@@ -70,22 +67,20 @@ void write_text(const std::string& path, const std::string& text, Existing exist
   file.commit();
 }
 
-void run_one(const PocketsCommand& command, const CLI::App& words) {
-  const Structure structure = read_and_tell(command.molecule);
+void run_one(const PocketsCommand& command) {
+  const Structure structure = read_and_tell(command);
   const std::vector<bool> left_out = taken_out(command, structure);
-  PocketComputer computer(command.molecule.surface, command.pockets);
+  PocketComputer computer(command.scene.molecule.surface, command.pockets);
   const MoleculePockets pockets = computer.compute(structure, left_out);
   const PocketReport report{structure, pockets, computer.device()};
-  for (const std::string& hint : pocket_hints(report)) say(command.molecule, "note: " + hint);
+  for (const std::string& hint : pocket_hints(report)) say(command, "note: " + hint);
   if (!command.mesh.empty())
     write_mesh_file(format_of(command.mesh), command.mesh, command.existing(),
                     pocket_file(pocket_mesh(pockets.found, command.mesh_tolerance)));
-  if (!command.figure.empty()) {
-    const std::string folder = std::filesystem::path(command.figure).parent_path().string();
+  if (!command.figure.empty())
     write_text(command.figure,
-               pocket_figure(report, scene_text(words, folder.empty() ? "." : folder), command.ligand.text()),
+               pocket_figure(report, scene_text_beside(command.scene, command.figure), command.ligand.text()),
                command.existing());
-  }
   if (command.csv == "-") {
     std::cout << pocket_csv_header() << pocket_csv_rows(report);
     return;
@@ -124,32 +119,27 @@ void add_pockets(CLI::App& command) {
       "of\n"
       "the mouths times --mouth-tolerance (`less up to`). Without a mouth it is a cavity, with two or more a tunnel.\n"
       "Ranked by volume. Over frames a pocket keeps its number while probes at rest in it overlap. docs/pockets.md.");
-  auto state = std::make_shared<PocketsCommand>();
-  add_atom_options(command, state->molecule);
-  add_probe_option(command, state->molecule.surface);
+  auto declared = std::make_shared<DeclaredCommand<PocketsCommand>>(command, for_pockets);
+  PocketsCommand& state = declared->state;
   PropertyOptions options(command);
-  options.add("pockets.large_probe", state->pockets.large_probe_radius);
-  options.add("pockets.trim", state->pockets.trim);
-  options.add("pockets.min_volume", state->pockets.min_volume);
-  options.add("pockets.mouth_tolerance", state->pockets.tolerance);
+  options.add("pockets.large_probe", state.pockets.large_probe_radius);
+  options.add("pockets.trim", state.pockets.trim);
+  options.add("pockets.min_volume", state.pockets.min_volume);
+  options.add("pockets.mouth_tolerance", state.pockets.tolerance);
   options.add_parsed("pockets.ligand",
-                     [state](const std::string& text) { state->ligand = parse_selection_option("--ligand", text); });
-  add_device_option(command, state->molecule.surface);
-  add_threads_option(command, state->molecule.surface);
-  add_trajectory_argument(command);
-  add_frame_options(command, state->frames);
-  options.add("report.json", state->json);
-  options.add("report.csv_pockets", state->csv);
-  options.add("report.pocket_mesh", state->mesh);
-  options.add("report.pocket_figure", state->figure);
-  options.add("pockets.tolerance", state->mesh_tolerance);
-  options.add("output.force", state->force);
-  add_scene_options(command);
-  command.callback([state, &command] {
-    state->pockets.probe_radius = state->molecule.surface.probe_radius;
-    check_request(*state);
-    if (state->frames.asked()) return pockets_frames(*state);
-    run_one(*state, command);
+                     [&state](const std::string& text) { state.ligand = parse_selection_option("--ligand", text); });
+  options.add("report.json", state.json);
+  options.add("report.csv_pockets", state.csv);
+  options.add("report.pocket_mesh", state.mesh);
+  options.add("report.pocket_figure", state.figure);
+  options.add("pockets.tolerance", state.mesh_tolerance);
+  command.callback([declared] {
+    declared->options.take();
+    PocketsCommand& asked = declared->state;
+    asked.pockets.probe_radius = asked.scene.molecule.surface.probe_radius;
+    check_request(asked);
+    if (asked.scene.frames.asked()) return pockets_frames(asked);
+    run_one(asked);
   });
 }
 

@@ -31,7 +31,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "app/reports/notes.h"
-#include "app/options/molecule_options.h"
+#include "app/options/scene_options.h"
 #include "core/gpu/egl_context.h"
 #include "core/scene/picture_device.h"
 #include "core/scene/view_aim.h"
@@ -46,57 +46,59 @@ std::string host_name() {
   return ::gethostname(name, sizeof name - 1) == 0 && name[0] ? escaped(name) : "HOST";
 }
 
-/// A molecule, where its atoms stand at the frames of a trajectory, if there is one, and the camera of a file, if one
-/// is named.
+/// A molecule, where its atoms stand at the frames of a trajectory, if there is one, and how it is seen at first.
 struct Shown {
+  Scene scene;  ///< selections settled, colours measured
   Structure structure;
   std::optional<TrajectoryPositions> trajectory;
-  std::optional<Camera> camera;
+  std::optional<Camera> camera;  ///< nothing: all is shown
 };
 
 Shown read_run(PreviewCommand& command) {
-  if (!command.frames.asked()) {
+  Scene scene = command.scene;
+  if (!scene.frames.asked()) {
     // Copies have no frames: of several models the first is shown.
-    if (command.molecule.division.instances != InstanceMode::none && command.molecule.reading.model.all)
-      command.molecule.reading.model = {};
-    return {read_and_tell(command.molecule), {}, {}};
+    if (scene.molecule.division.instances != InstanceMode::none) command.models = false;
+    SceneCommand reading = command;
+    reading.scene.molecule = command.read_molecule_request();
+    return {std::move(scene), read_and_tell(reading), {}, {}};
   }
-  MoleculeOptions molecule = command.molecule;
-  if (molecule.reading.model.all) molecule.reading.model = {};  // the preview's default; a run has frames instead
-  settle_selections(molecule, command.frames, {.figure = &command.figure, .view = &command.picture});
-  const auto frames = std::make_shared<FrameRun>(molecule, command.frames);
-  tell_run(molecule, *frames);
-  if (command.molecule.color.by == ColorScheme::By::rmsf) {
-    if (command.molecule.color.uses_file())
+  MoleculeRequest molecule = scene.molecule;
+  settle_selections(molecule, scene.frames, {.figure = &scene.figure, .view = &scene.picture});
+  const auto frames = std::make_shared<FrameRun>(molecule, scene.frames);
+  tell_run(command, *frames);
+  ColorScheme& color = scene.molecule.color;
+  if (color.by == ColorScheme::By::rmsf) {
+    if (color.uses_file())
       throw UsageError("--color rmsf beside the numbers of a file is for render; leave --color-by-file out");
-    command.molecule.color.file = {.path = frames->structure().file, .numbers = fluctuations(*frames)};
+    color.file = {.path = frames->structure().file, .numbers = fluctuations(*frames)};
   }
   TrajectoryPositions trajectory{frames->chunk(),
                                  [frames](std::size_t frame) { return frames->positions(frames->chunk()[frame]); }};
   if (frames->atoms_change()) {
     trajectory.structure = [frames](std::size_t frame) { return frames->at(frames->chunk()[frame]); };
-    measure_colors(command.molecule.color, *frames);
+    measure_colors(color, *frames);
   }
-  return {frames->structure(), std::move(trajectory), {}};
+  return {std::move(scene), frames->structure(), std::move(trajectory), {}};
 }
 
 Shown read_inputs(PreviewCommand& command) {
   if (!std::filesystem::is_directory(command.output_folder))
     throw OutputError(command.output_folder, "--output-dir is no folder");
-  const std::optional<Camera> camera = given_camera(command.picture);
+  const std::optional<Camera> camera = given_camera(command.scene.picture);
   Shown shown = read_run(command);
   shown.camera = camera;
-  if (command.molecule.color.by == ColorScheme::By::volume)
+  ColorScheme& color = shown.scene.molecule.color;
+  if (color.by == ColorScheme::By::volume)
     throw UsageError("--color-map-file is for render and export mesh; leave it out");
-  command.molecule.color = color_of(command.molecule);
-  require_previewed(command.molecule.color);
+  color = color_of(shown.scene.molecule);
+  require_previewed(color);
+  if (!command.aims) return shown;
   // What stands beside the surface counts; a scene's picture is framed as render frames it.
-  const ViewRequest& picture = command.picture;
-  const bool reads_again = !command.figure.representations.empty() || !command.figure.objects.empty();
-  if (command.of_scene || picture.direction || picture.zoom_to || !picture.turns.empty())
-    shown.camera = aimed_camera(
-        command, camera, command.molecule.color,
-        reads_again ? ShownReader(command, command.molecule.reading.model.all)(command.figure, 0) : shown.structure);
+  const FigureRequest& figure = shown.scene.figure;
+  const bool reads_again = !figure.representations.empty() || !figure.objects.empty();
+  shown.camera =
+      aimed_camera(shown.scene, camera, color, reads_again ? ShownReader(command)(figure, 0) : shown.structure);
   return shown;
 }
 
@@ -106,41 +108,39 @@ std::unique_ptr<ViewRenderer> make_renderer(const PreviewCommand& command, const
   constexpr std::size_t kMostOnGl = 500'000;  // atoms
   const std::vector<Instances>& copies = structure.instances;
   if (copies.empty()) return on_gl ? make_gl_view_renderer() : make_cpu_view_renderer();
-  const bool apart = command.molecule.division.instances == InstanceMode::exact;
+  const bool apart = command.scene.molecule.division.instances == InstanceMode::exact;
   if (on_gl && apart && placed_count(copies) <= kMostOnGl)
     return make_placed_atoms_renderer(copies, make_gl_view_renderer());
   if (on_gl)
-    say(command.molecule, fmt::format("the CPU draws the copies: {}",
-                                      apart ? with_thousands(placed_count(copies)) + " atoms are too many for GL"
-                                            : "each has a surface of its own"));
+    say(command, fmt::format("the CPU draws the copies: {}",
+                             apart ? with_thousands(placed_count(copies)) + " atoms are too many for GL"
+                                   : "each has a surface of its own"));
   return make_cpu_copies_renderer(copies);
 }
 
 /// A session as the options say.
-std::unique_ptr<PreviewSession> begin_session(const PreviewCommand& command, const CLI::App& parsed, bool on_gl,
-                                              Shown shown) {
+std::unique_ptr<PreviewSession> begin_session(const DeclaredPreview& declared, bool on_gl, Shown shown) {
+  const PreviewCommand& command = declared.state;
   PreviewView view;
-  static_cast<PreviewFigure&>(view) = figure_of(command, command.molecule.color);
-  view.copies_apart = command.molecule.division.instances == InstanceMode::exact;
-  view.size = command.picture.size();
-  view.wishes = wishes_of(command, parsed);
+  static_cast<PreviewFigure&>(view) = figure_of(shown.scene, shown.scene.molecule.color);
+  view.copies_apart = command.scene.molecule.division.instances == InstanceMode::exact;
+  view.size = command.scene.picture.size();
+  view.wishes = command.wishes;
   SessionContext context;
-  context.input = command.input;
-  context.read_shown = ShownReader(command, command.molecule.reading.model.all);
-  context.annotations = [request = command.annotations](const Structure& structure) {
+  context.scene = command.scene;
+  context.read_shown = ShownReader(command);
+  context.annotations = [request = command.scene.annotations](const Structure& structure) {
     return annotations_of(request, structure);
   };
-  context.make_device = [request = command.molecule.surface] { return std::make_unique<PictureDevice>(request); };
-  context.save_scene = save_render_scene;
-  context.scene_text = render_scene_text;
-  context.open_scene = SceneOpener(parsed, command);
+  context.make_device = [request = command.scene.molecule.surface] { return std::make_unique<PictureDevice>(request); };
+  context.open_scene = SceneOpener(declared);
   std::unique_ptr<ViewRenderer> renderer = make_renderer(command, shown.structure, on_gl);
   auto session = std::make_unique<PreviewSession>(std::move(renderer), std::move(shown.structure), view, shown.camera,
                                                   command.output_folder, std::move(shown.trajectory), context);
   for (const std::string& sentence : session->idle_among(session->view().figure.cuts))
-    say(command.molecule, "note: --clip " + sentence);
+    say(command, "note: --clip " + sentence);
   if (!command.record.empty()) {
-    auto log = std::make_shared<CommandLog>(command.record, command.force ? Existing::replace : Existing::refuse);
+    auto log = std::make_shared<CommandLog>(command.record, command.existing());
     session->record([log](const nlohmann::json& line) { log->write(line); });
   }
   return session;
@@ -148,8 +148,8 @@ std::unique_ptr<PreviewSession> begin_session(const PreviewCommand& command, con
 
 void say_address(const PreviewCommand& command, const std::string& url, std::uint16_t port) {
   std::cout << url << std::endl;
-  say(command.molecule, fmt::format("from another machine: ssh -L {0}:127.0.0.1:{0} {1}", port, host_name()));
-  say(command.molecule, "Ctrl-C ends the preview");
+  say(command, fmt::format("from another machine: ssh -L {0}:127.0.0.1:{0} {1}", port, host_name()));
+  say(command, "Ctrl-C ends the preview");
 }
 
 std::vector<WrittenCommand> written_commands(const PreviewCommand& command) {
@@ -157,13 +157,14 @@ std::vector<WrittenCommand> written_commands(const PreviewCommand& command) {
   return read_commands(command.commands);
 }
 
-void serve(PreviewCommand& command, const CLI::App& parsed) {
+void serve(DeclaredPreview& declared) {
+  PreviewCommand& command = declared.state;
   std::signal(SIGPIPE, SIG_IGN);  // whoever stops reading must not end the server
   const std::vector<WrittenCommand> commands = written_commands(command);
   Shown shown = read_inputs(command);
-  const PictureDevice device(command.molecule.surface);
+  const PictureDevice device(command.scene.molecule.surface);
   const std::unique_ptr<PreviewSession> session =
-      begin_session(command, parsed, device.context() != nullptr, std::move(shown));
+      begin_session(declared, device.context() != nullptr, std::move(shown));
   replay_commands(command.commands, commands, *session, std::cout);
   if (session->wants_to_quit()) return;
   serve_session(*session, *command.port,
@@ -171,14 +172,14 @@ void serve(PreviewCommand& command, const CLI::App& parsed) {
 }
 
 void say_report(const PreviewCommand& command, const WindowReport& report) {
-  say(command.molecule, fmt::format("window on {}, GL {}{}", report.context.renderer, report.context.version,
-                                    report.context.software ? " (software)" : ""));
+  say(command, fmt::format("window on {}, GL {}{}", report.context.renderer, report.context.version,
+                           report.context.software ? " (software)" : ""));
   if (report.latency.pictures > 0)
-    say(command.molecule, fmt::format("from movement to picture: median {:.1f} ms, 95 % within {:.1f} ms, {} pictures; "
-                                      "window redrawn {} times in "
-                                      "{:.2f} s",
-                                      report.latency.median_ms, report.latency.p95_ms, report.latency.pictures,
-                                      report.latency.redraws, report.latency.seconds));
+    say(command, fmt::format("from movement to picture: median {:.1f} ms, 95 % within {:.1f} ms, {} pictures; "
+                             "window redrawn {} times in "
+                             "{:.2f} s",
+                             report.latency.median_ms, report.latency.p95_ms, report.latency.pictures,
+                             report.latency.redraws, report.latency.seconds));
 }
 
 /// Whether GL draws for a window. It is that of its display; where that is software the CPU draws faster by itself.
@@ -193,28 +194,25 @@ bool draws_on_gl(const SurfaceRequest& surface, const EglContext& context) {
   return !surface.cpu && (surface.gl.kind != Kind::automatic || !context.is_software());
 }
 
-void open_window(PreviewCommand& command, const CLI::App& parsed) {
-  const SurfaceRequest& surface = command.molecule.surface;
+void open_window(DeclaredPreview& declared) {
+  PreviewCommand& command = declared.state;
+  const SurfaceRequest& surface = command.scene.molecule.surface;
   if (surface.gl.index || !surface.gl.name.empty())
     throw UsageError("--device gpu:N is for --serve; a window draws on the device of its display, or on the CPU");
   const std::vector<WrittenCommand> commands = written_commands(command);
   Shown shown = read_inputs(command);
   WindowOptions options;
-  options.title = fmt::format("{} - Meniscus", std::filesystem::path(command.molecule.file).filename().string());
+  options.title = fmt::format("{} - Meniscus", std::filesystem::path(command.scene.molecule.file).filename().string());
   for (const WrittenCommand& written : commands) options.commands.push_back(written.command);
-  options.size = {command.picture.width, command.picture.height};
-  options.kernel_folder = command.molecule.surface.gl.kernel_folder;
+  options.size = command.scene.picture.size();
+  options.kernel_folder = surface.gl.kernel_folder;
   options.replied = [&](std::size_t index, const nlohmann::json& reply) {
     print_reply(command.commands, commands[index].line, reply, std::cout);
   };
   const auto make = [&](const EglContext& context) {
-    return begin_session(command, parsed, draws_on_gl(surface, context), std::move(shown));
+    return begin_session(declared, draws_on_gl(surface, context), std::move(shown));
   };
   say_report(command, run_window(options, make));
-}
-
-void run(PreviewCommand& command, const CLI::App& parsed) {
-  command.port ? serve(command, parsed) : open_window(command, parsed);
 }
 
 }  // namespace
@@ -232,11 +230,11 @@ void add_preview(CLI::App& command) {
            "through EGL; without one the\n"
            "exit code is 4. The page is served on 127.0.0.1 only, to whoever has the address with its token; to\n"
            "look from another machine, use the ssh line that is printed. SIGINT and SIGTERM end both.");
-  auto state = std::make_shared<PreviewCommand>();
-  declare_preview(command, *state);
-  command.callback([state, &command] {
-    take_preview(command, *state);
-    run(*state, command);
+  auto declared = std::make_shared<DeclaredPreview>(command, for_preview);
+  add_preview_options(command, *declared);
+  command.callback([declared] {
+    take_preview(*declared);
+    declared->state.port ? serve(*declared) : open_window(*declared);
   });
 }
 

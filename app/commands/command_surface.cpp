@@ -10,10 +10,8 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/surface_command.h"
-#include "app/options/frame_options.h"
-#include "app/options/molecule_options.h"
+#include "app/options/scene_options.h"
 #include "app/options/property_options.h"
-#include "app/options/scene_file.h"
 #include "app/process/program_error.h"
 #include "app/reports/area_csv.h"
 #include "app/reports/notes.h"
@@ -49,15 +47,17 @@ void write(const std::string& path, const std::string& text, Existing existing) 
 }
 
 void run(const SurfaceCommand& command) {
-  if (command.frames.asked()) return surface_frames(command);
+  if (command.scene.frames.asked()) return surface_frames(command);
   check_outputs(command);
-  const Molecule molecule = load_molecule(command.molecule);
-  std::vector<AreaColumn> columns = area_columns(molecule.structure, molecule.objects, command.molecule.surface.kind);
+  const Molecule molecule = load_molecule(command);
+  std::vector<AreaColumn> columns =
+      area_columns(molecule.structure, molecule.objects, command.scene.molecule.surface.kind);
   std::optional<ContextNote> context;
   if (command.context) {
-    SurfaceComputer computer(command.molecule.surface);
-    ContextAreas areas = context_areas(
-        command.molecule, read_molecule(with_context(command.molecule, *command.context)), molecule, columns, computer);
+    SurfaceComputer computer(command.scene.molecule.surface);
+    ContextAreas areas =
+        context_areas(command.scene.molecule, read_molecule(with_context(command.scene.molecule, *command.context)),
+                      molecule, columns, computer);
     context = ContextNote{command.context->text(), areas.atoms};
     std::move(areas.columns.begin(), areas.columns.end(), std::back_inserter(columns));
   }
@@ -65,12 +65,12 @@ void run(const SurfaceCommand& command) {
   write(command.residue_csv, residue_csv_header(columns) + residue_csv_rows(molecule.structure, columns),
         command.existing());
   if (!command.gradient_csv.empty()) {
-    const auto gradients = gradient_columns(molecule.structure, molecule.objects, command.molecule.surface.kind);
+    const auto gradients = gradient_columns(molecule.structure, molecule.objects, command.scene.molecule.surface.kind);
     write(command.gradient_csv, gradient_csv_header(gradients) + gradient_csv_rows(molecule.structure, gradients),
           command.existing());
   }
   if (command.prints_csv()) return;
-  const SurfaceReport report{molecule, command.molecule, columns, context};
+  const SurfaceReport report{molecule, command.scene.molecule, columns, context};
   std::cout << (command.json ? report_json(report) : report_table(report));
 }
 
@@ -90,19 +90,19 @@ void check_outputs(const SurfaceCommand& command) {
         "--csv-cavities, --gradients with -");
   if (!command.plot.empty()) paths.push_back(command.plot);
   if (!command.gradient_csv.empty()) {
-    const Division& division = command.molecule.division;
+    const Division& division = command.scene.molecule.division;
     if (division.components || division.cavities != Cavities::keep || division.instances != InstanceMode::none)
       throw UsageError(
           "--gradients are of whole surfaces of atoms; leave --by component, --cavities and --instances away");
   }
   if (!command.cavity_csv.empty()) {
-    const Division& division = command.molecule.division;
-    if (command.molecule.surface.kind != SurfaceKind::ses || command.molecule.surface.probe_radius == 0.0)
+    const Division& division = command.scene.molecule.division;
+    if (command.scene.molecule.surface.kind != SurfaceKind::ses || command.scene.molecule.surface.probe_radius == 0.0)
       throw UsageError(
           "--csv-cavities follows cavities of solvent-excluded surfaces; choose --surface ses and a probe");
     if (division.groups || division.components || division.cavities == Cavities::drop)
       throw UsageError("--csv-cavities follows the cavities of one surface; leave --by and --cavities drop away");
-    if (!command.frames.only.empty())
+    if (!command.scene.frames.only.empty())
       throw UsageError(
           "--csv-cavities needs all frames of the run, as numbers go on from one to the next; leave --only away");
   }
@@ -136,30 +136,24 @@ void add_surface(CLI::App& command) {
       "its contact than to any other.\n"
       "Over frames the tables of atoms and residues have their rows for each frame. A cavity keeps its number while\n"
       "probes that rest in it, touching three atoms, overlap from one frame to the next.");
-  auto state = std::make_shared<SurfaceCommand>();
-  state->molecule.surface.timing = StageTiming::exact;  // each is printed
-  add_atom_options(command, state->molecule);
-  command.remove_option(command.get_option("--show"));  // numbers are of whole surfaces
-  add_surface_options(command, state->molecule);
-  add_division_options(command, state->molecule);
-  add_trajectory_argument(command);
-  add_frame_options(command, state->frames);
+  auto declared = std::make_shared<DeclaredCommand<SurfaceCommand>>(command, for_surface);
+  SurfaceCommand& state = declared->state;
+  state.scene.molecule.surface.timing = StageTiming::exact;  // each is printed
   PropertyOptions options(command);
-  options.add("report.json", state->json);
-  options.add("report.csv_atoms", state->atom_csv);
-  options.add("report.csv_residues", state->residue_csv);
-  options.add("report.csv_series", state->series_csv);
-  options.add("report.csv_cavities", state->cavity_csv);
-  options.add("report.plot", state->plot);
-  options.add("report.gradients", state->gradient_csv);
-  options.add_selection("report.context", state->context);
-  options.add("output.force", state->force);
-  add_scene_options(command);
-  command.callback([state] {
+  options.add("report.json", state.json);
+  options.add("report.csv_atoms", state.atom_csv);
+  options.add("report.csv_residues", state.residue_csv);
+  options.add("report.csv_series", state.series_csv);
+  options.add("report.csv_cavities", state.cavity_csv);
+  options.add("report.plot", state.plot);
+  options.add("report.gradients", state.gradient_csv);
+  options.add_selection("report.context", state.context);
+  command.callback([declared] {
+    declared->options.take();
     // Parts of surfaces are cut out by planes.
-    const Division& division = state->molecule.division;
-    state->molecule.surface.drawn = division.components || division.cavities != Cavities::keep;
-    run(*state);
+    const Division& division = declared->state.scene.molecule.division;
+    declared->state.scene.molecule.surface.drawn = division.components || division.cavities != Cavities::keep;
+    run(declared->state);
   });
 }
 

@@ -15,7 +15,8 @@
 #include "app/farm/child_process.h"
 #include "app/farm/claims.h"
 #include "app/farm/worker.h"
-#include "app/options/molecule_options.h"
+#include "app/options/property_options.h"
+#include "app/options/scene_options.h"
 #include "app/options/value_words.h"
 #include "app/process/program_error.h"
 #include "app/process/stop_signals.h"
@@ -131,7 +132,8 @@ void add_work(CLI::App& command) {
   options.add("work.chunk", state->chunk)->excludes(frames);
   options.add("work.force", state->force);
   options.add("work.lease", state->lease);
-  add_progress_option(command, state->progress);
+  using enum ProgressStyle;
+  options.add_word("frames.progress", state->progress, {automatic, bar, plain, json, openjd, none});
   options.add("work.device", state->device);
   options.add("work.require_gpu", state->require_gpu);
   options.add("work.threads", state->threads);

@@ -6,9 +6,7 @@
 #include <utility>
 
 #include "app/commands/commands.h"
-#include "app/options/frame_options.h"
-#include "app/options/molecule_options.h"
-#include "app/options/scene_file.h"
+#include "app/options/scene_options.h"
 #include "app/process/program_error.h"
 #include "app/reports/notes.h"
 #include "core/base/text.h"
@@ -20,12 +18,6 @@
 namespace meniscus {
 namespace {
 
-struct AtomsCommand {
-  MoleculeOptions molecule;
-  FrameOptions frames;
-  OutputOptions output;
-};
-
 // Where the atoms of merged() objects stand, with the positions of another frame.
 std::vector<glm::dvec3> placed_atoms(std::span<const SurfaceObject> objects, const Structure& structure) {
   std::vector<glm::dvec3> positions;
@@ -36,20 +28,20 @@ std::vector<glm::dvec3> placed_atoms(std::span<const SurfaceObject> objects, con
 }
 
 // Radii and colours are those of the first frame of the run.
-Molecule first_molecule(const AtomsCommand& command, const FrameRun* run) {
-  if (!run) return load_molecule(command.molecule);
-  tell_run(command.molecule, *run);
-  return MoleculeBuilder(command.molecule).build(run->structure());
+Molecule first_molecule(const SceneCommand& command, const FrameRun* run) {
+  if (!run) return load_molecule(command);
+  tell_run(command, *run);
+  return MoleculeBuilder(command.scene.molecule).build(run->structure());
 }
 
-void export_atoms(const AtomsCommand& asked) {
-  AtomsCommand command = asked;
-  if (command.molecule.color.by == ColorScheme::By::volume)
+void export_atoms(const SceneCommand& asked) {
+  SceneCommand command = asked;
+  if (command.scene.molecule.color.by == ColorScheme::By::volume)
     throw UsageError("--color-map-file colours points of a surface, not atoms; leave it out");
   std::unique_ptr<FrameRun> run;
-  if (command.frames.asked()) {
-    settle_selections(command.molecule, command.frames);
-    run = std::make_unique<FrameRun>(command.molecule, command.frames);
+  if (command.scene.frames.asked()) {
+    settle_selections(command.scene.molecule, command.scene.frames);
+    run = std::make_unique<FrameRun>(command.scene.molecule, command.scene.frames);
     if (run->atoms_change())
       throw UsageError(
           "export atoms: the file has the same atoms in all frames, but --select means others in each; add "
@@ -66,12 +58,12 @@ void export_atoms(const AtomsCommand& asked) {
   }
   const ColorKey key = key_of(molecule);
   const SurfaceObject whole = merged(molecule.objects);
-  blender::write_atoms(command.output.path, command.output.existing(), whole,
+  blender::write_atoms(command.scene.output, command.existing(), whole,
                        blender::atom_attributes(molecule.structure, whole.atom),
                        {std::filesystem::path(molecule.structure.file).filename().string(),
                         molecule.structure.radii_set, molecule.device, key},
                        frames);
-  std::cout << escaped(command.output.path) << "\n";
+  std::cout << escaped(command.scene.output) << "\n";
 }
 
 }  // namespace
@@ -83,15 +75,12 @@ void add_export_atoms(CLI::App& command) {
            "For programs that compute surfaces themselves, by libmeniscus: the panel of the Blender add-on is one. The "
            "file\n"
            "is described in exporters/blender/FORMAT.md; radii and colours are those of the first frame of a run.");
-  auto state = std::make_shared<AtomsCommand>();
-  add_atom_options(command, state->molecule);
-  command.remove_option(command.get_option("--show"));
-  add_surface_options(command, state->molecule);
-  add_color_options(command, state->molecule);
-  add_frame_options(command, state->frames);
-  add_scene_options(command);
-  add_output_options(command, state->output, "File to write");
-  command.callback([state] { export_atoms(*state); });
+  auto declared = std::make_shared<DeclaredCommand<>>(command, for_atoms);
+  declared->options.describe_output("File to write");
+  command.callback([declared] {
+    declared->options.take();
+    export_atoms(declared->state);
+  });
 }
 
 }  // namespace meniscus

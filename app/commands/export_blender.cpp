@@ -11,12 +11,8 @@
 
 #include "app/commands/buried_attribute.h"
 #include "app/commands/commands.h"
-#include "app/commands/figure_export.h"
-#include "app/options/figure_command.h"
-#include "app/options/mesh_options.h"
-#include "app/options/property_options.h"
-#include "app/options/scene_file.h"
-#include "app/options/value_words.h"
+#include "app/commands/figure_run.h"
+#include "app/options/scene_options.h"
 #include "app/reports/notes.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -35,40 +31,32 @@
 namespace meniscus {
 namespace {
 
-struct BlenderCommand : FigureCommand {
-  MeshRequest mesh;
-  std::string attributes = "usual";
-  double fps = 24.0;
-};
-
 std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
-blender::SequenceManifest manifest_of(const BlenderCommand& command, ExportRun& run) {
+blender::SequenceManifest manifest_of(FigureRun& run) {
+  const Scene& scene = run.scene();
   const FrameRun& frames = run.frames();
-  const RunFraming& framing = run.framing();
-  const ColorKey key = color_key(frames.reach(), color_of(command.molecule), {});
   blender::SequenceManifest manifest;
-  manifest.provenance = {file_name(frames.structure().file), frames.structure().radii_set, {}, key};
-  for (const std::string& path : command.frames.trajectories)
+  manifest.provenance = {file_name(frames.structure().file), frames.structure().radii_set, {}, run.key()};
+  for (const std::string& path : scene.frames.trajectories)
     manifest.trajectory += (manifest.trajectory.empty() ? "" : ", ") + file_name(path);
   manifest.frames = frames.numbers();
-  for (const Camera& camera : framing.cameras)
-    manifest.shots.push_back({camera, command.picture.width, command.picture.height});
-  manifest.origin = framing.origin();
-  manifest.fps = command.fps;
-  manifest.probe_radius = command.molecule.surface.probe_radius;
-  manifest.tolerance =
-      tolerance_of(command.mesh, command.picture.size(), framing.cameras[0], balls_of(frames.structure()));
+  for (const Camera& camera : run.framing().cameras)
+    manifest.shots.push_back({camera, scene.picture.width, scene.picture.height});
+  manifest.origin = run.framing().origin();
+  manifest.fps = scene.film.frames_per_second;
+  manifest.probe_radius = scene.molecule.surface.probe_radius;
+  manifest.tolerance = tolerance_of(scene.mesh, scene.picture.size(), run.camera(0), balls_of(frames.structure()));
   manifest.atom_count = frames.structure().atoms.size();
   return manifest;
 }
 
-blender::CutFile cut_file(const BlenderCommand& command, const Camera& camera, std::span<const SurfaceObject> objects) {
-  return {surface_planes(command.figure, camera, objects), command.figure.cap};
+blender::CutFile cut_file(const SceneCommand& command, const Camera& camera, std::span<const SurfaceObject> objects) {
+  return {surface_planes(command.scene.figure, camera, objects), command.scene.figure.cap};
 }
 
 // Cut, with caps. Throws RequestError if nothing is left, unless it may be.
-std::vector<blender::MeshedObject> cut_objects(const BlenderCommand& command, Molecule& molecule,
+std::vector<blender::MeshedObject> cut_objects(const SceneCommand& command, Molecule& molecule,
                                                const blender::CutFile& cut, double tolerance, bool may_be_empty) {
   settle_copies(molecule.objects);
   std::vector<blender::MeshedObject> objects;
@@ -80,7 +68,7 @@ std::vector<blender::MeshedObject> cut_objects(const BlenderCommand& command, Mo
                        std::move(made.mesh),
                        blender::atom_attributes(molecule.structure, object.atom),
                        {},
-                       command.figure.thickens,
+                       command.scene.figure.thickens,
                        std::move(made.cap_plane)});
   }
   if (!any) throw RequestError("nothing of the surface is shown, so there is no mesh to write");
@@ -88,14 +76,30 @@ std::vector<blender::MeshedObject> cut_objects(const BlenderCommand& command, Mo
 }
 
 // How the vertices of one object move.
-std::vector<glm::dvec3> velocities_of(const SurfaceObject& object, const TriangleMesh& mesh, const RunFrame& frame) {
+std::vector<glm::dvec3> velocities_of(const SurfaceObject& object, const TriangleMesh& mesh,
+                                      std::span<const glm::dvec3> velocities) {
   std::vector<glm::dvec3> atoms;
-  for (const std::uint32_t atom : object.atom) atoms.push_back(frame.velocities[atom]);
+  for (const std::uint32_t atom : object.atom) atoms.push_back(velocities[atom]);
   return vertex_velocities(object.surface, mesh, atoms);
 }
 
+// Whole; with velocities if there are some.
+std::vector<blender::MeshedObject> whole_objects(const SceneCommand& command, const Molecule& molecule,
+                                                 std::vector<TriangleMesh> meshes,
+                                                 std::span<const glm::dvec3> velocities) {
+  std::vector<blender::MeshedObject> objects;
+  for (std::size_t n = 0; n < meshes.size(); ++n) {
+    const SurfaceObject& object = molecule.objects[n];
+    std::vector<glm::dvec3> moving;
+    if (!velocities.empty()) moving = velocities_of(object, meshes[n], velocities);
+    objects.push_back({object, std::move(meshes[n]), blender::atom_attributes(molecule.structure, object.atom),
+                       std::move(moving), command.scene.figure.thickens});
+  }
+  return objects;
+}
+
 // Meshes of what stands beside the surface with looks of its own, kept in `made`.
-void add_more(const BlenderCommand& command, const Figure& figure, const Camera& camera, double tolerance,
+void add_more(const SceneCommand& command, const Figure& figure, const Camera& camera, double tolerance,
               std::vector<ShapeObject>& made, std::vector<blender::MeshedObject>& objects) {
   Structure shown;
   shown.atoms = shown_atoms(figure.molecule.structure);
@@ -104,7 +108,7 @@ void add_more(const BlenderCommand& command, const Figure& figure, const Camera&
   for (std::size_t n = 0; n < figure.beside.objects.size(); ++n) {
     const FigureObject& object = figure.beside.objects[n];
     if (!object.surface && object.shapes.empty()) continue;
-    const PictureObject asked = picture_object(object, command.figure.objects[n], camera, balls);
+    const PictureObject asked = picture_object(object, command.scene.figure.objects[n], camera, balls);
     std::vector<std::uint32_t> cap_plane;
     if (!object.surface) {
       made.push_back(shape_object(shown.atoms, object.shapes, tolerance));
@@ -129,42 +133,26 @@ void add_more(const BlenderCommand& command, const Figure& figure, const Camera&
   }
 }
 
-// An object more for what is drawn beside the surface, kept in `made`.
-void add_beside(const Molecule& molecule, double tolerance, std::optional<ShapeObject>& made,
+// An object more for what is drawn beside the surface, kept in `made`. Its vertices move with the atom of their
+// triangles.
+void add_beside(const Structure& structure, const ColoredShapes& shapes, double tolerance,
+                std::span<const glm::dvec3> velocities, std::optional<ShapeObject>& made,
                 std::vector<blender::MeshedObject>& objects) {
-  if (molecule.beside.empty()) return;
+  if (shapes.empty()) return;
   Structure shown;
-  shown.atoms = shown_atoms(molecule.structure);
-  made = shape_object(shown.atoms, molecule.beside, tolerance);
-  objects.push_back({made->object, made->mesh, blender::atom_attributes(shown, made->object.atom), {}});
-}
-
-// Vertices beside the surface move with the atom of their triangles.
-std::vector<glm::dvec3> velocities_of(const ShapeObject& beside, const TriangleMesh& mesh, const RunFrame& frame) {
-  std::vector<glm::dvec3> velocities;
-  for (const std::uint32_t atom : vertex_atoms(mesh)) velocities.push_back(frame.velocities[beside.object.atom[atom]]);
-  return velocities;
-}
-
-// Whole, with velocities.
-std::vector<blender::MeshedObject> moving_objects(const BlenderCommand& command, const Molecule& molecule,
-                                                  const RunFrame& frame, double tolerance) {
-  std::vector<TriangleMesh> meshes = mesh_objects(molecule.objects, tolerance, !molecule.beside.empty());
-  std::vector<blender::MeshedObject> objects;
-  for (std::size_t n = 0; n < meshes.size(); ++n) {
-    const SurfaceObject& object = molecule.objects[n];
-    std::vector<glm::dvec3> velocities = velocities_of(object, meshes[n], frame);
-    objects.push_back({object, std::move(meshes[n]), blender::atom_attributes(molecule.structure, object.atom),
-                       std::move(velocities), command.figure.thickens});
-  }
-  return objects;
+  shown.atoms = shown_atoms(structure);
+  made = shape_object(shown.atoms, shapes, tolerance);
+  std::vector<glm::dvec3> moving;
+  if (!velocities.empty())
+    for (const std::uint32_t atom : vertex_atoms(made->mesh)) moving.push_back(velocities[made->object.atom[atom]]);
+  objects.push_back({made->object, made->mesh, blender::atom_attributes(shown, made->object.atom), std::move(moving)});
 }
 
 // Of all objects what --attributes asks for. Returns what had to be left out.
-std::string add_numbers(const BlenderCommand& command, blender::SurfaceNumbers wanted, const Structure& structure,
+std::string add_numbers(const SceneCommand& command, blender::SurfaceNumbers wanted, const Structure& structure,
                         std::vector<blender::MeshedObject>& objects) {
   const std::vector<double> buried =
-      buried_by_chains(command.molecule, structure, wanted.names, command.attributes == "all");
+      buried_by_chains(command.scene.molecule, structure, wanted.names, command.scene.mesh.attributes == "all");
   std::string left_out;
   for (blender::MeshedObject& object : objects) {
     const std::string note = blender::add_surface_numbers(object, wanted, buried);
@@ -173,100 +161,91 @@ std::string add_numbers(const BlenderCommand& command, blender::SurfaceNumbers w
   return left_out;
 }
 
-// A file for each frame of the chunk; the manifest for all of the run, the same from every chunk.
-void run_sequence(const BlenderCommand& asked) {
-  BlenderCommand command = asked;
-  const blender::SurfaceNumbers numbers = blender::parse_surface_numbers(command.attributes);
-  std::once_flag told;
-  ExportRun run(command, true);
-  const blender::SequenceManifest manifest = manifest_of(command, run);
-  const std::string name = run_name(manifest);
-  const std::filesystem::path folder = command.output.path;
-  const std::filesystem::path written = write_manifest(folder, command.output.existing(), manifest);
-  run.run(kMeshBytesPerAtom, [&](MoleculeBuilder& builder, const RunFrame& frame) -> FinishFrame {
-    Molecule molecule = builder.build(frame.structure);
-    const blender::CutFile cut = cut_file(command, manifest.shot(frame.place).camera, molecule.objects);
-    std::vector<blender::MeshedObject> objects =
-        cut.planes.empty() ? moving_objects(command, molecule, frame, manifest.tolerance)
-                           : cut_objects(command, molecule, cut, manifest.tolerance, !molecule.beside.empty());
-    std::optional<ShapeObject> beside;
-    add_beside(molecule, manifest.tolerance, beside, objects);
-    if (beside && cut.planes.empty()) objects.back().velocities = velocities_of(*beside, objects.back().mesh, frame);
-    const std::string left_out = add_numbers(command, numbers, molecule.structure, objects);
-    if (!left_out.empty()) std::call_once(told, [&] { say(command.molecule, left_out); });
-    blender::Provenance provenance = manifest.provenance;
-    provenance.device = molecule.device;
-    provenance.colors = key_of(molecule);
-    const std::string path = (folder / blender::frame_file(frame.number)).string();
-    write_objects(path, command.output.existing(), objects, manifest.shot(frame.place), provenance,
-                  blender::PlaceInRun{name, frame.number, frame.place + 1}, cut);
-    return [path] { return MadeFrame{{path}}; };
-  });
-  std::cout << escaped(written.string()) << "\n";
-}
+// What all files of a run share; of one molecule there is none.
+struct Sequence {
+  blender::SequenceManifest manifest;
+  std::string name;
+  std::filesystem::path written;
+};
 
-std::vector<blender::MeshedObject> whole_objects(const BlenderCommand& command, const Molecule& molecule,
-                                                 double tolerance, bool may_be_empty) {
-  std::vector<TriangleMesh> meshes = mesh_and_tell(command.molecule, molecule.objects, tolerance, may_be_empty);
-  std::vector<blender::MeshedObject> objects;
-  for (std::size_t n = 0; n < meshes.size(); ++n) {
-    const SurfaceObject& object = molecule.objects[n];
-    objects.push_back({object,
-                       std::move(meshes[n]),
-                       blender::atom_attributes(molecule.structure, object.atom),
-                       {},
-                       command.figure.thickens});
-  }
-  return objects;
-}
-
-// Before anything is computed.
-void check(const BlenderCommand& command) {
-  check_caps_of_map(command, "a .mns file has no values of the map on caps");
-  check_export(command, " in Blender");
-}
-
-void run(const BlenderCommand& command) {
-  check(command);
-  if (command.frames.asked()) return run_sequence(command);
-  const blender::SurfaceNumbers numbers = blender::parse_surface_numbers(command.attributes);
-  AimedFigure aimed = aimed_figure(command);
-  Figure& figure = aimed.figure;
-  Molecule& molecule = figure.molecule;
-  molecule.beside = std::move(figure.beside.shapes);
-  const std::vector<Ball> balls = shown_balls(molecule);
-  const Camera camera = aimed.camera(command, command.picture);
-  const double tolerance = tolerance_of(command.mesh, command.picture.size(), camera, balls);
-  const blender::CutFile cut = cut_file(command, camera, molecule.objects);
-  const bool alone = molecule.beside.empty() && figure.beside.objects.empty();
-  std::vector<blender::MeshedObject> objects;
-  if (!command.figure.hides_surface)
-    objects = cut.planes.empty() ? whole_objects(command, molecule, tolerance, !alone)
-                                 : cut_objects(command, molecule, cut, tolerance, !alone);
+// All meshes of one figure, and what they refer to.
+struct FigureMeshes {
   std::optional<ShapeObject> beside;
-  add_beside(molecule, tolerance, beside, objects);
   std::vector<ShapeObject> more;
-  add_more(command, figure, camera, tolerance, more, objects);
-  if (std::ranges::all_of(objects, [](const blender::MeshedObject& each) { return each.mesh.triangles.empty(); }))
+  std::vector<blender::MeshedObject> objects;
+};
+
+// moving: velocities of atoms, if vertices shall have some. tell: says how many triangles came out.
+void mesh_figure(const SceneCommand& command, FigureFrame& frame, const blender::CutFile& cut, double tolerance,
+                 bool tell, FigureMeshes& made) {
+  Molecule& molecule = frame.figure.molecule;
+  const BesideSurface& beside = frame.figure.beside;
+  const bool may_be_empty = !beside.empty();
+  // Where planes cut, vertices have no velocities: caps stay where they are.
+  const std::span<const glm::dvec3> velocities =
+      cut.planes.empty() ? std::span<const glm::dvec3>(frame.velocities) : std::span<const glm::dvec3>{};
+  if (!command.scene.figure.hides_surface) {
+    if (cut.planes.empty())
+      made.objects = whole_objects(command, molecule,
+                                   tell ? mesh_and_tell(command, molecule.objects, tolerance, may_be_empty)
+                                        : mesh_objects(molecule.objects, tolerance, may_be_empty),
+                                   velocities);
+    else
+      made.objects = cut_objects(command, molecule, cut, tolerance, may_be_empty);
+  }
+  add_beside(molecule.structure, beside.shapes, tolerance, velocities, made.beside, made.objects);
+  add_more(command, frame.figure, frame.camera, tolerance, made.more, made.objects);
+  if (std::ranges::all_of(made.objects, [](const blender::MeshedObject& each) { return each.mesh.triangles.empty(); }))
     throw RequestError("the surface is not shown, and there is nothing beside it");
-  const std::string left_out = add_numbers(command, numbers, molecule.structure, objects);
-  if (!left_out.empty()) say(command.molecule, left_out);
-  const blender::Provenance provenance{file_name(molecule.structure.file), molecule.structure.radii_set,
-                                       molecule.device, key_of(molecule)};
-  write_objects(command.output.path, command.output.existing(), objects,
-                blender::Shot{camera, command.picture.width, command.picture.height}, provenance, {}, cut);
-  std::cout << escaped(command.output.path) << "\n";
 }
 
-void add_attributes(CLI::App& command, std::string& attributes) {
-  std::vector<std::string> words{"usual", "all", "none"};
-  for (const VertexNumberKind& kind : vertex_number_kinds()) words.emplace_back(kind.name);
-  PropertyOptions(command)
-      .add("mesh.attributes", attributes)
-      ->description(
-          "Numbers of the surface, separated by commas: usual (exact curvature, areas of atoms and patches), "
-          "all, none, or names as of export mesh [usual]")
-      ->check(proposes(words));
+// A file of one molecule, or one for each frame of the chunk beside a manifest for all of the run, the same from every
+// chunk.
+void export_to_blender(const SceneCommand& asked) {
+  check_caps_of_map(asked.scene, "a .mns file has no values of the map on caps");
+  check_saved_camera(asked);
+  const blender::SurfaceNumbers numbers = blender::parse_surface_numbers(asked.scene.mesh.attributes);
+  FigureRun run(asked, true);
+  run.aim(asked.scene.picture, true);
+  const SceneCommand& command = run.command();
+  const Scene& scene = command.scene;
+  std::optional<Sequence> sequence;
+  if (run.is_run()) {
+    sequence.emplace(Sequence{manifest_of(run), {}, {}});
+    sequence->name = run_name(sequence->manifest);
+    sequence->written = write_manifest(scene.output, command.existing(), sequence->manifest);
+  }
+  std::once_flag told;
+  const auto make = [&](FigureFrame frame) -> FinishFrame {
+    Molecule& molecule = frame.figure.molecule;
+    blender::Provenance provenance{file_name(molecule.structure.file), molecule.structure.radii_set, molecule.device,
+                                   key_of(molecule)};
+    double tolerance = 0.0;
+    std::string path = scene.output;
+    std::optional<blender::PlaceInRun> place;
+    if (sequence) {
+      tolerance = sequence->manifest.tolerance;
+      path = (std::filesystem::path(scene.output) / blender::frame_file(frame.number)).string();
+      place = {sequence->name, frame.number, frame.place + 1};
+      provenance.source = sequence->manifest.provenance.source;
+      provenance.radii_set = sequence->manifest.provenance.radii_set;
+    } else {
+      std::vector<Ball> balls = placed_balls(molecule.objects);
+      const std::vector<Ball> beside = balls_around(frame.figure.beside.shapes.shapes);
+      balls.insert(balls.end(), beside.begin(), beside.end());
+      tolerance = tolerance_of(scene.mesh, scene.picture.size(), frame.camera, balls);
+    }
+    const blender::CutFile cut = cut_file(command, frame.camera, molecule.objects);
+    FigureMeshes meshes;
+    mesh_figure(command, frame, cut, tolerance, !sequence, meshes);
+    const std::string left_out = add_numbers(command, numbers, molecule.structure, meshes.objects);
+    if (!left_out.empty()) std::call_once(told, [&] { say(command, left_out); });
+    write_objects(path, command.existing(), meshes.objects,
+                  blender::Shot{frame.camera, scene.picture.width, scene.picture.height}, provenance, place, cut);
+    return [path] { return MadeFrame{{path}}; };
+  };
+  run.make({kMeshBytesPerAtom}, [&]() -> FigureRun::Sink { return make; });
+  std::cout << escaped(sequence ? sequence->written.string() : scene.output) << "\n";
 }
 
 }  // namespace
@@ -278,15 +257,17 @@ void add_export_blender(CLI::App& command) {
       "  meniscus export blender 1tii.pdb -o 1tii.mns --camera camera.json --tolerance-pixels 0.25 "
       "--size 1920x1080\n"
       "  meniscus export blender adk.psf --trajectory adk.dcd --frames all -o adk   a file a frame, and a manifest");
-  auto state = std::make_shared<BlenderCommand>();
-  add_shown_options(command, *state);
-  add_mesh_options(command, state->mesh);
-  add_attributes(command, state->attributes);
-  add_run_options(command, *state);
-  PropertyOptions(command).add("frames.fps", state->fps)->description("Frames per second of a run [24]");
-  add_scene_options(command, &state->save_scene);
-  add_output_options(command, state->output, ".mns file to write; of a run, the folder");
-  command.callback([state, &command] { run_export(command, *state, [&] { run(*state); }); });
+  auto declared = std::make_shared<DeclaredCommand<>>(command, for_blender);
+  declared->options.describe_output(".mns file to write; of a run, the folder");
+  declared->options.option("mesh.attributes")
+      ->description(
+          "Numbers of the surface, separated by commas: usual (exact curvature, areas of atoms and patches), "
+          "all, none, or names as of export mesh [usual]");
+  declared->options.option("frames.fps")->description("Frames per second of a run [25]");
+  command.callback([declared] {
+    declared->options.take();
+    run_and_save_scene(declared->state, [&] { export_to_blender(declared->state); });
+  });
 }
 
 }  // namespace meniscus

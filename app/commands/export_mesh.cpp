@@ -10,13 +10,11 @@
 
 #include "app/commands/buried_attribute.h"
 #include "app/commands/commands.h"
-#include "app/options/mesh_options.h"
-#include "app/options/molecule_options.h"
+#include "app/commands/figure_run.h"
+#include "app/options/scene_options.h"
 #include "app/options/numbered_path.h"
-#include "app/options/picture_options.h"
-#include "app/options/figure_options.h"
-#include "app/options/scene_file.h"
 #include "app/reports/notes.h"
+#include "app/process/program_error.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "exporters/mesh_files/file_object.h"
@@ -27,30 +25,34 @@ namespace {
 
 constexpr double kManyTriangles = 2e7;
 
-struct MeshCommand {
-  MoleculeOptions molecule;
-  MeshFileOptions mesh;
-  ViewRequest picture;
-  OutputOptions output;
-  std::string save_scene;  // path; empty: it is not saved
-};
+/// Of the file to write. Throws UsageError where nothing says which it is.
+const MeshFormat& format_of(const Scene& scene) {
+  const std::string& word = scene.mesh.format;
+  const MeshFormat* const found = word.empty() ? mesh_format_of_path(scene.output) : mesh_format(word);
+  if (found) return *found;
+  if (!word.empty())
+    throw UsageError(fmt::format("--format: {} is not one of {}", in_quotes(word), mesh_format_words()));
+  throw UsageError(fmt::format("{} ends as no mesh file does; --format says which it is: {}", in_quotes(scene.output),
+                               mesh_format_words()));
+}
 
 std::string scale_sentence(const MeshFormat& format, double scale) {
   if (format.word == "dms") return "lengths are Å";
   return fmt::format("1 Å is {:g} {}", scale, format.unit.empty() ? "in the file" : format.unit);
 }
 
-void warn_of_many(const MeshCommand& command, const Molecule& molecule, const MeshFineness& fineness) {
+void warn_of_many(const SceneCommand& command, const Molecule& molecule, const MeshFineness& fineness) {
   double triangles = 0.0;
   for (const SurfaceObject& object : molecule.objects)
     triangles += static_cast<double>(object.copies.size()) * estimated_triangles(object.surface, fineness);
   if (triangles > kManyTriangles)
-    say(command.molecule, fmt::format("warning: about {:.0f} million triangles; a larger --tolerance or a smaller "
-                                      "--density makes fewer",
-                                      triangles / 1e6));
+    say(command, fmt::format("warning: about {:.0f} million triangles; a larger --tolerance or a smaller "
+                             "--density makes fewer",
+                             triangles / 1e6));
 }
 
-void refuse_what_does_not_fit(const MeshFormat& format, const Molecule& molecule, const MeshFineness& fineness) {
+void refuse_what_does_not_fit(const MeshFormat& format, const Figure& figure, const MeshFineness& fineness) {
+  const Molecule& molecule = figure.molecule;
   const bool even = fineness.even || fineness.density > 0.0;
   const bool hides = std::ranges::any_of(molecule.objects, [](const auto& o) { return o.coloring.hides_some(); });
   if (even && hides)
@@ -59,32 +61,30 @@ void refuse_what_does_not_fit(const MeshFormat& format, const Molecule& molecule
         "--even and --density away, or --select what is wanted");
   if (!format.solid) return;
   const bool whole = std::ranges::all_of(molecule.objects, &SurfaceObject::whole);
-  if (molecule.objects.size() > 1 || !whole || hides || !molecule.beside.empty())
+  if (molecule.objects.size() > 1 || !whole || hides || !figure.beside.shapes.empty())
     throw RequestError(
         fmt::format("{} holds one closed surface, all of it: leave --by, --cavities, --show and shapes "
                     "beside it away",
                     format.word));
 }
 
-void tell(const MeshCommand& command, const MeshFormat& format, const MeshFileMaker& maker,
+void tell(const SceneCommand& command, const MeshFormat& format, const MeshFileMaker& maker,
           const MeshFineness& fineness) {
   const std::string how = fineness.density > 0.0  ? fmt::format("{:g} vertices per Å²", fineness.density)
                           : fineness.tolerance_at ? fmt::format("within {:g} pixels of the surface, {:.4g} Å or more",
-                                                                command.mesh.mesh.tolerance_pixels, fineness.tolerance)
+                                                                command.scene.mesh.tolerance_pixels, fineness.tolerance)
                                                   : fmt::format("within {:.4g} Å of the surface", fineness.tolerance);
-  say(command.molecule, fmt::format("{} triangles {}; {}", with_thousands(maker.triangle_count()), how,
-                                    scale_sentence(format, command.mesh.scale)));
+  say(command, fmt::format("{} triangles {}; {}", with_thousands(maker.triangle_count()), how,
+                           scale_sentence(format, command.scene.mesh.scale)));
   if (maker.joined_edges() + maker.flipped_edges() > 0)
-    say(command.molecule,
-        fmt::format("welded: {} edges shorter than {} Å, {}{} triangles without area",
-                    with_thousands(maker.joined_edges()), kFileStep,
-                    maker.fins() > 0 ? fmt::format("{} fins no thicker, ", with_thousands(maker.fins())) : "",
-                    with_thousands(maker.flipped_edges())));
+    say(command, fmt::format("welded: {} edges shorter than {} Å, {}{} triangles without area",
+                             with_thousands(maker.joined_edges()), kFileStep,
+                             maker.fins() > 0 ? fmt::format("{} fins no thicker, ", with_thousands(maker.fins())) : "",
+                             with_thousands(maker.flipped_edges())));
   if (maker.flat_triangles() > 0)
-    say(command.molecule,
-        fmt::format("warning: {} triangles have no area in thousandths of an Å and could not be welded; "
-                    "another --tolerance may have none",
-                    with_thousands(maker.flat_triangles())));
+    say(command, fmt::format("warning: {} triangles have no area in thousandths of an Å and could not be welded; "
+                             "another --tolerance may have none",
+                             with_thousands(maker.flat_triangles())));
 }
 
 // Objects in files of their own, all or none of them.
@@ -103,47 +103,72 @@ void write_numbered(const MeshFormat& format, const NumberedPath& path, Existing
   for (const std::string& name : names) std::cout << escaped(name) << "\n";
 }
 
-void run(const MeshCommand& command) {
-  const MeshFormat& format = command.mesh.format_of(command.output.path);
+/// The mesh of one figure.
+MeshFile mesh_of(const SceneCommand& command, const MeshFormat& format, FigureFrame frame, bool is_told) {
+  const Scene& scene = command.scene;
+  Molecule& molecule = frame.figure.molecule;
+  const ColoredShapes& beside = frame.figure.beside.shapes;
   std::vector<std::string> names;
-  if (format.numbers) names = parse_vertex_numbers(command.mesh.attributes);
-  const std::optional<Camera> given = given_camera(command.picture);
-  auto [molecule, aim] = load_aimed_molecule(command.molecule, command.picture, given);
-  const std::vector<Ball> balls = shown_balls(molecule);
-  const Camera camera = aim.camera(command.picture, given, molecule.objects);
-  const MeshFineness fineness =
-      fineness_of(command.mesh.mesh, command.mesh.even, command.mesh.density, command.picture.size(), camera, balls);
-  refuse_what_does_not_fit(format, molecule, fineness);
-  warn_of_many(command, molecule, fineness);
+  if (format.numbers) names = parse_vertex_numbers(scene.mesh.attributes);
+  const MeshFineness fineness = fineness_of(scene.mesh, scene.mesh.even, scene.mesh.density, scene.picture.size(),
+                                            frame.camera, frame.figure.balls());
+  refuse_what_does_not_fit(format, frame.figure, fineness);
+  if (is_told) warn_of_many(command, molecule, fineness);
   const std::vector<Atom> atoms = shown_atoms(molecule.structure);
   const std::vector<double> buried =
-      buried_by_chains(command.molecule, molecule.structure, names, command.mesh.attributes == "all");
-  MeshFileMaker maker({fineness, names, command.mesh.scale, atoms, buried, format.solid},
-                      about_line(kind_word(command.molecule.surface.kind), command.mesh.scale, fineness));
+      buried_by_chains(scene.molecule, molecule.structure, names, scene.mesh.attributes == "all");
+  MeshFileMaker maker({fineness, names, scene.mesh.scale, atoms, buried, format.solid},
+                      about_line(kind_word(scene.molecule.surface.kind), scene.mesh.scale, fineness));
   for (SurfaceObject& object : molecule.objects) maker.add(std::exchange(object, {}));
-  if (!molecule.beside.empty()) maker.add(shape_object(atoms, molecule.beside, fineness.tolerance));
-  tell(command, format, maker, fineness);
-  if (const auto numbered = NumberedPath::parse(command.output.path)) {
-    write_numbered(format, *numbered, command.output.existing(), maker.take());
-  } else {
-    write_mesh_file(format, command.output.path, command.output.existing(), maker.take());
-    std::cout << escaped(command.output.path) << "\n";
-  }
+  if (!beside.empty()) maker.add(shape_object(atoms, beside, fineness.tolerance));
+  if (is_told) tell(command, format, maker, fineness);
+  return maker.take();
 }
 
-// What both commands have before the options of their files.
-std::shared_ptr<MeshCommand> declared(CLI::App& command) {
-  auto state = std::make_shared<MeshCommand>();
-  add_molecule_options(command, state->molecule);
-  add_representation_options(command, state->molecule.representations);
-  add_interface_option(command, state->molecule);
-  return state;
+void export_to_mesh(const SceneCommand& asked) {
+  const MeshFormat& format = format_of(asked.scene);
+  if (format.numbers) parse_vertex_numbers(asked.scene.mesh.attributes);
+  const auto numbered = NumberedPath::parse(asked.scene.output);
+  if (asked.scene.frames.asked() && !numbered)
+    throw UsageError(fmt::format("-o {}: each frame has a file; put # where its number goes, as in {}",
+                                 in_quotes(asked.scene.output), in_quotes(numbered_name(asked.scene.output))));
+  FigureRun run(asked);
+  run.aim(asked.scene.picture, false);
+  const SceneCommand& command = run.command();
+  const auto make = [&](FigureFrame frame) -> FinishFrame {
+    const std::uint64_t number = frame.number;
+    MeshFile mesh = mesh_of(command, format, std::move(frame), !run.is_run());
+    if (numbered && !run.is_run()) {
+      write_numbered(format, *numbered, command.existing(), std::move(mesh));
+      return [] { return MadeFrame{}; };
+    }
+    const std::string path = numbered ? numbered->at(number) : command.scene.output;
+    write_mesh_file(format, path, command.existing(), std::move(mesh));
+    return [path] {
+      std::cout << escaped(path) << "\n";
+      return MadeFrame{{path}};
+    };
+  };
+  run.make({kMeshBytesPerAtom}, [&]() -> FigureRun::Sink { return make; });
 }
 
-void finish(CLI::App& command, const std::shared_ptr<MeshCommand>& state, const std::string& output) {
-  add_picture_options(command, state->picture);
-  add_scene_options(command, &state->save_scene);
-  add_output_options(command, state->output, output);
+void declare(CLI::App& command, const std::string& format) {
+  auto declared = std::make_shared<DeclaredCommand<>>(command, for_mesh);
+  declared->options.describe_output(format.empty()
+                                        ? "File to write; its ending names the format; of a run with # for the number"
+                                        : "PLY file to write");
+  declared->options.option("mesh.format")
+      ->description(help_of(property_of("mesh.format")) + ": " + mesh_format_words());
+  command.callback([declared, format] {
+    SceneOptions& options = declared->options;
+    Scene& scene = declared->state.scene;
+    options.take();
+    if (scene.mesh.format.empty()) scene.mesh.format = format;
+    const bool is_fine = options.is_given("mesh.tolerance") || options.is_given("mesh.tolerance_pixels") ||
+                         options.is_given("mesh.density");
+    if (!is_fine && !scene.picture.camera_file.empty()) scene.mesh.tolerance_pixels = kPixelsOfACamera;
+    run_and_save_scene(declared->state, [&] { export_to_mesh(declared->state); });
+  });
 }
 
 }  // namespace
@@ -153,36 +178,18 @@ void add_export_mesh(CLI::App& command) {
            "  meniscus export mesh 1tii.pdb -o 1tii.glb --color chain --density 2\n"
            "  meniscus export mesh 1tii.pdb -o 1tii.3mf --even --tolerance 0.1\n"
            "  meniscus export mesh 1tii.pdb -o 1tii.vtp --attributes mean_curvature,hydrophobicity\n"
-           "  meniscus export mesh 1tii.pdb -o part_#.stl --by component",
+           "  meniscus export mesh 1tii.pdb -o part_#.stl --by component\n"
+           "  meniscus export mesh adk.psf adk.dcd --frames 0-90 -o adk_###.ply   a file a frame",
            "Each object of --by is one of its own in 3MF, OBJ and GLB; with a # in the name of the output it is a file "
-           "of its\nown, in any format. Without --tolerance and --density: half a pixel of --camera, else 0.05 Å.");
-  const std::shared_ptr<MeshCommand> state = declared(command);
-  add_mesh_file_options(command, state->mesh);
-  finish(command, state, "File to write; its ending names the format");
-  command.callback([state, &command] {
-    take_interface(command, state->molecule, state->picture);
-    take_camera_for_tolerance(command, !state->picture.camera_file.empty(), state->mesh);
-    SceneOutput scene(command, state->save_scene, state->output.existing());
-    run(*state);
-    scene.commit();
-  });
+           "of its\nown, in any format. Without --tolerance and --density: half a pixel of --camera, else 0.01 Å.");
+  declare(command, "");
 }
 
 void add_export_ply(CLI::App& command) {
-  describe(command, "Write a closed triangle mesh as binary PLY: export mesh with a tolerance of 0.01 Å",
+  describe(command, "Write a closed triangle mesh as binary PLY: the same as export mesh --format ply",
            "  meniscus export ply 1tii.pdb -o 1tii.ply\n"
            "  meniscus export ply 1tii.pdb -o fine.ply --tolerance 0.002 --color chain");
-  const std::shared_ptr<MeshCommand> state = declared(command);
-  state->mesh.mesh = MeshRequest{};
-  state->mesh.format = "ply";
-  add_mesh_options(command, state->mesh.mesh);
-  finish(command, state, "PLY file to write");
-  command.callback([state, &command] {
-    take_interface(command, state->molecule, state->picture);
-    SceneOutput scene(command, state->save_scene, state->output.existing());
-    run(*state);
-    scene.commit();
-  });
+  declare(command, "ply");
 }
 
 }  // namespace meniscus

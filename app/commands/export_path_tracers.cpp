@@ -12,16 +12,15 @@
 #include <fmt/format.h>
 
 #include "app/commands/commands.h"
-#include "app/commands/figure_export.h"
+#include "app/commands/figure_run.h"
 #include "app/options/camera_file.h"
-#include "app/options/figure_command.h"
-#include "app/options/mesh_options.h"
+#include "app/options/scene_options.h"
 #include "app/options/property_options.h"
-#include "app/options/scene_file.h"
 #include "app/options/value_words.h"
 #include "app/process/program_error.h"
 #include "app/reports/notes.h"
 #include "core/base/text.h"
+#include "core/mesh/mesh_fineness.h"
 #include "core/mesh/mesh_objects.h"
 #include "core/queries/combine.h"
 #include "exporters/blender/capped_mesh.h"
@@ -31,9 +30,8 @@
 namespace meniscus {
 namespace {
 
-struct PathTracerCommand : FigureCommand {
+struct PathTracerCommand : SceneCommand {
   path_tracers::Renderer renderer = path_tracers::Renderer::mitsuba;
-  MeshRequest mesh{0.01, kPixelsOfACamera};
   path_tracers::Material material = path_tracers::Material::matte;
 };
 
@@ -41,14 +39,14 @@ path_tracers::Scene empty_scene(const PathTracerCommand& command, const Camera& 
   path_tracers::Scene scene;
   scene.origin = origin;
   scene.camera = camera;
-  scene.width = command.picture.width;
-  scene.height = command.picture.height;
+  scene.width = command.scene.picture.width;
+  scene.height = command.scene.picture.height;
   scene.material = command.material;
   return scene;
 }
 
 path_tracers::SceneTarget target_of(const PathTracerCommand& command, const std::string& name) {
-  return {command.renderer, command.output.path, name, command.output.existing()};
+  return {command.renderer, command.scene.output, name, command.existing()};
 }
 
 // To three decimals.
@@ -67,16 +65,15 @@ path_tracers::SceneItem item_of(const SurfaceObject& object, std::span<const Cli
   return path_tracers::surface_item(object, shown.mesh, origin, caps);
 }
 
-void add_surface(const PathTracerCommand& command, std::vector<SurfaceObject> objects, double tolerance,
-                 path_tracers::Scene& scene) {
-  const std::vector<ClipPlane> planes = surface_planes(command.figure, scene.camera, objects);
+void add_surface(const Scene& asked, std::vector<SurfaceObject> objects, double tolerance, path_tracers::Scene& scene) {
+  const std::vector<ClipPlane> planes = surface_planes(asked.figure, scene.camera, objects);
   if (!planes.empty()) settle_copies(objects);
   for (const SurfaceObject& object : objects)
-    scene.items.push_back(item_of(object, planes, command.figure.cap, tolerance, scene.origin));
+    scene.items.push_back(item_of(object, planes, asked.figure.cap, tolerance, scene.origin));
 }
 
 // What stands beside the surface with looks of its own.
-void add_more(const PathTracerCommand& command, const Figure& figure, std::span<const Atom> atoms, double tolerance,
+void add_more(const Scene& asked, const Figure& figure, std::span<const Atom> atoms, double tolerance,
               path_tracers::Scene& scene) {
   const std::vector<Ball> balls = placed_balls(figure.molecule.objects);
   for (std::size_t n = 0; n < figure.beside.objects.size(); ++n) {
@@ -86,97 +83,87 @@ void add_more(const PathTracerCommand& command, const Figure& figure, std::span<
       scene.items.push_back(path_tracers::shapes_item(atoms, object.shapes, scene.origin));
       continue;
     }
-    const PictureObject shown = picture_object(object, command.figure.objects[n], scene.camera, balls);
+    const PictureObject shown = picture_object(object, asked.figure.objects[n], scene.camera, balls);
     scene.items.push_back(item_of(*object.surface, shown.clip, shown.cap, tolerance, scene.origin));
   }
 }
 
 void tell(const PathTracerCommand& command, const path_tracers::SceneReport& report, double tolerance) {
-  say(command.molecule, fmt::format("{} triangles within {:.4g} Å of the surface, {} spheres, {} cylinders",
-                                    with_thousands(report.triangles), tolerance, with_thousands(report.spheres),
-                                    with_thousands(report.cylinders)));
+  say(command, fmt::format("{} triangles within {:.4g} Å of the surface, {} spheres, {} cylinders",
+                           with_thousands(report.triangles), tolerance, with_thousands(report.spheres),
+                           with_thousands(report.cylinders)));
 }
 
 // A line of a POSIX shell, for one scene or for all of a run.
 std::string render_command(const PathTracerCommand& command, bool of_a_run) {
   const bool mitsuba = command.renderer == path_tracers::Renderer::mitsuba;
   const std::string_view program = mitsuba ? "mitsuba" : "pbrt", ending = mitsuba ? "xml" : "pbrt";
-  const std::string folder = shell_word(command.output.path);
+  const std::string folder = shell_word(command.scene.output);
   if (!of_a_run) return fmt::format("cd {} && {} surface.{}", folder, program, ending);
   return fmt::format("cd {} && for scene in surface_*.{}; do {} $scene || break; done", folder, ending, program);
-}
-
-// A scene for each frame of the chunk, all with one origin.
-void run_sequence(const PathTracerCommand& asked) {
-  PathTracerCommand command = asked;
-  ExportRun run(command);
-  const Camera& first = run.framing().cameras.front();
-  const double tolerance =
-      tolerance_of(command.mesh, command.picture.size(), first, balls_of(run.frames().structure()));
-  save_camera(command.save_camera, command.output.existing(), first);
-  run.run(kMeshBytesPerAtom, [&](MoleculeBuilder& builder, RunFrame frame) -> FinishFrame {
-    Molecule molecule = builder.build(std::move(frame.structure));
-    path_tracers::Scene scene = empty_scene(command, run.camera(frame.place), run.framing().origin());
-    add_surface(command, std::move(molecule.objects), tolerance, scene);
-    scene.items.push_back(path_tracers::shapes_item(shown_atoms(molecule.structure), molecule.beside, scene.origin));
-    const path_tracers::SceneReport report =
-        write_scene(scene, target_of(command, fmt::format("surface_{:05}", frame.number)));
-    return [files = report.files] { return made_frame(files); };
-  });
-  std::cout << escaped(render_command(command, true)) << "\n";
 }
 
 // Before anything is computed.
 void check(const PathTracerCommand& command) {
   const auto is_film = [](const FigureObjectRequest& object) { return object.thickens; };
-  if (command.figure.thickens || std::ranges::any_of(command.figure.objects, is_film))
+  if (command.scene.figure.thickens || std::ranges::any_of(command.scene.figure.objects, is_film))
     throw UsageError(
         "--film-opacity: opacity by the angle of the view is nothing that path tracers know; leave it away");
   const auto hatched = [](const FigureObjectRequest& object) { return object.cap.hatching > 0.0; };
-  if (command.figure.cap.hatching > 0.0 || std::ranges::any_of(command.figure.objects, hatched))
+  if (command.scene.figure.cap.hatching > 0.0 || std::ranges::any_of(command.scene.figure.objects, hatched))
     throw UsageError("--cap-hatching: caps in these scenes are plain; leave it away, or use render or export povray");
-  if (command.renderer == path_tracers::Renderer::pbrt && command.molecule.color.by == ColorScheme::By::volume)
+  if (command.renderer == path_tracers::Renderer::pbrt && command.scene.molecule.color.by == ColorScheme::By::volume)
     throw UsageError("--color-map-file: meshes of pbrt have no colours of their vertices; use export mitsuba");
-  check_caps_of_map(command, "these scenes have no values of the map on caps");
-  check_export(command, "");
+  check_caps_of_map(command.scene, "these scenes have no values of the map on caps");
+  check_saved_camera(command);
 }
 
+// A scene of one molecule, or one for each frame of the chunk, all with one origin.
 void run(const PathTracerCommand& command) {
   check(command);
-  if (command.frames.asked()) return run_sequence(command);
-  AimedFigure aimed = aimed_figure(command);
-  Figure& figure = aimed.figure;
-  Molecule& molecule = figure.molecule;
-  const std::vector<Ball> balls = figure.balls();
-  const Camera camera = aimed.camera(command, command.picture);
-  const double tolerance = tolerance_of(command.mesh, command.picture.size(), camera, balls);
-  path_tracers::Scene scene = empty_scene(command, camera, middle_of(balls));
-  const std::vector<Atom> atoms = shown_atoms(molecule.structure);
-  scene.items.push_back(path_tracers::shapes_item(atoms, figure.beside.shapes, scene.origin));
-  add_more(command, figure, atoms, tolerance, scene);
-  if (!command.figure.hides_surface) add_surface(command, std::move(molecule.objects), tolerance, scene);
-  const path_tracers::SceneReport report = write_scene(scene, target_of(command, "surface"));
-  tell(command, report, tolerance);
-  if (std::ranges::any_of(command.figure.objects, [](const auto& object) { return !object.material.empty(); }))
-    say(command.molecule, "note: materials of --object are those of render; here they are all --material");
-  save_camera(command.save_camera, command.output.existing(), camera);
-  std::cout << escaped(render_command(command, false)) << "\n";
+  FigureRun run(command);
+  run.aim(command.scene.picture, true);
+  const Scene& asked = run.scene();
+  if (run.is_run()) save_camera(command.save_camera, command.existing(), run.camera(0));
+  const auto make = [&](FigureFrame frame) -> FinishFrame {
+    Figure& figure = frame.figure;
+    const std::vector<Ball> balls = run.is_run() ? balls_of(run.structure()) : figure.balls();
+    const double tolerance = tolerance_of(asked.mesh, asked.picture.size(), run.camera(0), balls);
+    path_tracers::Scene scene =
+        empty_scene(command, frame.camera, run.is_run() ? run.framing().origin() : middle_of(balls));
+    const std::vector<Atom> atoms = shown_atoms(figure.molecule.structure);
+    scene.items.push_back(path_tracers::shapes_item(atoms, figure.beside.shapes, scene.origin));
+    add_more(asked, figure, atoms, tolerance, scene);
+    if (!asked.figure.hides_surface) add_surface(asked, std::move(figure.molecule.objects), tolerance, scene);
+    const path_tracers::SceneReport report = write_scene(
+        scene, target_of(command, run.is_run() ? fmt::format("surface_{:05}", frame.number) : std::string("surface")));
+    return [&, report, tolerance] {
+      if (!run.is_run()) tell(command, report, tolerance);
+      return made_frame(report.files);
+    };
+  };
+  run.make({kMeshBytesPerAtom}, [&]() -> FigureRun::Sink { return make; });
+  if (std::ranges::any_of(asked.figure.objects, [](const auto& object) { return !object.material.empty(); }))
+    say(command, "note: materials of --object are those of render; here they are all --material");
+  if (!run.is_run()) save_camera(command.save_camera, command.existing(), run.camera(0));
+  std::cout << escaped(render_command(command, run.is_run())) << "\n";
 }
 
 void declare(CLI::App& command, path_tracers::Renderer renderer) {
-  auto state = std::make_shared<PathTracerCommand>();
-  state->renderer = renderer;
-  add_shown_options(command, *state);
-  add_mesh_options(command, state->mesh);
-  add_run_options(command, *state);
-  add_scene_options(command, &state->save_scene);
-  add_output_options(command, state->output, "Folder to write; made when missing");
-  using enum path_tracers::Material;
-  PropertyOptions(command).add_word("path_tracers.material", state->material, {matte, plastic, glass, wax});
-  add_save_camera_option(command, state->save_camera);
-  command.callback([state, &command] {
-    take_tolerance(command, state->mesh);
-    run_export(command, *state, [&] { run(*state); });
+  auto declared = std::make_shared<DeclaredCommand<PathTracerCommand>>(command, for_path_tracers);
+  declared->state.renderer = renderer;
+  declared->options.describe_output("Folder to write; made when missing");
+  const Property& material = property_of("path_tracers.material");
+  declared->options.option("look.material")->description(help_of(material))->check(proposes(words_of(material)));
+  command.callback([declared] {
+    declared->options.take();
+    PathTracerCommand& state = declared->state;
+    // As fine as the picture, unless another tolerance is asked for.
+    if (!declared->options.is_given("mesh.tolerance") && !declared->options.is_given("mesh.tolerance_pixels"))
+      state.scene.mesh.tolerance_pixels = kPixelsOfACamera;
+    using enum path_tracers::Material;
+    state.material = meaning_of(state.scene.renderer.material, "path_tracers.material", {matte, plastic, glass, wax});
+    run_and_save_scene(state, [&] { run(state); });
   });
 }
 

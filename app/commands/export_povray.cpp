@@ -4,6 +4,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -11,11 +12,10 @@
 #include <fmt/format.h>
 
 #include "app/commands/commands.h"
-#include "app/commands/figure_export.h"
+#include "app/commands/figure_run.h"
 #include "app/options/camera_file.h"
-#include "app/options/figure_command.h"
 #include "app/options/property_options.h"
-#include "app/options/scene_file.h"
+#include "app/options/scene_options.h"
 #include "app/options/value_words.h"
 #include "app/process/program_error.h"
 #include "app/reports/notes.h"
@@ -29,34 +29,29 @@
 namespace meniscus {
 namespace {
 
-struct PovrayCommand : FigureCommand {
-  bool comments = false;  // that tell kinds and atoms
-  povray::Material material = povray::Material::opaque;
-};
-
-povray::SceneOptions scene_options(const PovrayCommand& command) {
+povray::SceneOptions scene_options(const SceneCommand& command, povray::Material material) {
   povray::SceneOptions options;
-  options.width = command.picture.width;
-  options.height = command.picture.height;
-  options.material = command.material;
-  options.existing = command.output.existing();
-  options.cut.style = command.figure.cap;
-  options.film = command.figure.thickens;
+  options.width = command.scene.picture.width;
+  options.height = command.scene.picture.height;
+  options.material = material;
+  options.existing = command.existing();
+  options.cut.style = command.scene.figure.cap;
+  options.film = command.scene.figure.thickens;
   return options;
 }
 
 // Whatever atoms are meant by rules in other frames. Nothing if colours change with the frames.
-std::optional<std::vector<povray::SceneColor>> colors_of_run(const PovrayCommand& command, const ColorScheme& scheme,
-                                                             const FrameRun& frames, const Coloring& beside) {
+std::optional<std::vector<povray::SceneColor>> colors_of_run(const Scene& asked, const ColorScheme& scheme,
+                                                             const Structure& reach, const Coloring& beside) {
   if (scheme.changes_with_frames()) return {};
-  const std::vector<glm::vec3> colors = run_colors(frames.reach(), scheme, beside);
+  const std::vector<glm::vec3> colors = run_colors(reach, scheme, beside);
   povray::ColorTable all;
   const auto add = [&](const povray::SceneColor& color) {
     if (color.opacity > 0.0f) all.number(color);
   };
   std::vector<float> opacities{1.0f};
-  for (const OpacityRule& rule : command.molecule.color.opacities) opacities.push_back(rule.opacity);
-  const bool film = command.figure.thickens, caps = !command.figure.cuts.empty();
+  for (const OpacityRule& rule : asked.molecule.color.opacities) opacities.push_back(rule.opacity);
+  const bool film = asked.figure.thickens, caps = !asked.figure.cuts.empty();
   for (const float opacity : opacities) {
     if (scheme.volume) {
       add({scheme.volume->scale.missing_color, opacity, true, film});
@@ -66,15 +61,15 @@ std::optional<std::vector<povray::SceneColor>> colors_of_run(const PovrayCommand
       add({color, opacity, false, film});
       if (caps) add({color, opacity});
     }
-    if (caps && command.figure.cap.color) add({*command.figure.cap.color, opacity});
+    if (caps && asked.figure.cap.color) add({*asked.figure.cap.color, opacity});
   }
   return all.colors();
 }
 
 // Of all atoms of the structure, if comments shall tell them.
-std::vector<std::string> comment_names(const PovrayCommand& command, const Structure& structure) {
+std::vector<std::string> comment_names(const Scene& scene, const Structure& structure) {
   std::vector<std::string> names;
-  if (!command.comments) return names;
+  if (!scene.renderer.comments) return names;
   names.reserve(structure.atoms.size());
   for (const Atom& atom : structure.atoms) {
     if (atom.residue_name.empty()) {  // as --csv and selections number it
@@ -109,79 +104,93 @@ std::vector<povray::SceneObject> more_objects(const Figure& figure, const Figure
   return more;
 }
 
-// An include for each frame of the chunk; the scene for all of the run, the same from every chunk.
-void run_sequence(const PovrayCommand& asked) {
-  PovrayCommand command = asked;
-  ExportRun run(command);
-  const FrameRun& frames = run.frames();
-  const RunFraming& framing = run.framing();
-  const ColorScheme scheme = color_of(command.molecule);
-  povray::SceneOptions options = scene_options(command);
-  options.origin = framing.origin();
-  if (command.comments && frames.atoms_change())
-    throw UsageError(
-        "--comments names the atoms of all frames once, but --select means others in each; add --select-once");
-  options.atom_names = comment_names(command, frames.structure());
-  options.colors = color_key(frames.reach(), scheme, {});
-  const ColoredShapes beside = shown_shapes(frames.reach(), command.molecule.representations, scheme);
-  const bool translucent = std::ranges::any_of(
-      scheme.opacities, [](const OpacityRule& rule) { return rule.opacity > 0.0f && rule.opacity < 1.0f; });
-  const povray::SequenceScene scene(
-      {frames.numbers(), framing.cameras, colors_of_run(command, scheme, frames, beside.coloring), framing.low,
-       framing.high, !beside.empty(), !command.figure.cuts.empty(), translucent, scheme.volume},
-      options, command.output.path);
-  const povray::SceneReport shared = scene.write_shared();
-  save_camera(command.save_camera, command.output.existing(), framing.cameras.front());
-  bool noted = false;
-  const auto finish = [&](const povray::SceneReport& report, std::uint64_t number) {
-    // Notes of later frames would differ in their numbers only.
-    if (!noted)
-      for (const std::string& note : report.notes)
-        say(command.molecule, fmt::format("note: frame {}: {}", number, note));
-    noted = noted || !report.notes.empty();
-    return made_frame(report.files);
-  };
-  run.run(kSurfaceBytesPerAtom, [&](MoleculeBuilder& builder, RunFrame frame) -> FinishFrame {
-    const Molecule molecule = builder.build(std::move(frame.structure));
-    const povray::SceneReport report =
-        scene.write_frame(molecule.objects, frame.place, molecule.beside,
-                          surface_planes(command.figure, run.camera(frame.place), molecule.objects));
-    return [&finish, report, number = frame.number] { return finish(report, number); };
-  });
-  std::cout << escaped(shared.command) << "\n";
-}
-
 // Before anything is computed.
-void check(const PovrayCommand& command) {
-  if (command.figure.thickens && command.molecule.volume_offset != 0.0)
+void check_povray(const SceneCommand& command) {
+  if (command.scene.figure.thickens && command.scene.molecule.volume_offset != 0.0)
     throw UsageError(
         "--map-offset: POV-Ray samples beside the surface patch by patch, not in a film; leave "
         "--film-opacity away, or the offset");
-  check_export(command, " in POV-Ray");
+  check_saved_camera(command);
+  if (command.scene.frames.asked() && (!command.scene.figure.objects.empty() || command.scene.figure.hides_surface))
+    throw UsageError(
+        "--object and --hide-surface: a run of frames in POV-Ray has the surface, and beside it --sticks, --balls, "
+        "--spheres and --tube; export its frames one by one (--model), or use render");
 }
 
-void run(const PovrayCommand& command) {
-  check(command);
-  if (command.frames.asked()) return run_sequence(command);
-  const AimedFigure aimed = aimed_figure(command);
-  const Figure& figure = aimed.figure;
-  const std::vector<SurfaceObject>& objects = figure.molecule.objects;
-  povray::SceneOptions options = scene_options(command);
-  options.colors = key_of(figure.molecule);
-  options.atom_names = comment_names(command, figure.molecule.structure);
-  const Camera camera = aimed.camera(command, command.picture);
-  options.shapes = &figure.beside.shapes;
-  options.objects = more_objects(figure, command.figure, camera, placed_balls(objects));
-  options.cut.planes = surface_planes(command.figure, camera, objects);
-  if (command.figure.hides_surface && figure.beside.shapes.empty() && options.objects.empty())
+// What all frames of a run share: one scene, the same from every chunk.
+povray::SequenceScene sequence_of(FigureRun& run, povray::SceneOptions options) {
+  const Scene& asked = run.scene();
+  const Structure& reach = run.frames().reach();
+  const ColorScheme scheme = color_of(asked.molecule);
+  if (asked.renderer.comments && run.frames().atoms_change())
+    throw UsageError(
+        "--comments names the atoms of all frames once, but --select means others in each; add --select-once");
+  options.origin = run.framing().origin();
+  options.atom_names = comment_names(asked, run.structure());
+  const BesideSurface beside = make_beside(reach, asked.figure, scheme);
+  const bool translucent = std::ranges::any_of(
+      scheme.opacities, [](const OpacityRule& rule) { return rule.opacity > 0.0f && rule.opacity < 1.0f; });
+  return povray::SequenceScene(
+      {run.frames().numbers(), run.framing().cameras, colors_of_run(asked, scheme, reach, beside.shapes.coloring),
+       run.framing().low, run.framing().high, !beside.shapes.empty(), !asked.figure.cuts.empty(), translucent,
+       scheme.volume},
+      options, asked.output);
+}
+
+// The scene of one molecule.
+povray::SceneReport write_one(const Scene& asked, povray::SceneOptions options, const FigureFrame& frame) {
+  const std::vector<SurfaceObject>& objects = frame.figure.molecule.objects;
+  options.atom_names = comment_names(asked, frame.figure.molecule.structure);
+  options.shapes = &frame.figure.beside.shapes;
+  options.objects = more_objects(frame.figure, asked.figure, frame.camera, placed_balls(objects));
+  options.cut.planes = surface_planes(asked.figure, frame.camera, objects);
+  if (asked.figure.hides_surface && options.shapes->empty() && options.objects.empty())
     throw RequestError("the surface is not shown, and there is nothing beside it");
-  const povray::SceneReport report = write_scene(
-      command.figure.hides_surface ? std::span<const SurfaceObject>{} : objects, camera, options, command.output.path);
-  say(command.molecule,
-      fmt::format("{} primitives in {} files", with_thousands(report.object_count), report.files.size()));
-  for (const std::string& note : report.notes) say(command.molecule, "note: " + note);
-  save_camera(command.save_camera, command.output.existing(), camera);
-  std::cout << escaped(report.command) << "\n";
+  return write_scene(asked.figure.hides_surface ? std::span<const SurfaceObject>{} : objects, frame.camera, options,
+                     asked.output);
+}
+
+void export_to_povray(const SceneCommand& command) {
+  using enum povray::Material;
+  const povray::Material material =
+      meaning_of(command.scene.renderer.material, "povray.material", {opaque, ghost, glass, wax, flat});
+  check_povray(command);
+  FigureRun run(command);
+  run.aim(command.scene.picture, true);
+  const Scene& asked = run.scene();
+  povray::SceneOptions options = scene_options(command, material);
+  options.colors = run.key();
+  std::optional<povray::SequenceScene> sequence;
+  std::string render_command;
+  if (run.is_run()) {
+    sequence.emplace(sequence_of(run, options));
+    render_command = sequence->write_shared().command;
+  }
+  save_camera(command.save_camera, command.existing(), run.camera(0));
+  bool noted = false;
+  const auto finish = [&](const povray::SceneReport& report, std::uint64_t number) {
+    if (!sequence) {
+      say(command, fmt::format("{} primitives in {} files", with_thousands(report.object_count), report.files.size()));
+      render_command = report.command;
+    }
+    // Notes of later frames would differ in their numbers only.
+    if (!noted)
+      for (const std::string& note : report.notes)
+        say(command, sequence ? fmt::format("note: frame {}: {}", number, note) : "note: " + note);
+    noted = noted || !report.notes.empty();
+    return made_frame(report.files);
+  };
+  run.make({kSurfaceBytesPerAtom}, [&]() -> FigureRun::Sink {
+    return [&](const FigureFrame& frame) -> FinishFrame {
+      const std::vector<SurfaceObject>& objects = frame.figure.molecule.objects;
+      const povray::SceneReport report =
+          sequence ? sequence->write_frame(objects, frame.place, frame.figure.beside.shapes,
+                                           surface_planes(asked.figure, frame.camera, objects))
+                   : write_one(asked, options, frame);
+      return [&finish, report, number = frame.number] { return finish(report, number); };
+    };
+  });
+  std::cout << escaped(render_command) << "\n";
 }
 
 }  // namespace
@@ -198,17 +207,14 @@ void add_export_povray(CLI::App& command) {
       "Of a run of frames the folder holds one scene and an include for each frame; POV-Ray's frames and pictures\n"
       "have the numbers of the trajectory. Machines that share the work give the same options and --only, and render\n"
       "with +SF and +EF. povray 'surface.ini[film]' goes through a run in any order and counts pictures from 1.");
-  auto state = std::make_shared<PovrayCommand>();
-  add_shown_options(command, *state);
-  add_run_options(command, *state);
-  add_scene_options(command, &state->save_scene);
-  add_output_options(command, state->output, "Folder to write; made when missing");
-  using enum povray::Material;
-  PropertyOptions options(command);
-  options.add_word("povray.material", state->material, {opaque, ghost, glass, wax, flat});
-  options.add("look.comments", state->comments);
-  add_save_camera_option(command, state->save_camera);
-  command.callback([state, &command] { run_export(command, *state, [&] { run(*state); }); });
+  auto declared = std::make_shared<DeclaredCommand<>>(command, for_povray);
+  declared->options.describe_output("Folder to write; made when missing");
+  const Property& material = property_of("povray.material");
+  declared->options.option("look.material")->description(help_of(material))->check(proposes(words_of(material)));
+  command.callback([declared] {
+    declared->options.take();
+    run_and_save_scene(declared->state, [&] { export_to_povray(declared->state); });
+  });
 }
 
 }  // namespace meniscus

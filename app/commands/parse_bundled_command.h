@@ -9,8 +9,8 @@
 
 namespace meniscus::farm {
 
-/// Checks the words by the program's own parser. Throws UsageError: no framed command, wrong options, options that a
-/// bundle decides by itself; what the parser's callbacks throw. `result` is filled in place, for options refer to it.
-void parse_bundled_command(const std::vector<std::string>& words, BundledCommand& result);
+/// Checks the words by the program's own options. Throws UsageError: no framed command, wrong options, options that a
+/// bundle decides by itself; RequestError: options that a bundle does not have; what taking options throws.
+BundledCommand parse_bundled_command(const std::vector<std::string>& words);
 
 }  // namespace meniscus::farm

@@ -5,16 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "app/options/frame_options.h"
-#include "app/options/molecule_options.h"
+#include "app/options/scene_options.h"
 #include "core/pockets/pockets.h"
 #include "core/structure/selection/selection.h"
 
 namespace meniscus {
 
-struct PocketsCommand {
-  MoleculeOptions molecule;
-  FrameOptions frames;
+struct PocketsCommand : SceneCommand {
   PocketRequest pockets;
   Selection ligand = parse_selection("ligand");
   bool json = false;
@@ -22,9 +19,6 @@ struct PocketsCommand {
   std::string mesh;    ///< path; empty: none
   std::string figure;  ///< path of a scene; empty: none
   double mesh_tolerance = 0.02;
-  bool force = false;
-
-  Existing existing() const { return force ? Existing::replace : Existing::refuse; }
 };
 
 /// Per atom of the structure, whether it is taken out. Throws InputError if nothing would be left.

@@ -32,21 +32,21 @@ class PocketFrames {
       : command_(command), rows_(command.csv, command.existing()), tracks_(command.pockets.probe_radius) {}
 
   void run() {
-    FrameRun frames(command_.molecule, command_.frames);
-    tell_run(command_.molecule, frames);
+    FrameRun frames(command_.scene.molecule, command_.scene.frames);
+    tell_run(command_, frames);
     takes_out_anew_ = frames.atoms_change() || command_.ligand.uses_positions();
     left_out_ = taken_out(command_, frames.structure());
     if (!command_.json && command_.csv != "-") std::cout << pocket_row_header();
-    FrameOptions options = command_.frames;
+    SceneCommand command = command_;
     // On a terminal the rows themselves tell how far it is; a bar would run into them.
-    if (options.progress == ProgressStyle::automatic && ::isatty(STDOUT_FILENO)) options.progress = ProgressStyle::none;
+    ProgressStyle& progress = command.reporting.progress;
+    if (progress == ProgressStyle::automatic && ::isatty(STDOUT_FILENO)) progress = ProgressStyle::none;
     std::vector<FrameWorker> workers;
     const std::size_t count =
-        frame_builders(frames, command_.molecule, options, kPocketBytesPerAtom * frames.structure().atoms.size())
-            .size();
+        frame_builders(frames, command, kPocketBytesPerAtom * frames.structure().atoms.size()).size();
     while (workers.size() < count) workers.push_back(worker());
     try {
-      run_frames(frames, command_.molecule, options, std::move(workers));
+      run_frames(frames, command, std::move(workers));
     } catch (const RunError&) {
       rows_.commit();  // of a run that misses some frames the others are kept; the exit code tells
       throw;
@@ -56,7 +56,7 @@ class PocketFrames {
 
  private:
   FrameWorker worker() {
-    const auto computer = std::make_shared<PocketComputer>(command_.molecule.surface, command_.pockets);
+    const auto computer = std::make_shared<PocketComputer>(command_.scene.molecule.surface, command_.pockets);
     return [this, computer](RunFrame frame) -> FinishFrame {
       auto pockets = std::make_shared<MoleculePockets>(
           computer->compute(frame.structure, takes_out_anew_ ? taken_out(command_, frame.structure) : left_out_));
@@ -71,7 +71,7 @@ class PocketFrames {
   MadeFrame finish(const PocketReport& report, const FrameNote& note) {
     if (!hinted_)
       for (const std::string& hint : pocket_hints(report))
-        say(command_.molecule, fmt::format("note: frame {}: {}", note.frame, hint));
+        say(command_, fmt::format("note: frame {}: {}", note.frame, hint));
     hinted_ = true;
     if (command_.csv != "-") print_now(command_.json ? pocket_json_line(report, note) : pocket_row(report, note));
     std::vector<Cavity> cavities;
@@ -95,11 +95,11 @@ class PocketFrames {
 
 void pockets_frames(const PocketsCommand& asked) {
   PocketsCommand command = asked;
-  if (!command.csv.empty() && !command.frames.only.empty())
+  if (!command.csv.empty() && !command.scene.frames.only.empty())
     throw UsageError(
         "--csv needs all frames of the run, as numbers of pockets go on from one to the next; leave "
         "--only away");
-  settle_selections(command.molecule, command.frames, {.of_atoms = {&command.ligand}});
+  settle_selections(command.scene.molecule, command.scene.frames, {.of_atoms = {&command.ligand}});
   PocketFrames(command).run();
 }
 

@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Adds the options of the preview, and turns them into a figure and into words for render.
+// Adds the options of the preview, and takes them with its own defaults.
 #include "app/commands/preview_command.h"
 
-#include <algorithm>
 #include <charconv>
-#include <iterator>
-#include <string_view>
 
 #include <fmt/format.h>
 
-#include "app/options/figure_options.h"
-#include "app/options/look_options.h"
-#include "app/options/picture_options.h"
 #include "app/options/property_options.h"
-#include "app/options/scene_file.h"
 #include "core/base/text.h"
 #include "core/scene/surface_kind.h"
 
@@ -29,113 +22,43 @@ std::uint16_t parse_port(const std::string& text) {
   return port;
 }
 
-/// Whether the preview changes the option while it runs, or render does not have it.
-bool is_own(std::string_view name) {
-  constexpr std::string_view kOthers[] = {"--help", "--scene", "--trust-scene", "--force"};
-  if (std::ranges::find(kOthers, name) != std::end(kOthers)) return true;
-  return std::ranges::any_of(properties(),
-                             [&](const Property* property) { return property->has(live) && property->option == name; });
+}  // namespace
+
+MoleculeRequest PreviewCommand::read_molecule_request() const {
+  MoleculeRequest molecule = scene.molecule;
+  molecule.reading.model.all = models;
+  return molecule;
 }
 
-/// As they were said.
-void add_words(const CLI::Option& option, std::vector<std::string>& words) {
-  if (option.empty()) return;
-  const std::string name = option.get_positional() ? "" : option.get_name();
-  if (option.get_expected_max() == 0) return words.push_back(name);
-  for (const std::string& value : option.results()) {
-    if (name.empty() || value.starts_with('-')) {
-      words.push_back(name.empty() ? value : name + "=" + value);
-      continue;
-    }
-    words.push_back(name);
-    words.push_back(value);
-  }
-}
-
-RenderInput render_input(const CLI::App& command) {
-  RenderInput input;
-  for (const CLI::Option* option : command.get_options()) {
-    const std::string name = option->get_positional() ? "" : option->get_name();
-    if (name == "--color-by-file" || name == "--color-column") add_words(*option, input.number_words);
-    if (name == "--map-file") add_words(*option, input.map_words);
-    if (!is_own(name)) add_words(*option, input.words);
-  }
-  return input;
-}
-
-void add_session_options(CLI::App& command, PreviewCommand& state) {
+void add_preview_options(CLI::App& command, DeclaredPreview& declared) {
+  const SceneOptions& shared = declared.options;
+  shared.option("molecule.model")->description("Model to show; default: all of them, each a frame");
+  shared.option("image.samples")->description("Rays per pixel of exported pictures [4; of scenes 9]");
+  shared.option("image.background")->description("white, black, #rrggbb, or transparent in exported pictures [white]");
   PropertyOptions options(command);
+  PreviewCommand& state = declared.state;
   options.add_parsed("preview.serve", [&state](const std::string& text) { state.port = parse_port(text); });
   options.add("preview.commands", state.commands);
   options.add("preview.record", state.record);
   options.add("preview.output_folder", state.output_folder);
-  options.add("output.force", state.force)->description("Let --record replace a file");
 }
 
-}  // namespace
-
-void declare_preview(CLI::App& command, PreviewCommand& state) {
-  state.molecule.reading.model.all = true;
-  add_atom_options(command, state.molecule);
-  command.get_option("--model")->description("Model to show; default: all of them, each a frame");
-  add_kind_option(command, state.molecule.surface);
-  add_probe_option(command, state.molecule.surface);
-  add_device_option(command, state.molecule.surface);
-  add_color_options(command, state.molecule);
-  add_figure_options(command, state.molecule, state.figure);
-  add_trajectory_argument(command);
-  add_frame_options(command, state.frames);
-  for (const char* option : {"--only", "--progress"}) command.remove_option(command.get_option(option));
-  add_picture_options(command, state.picture);
-  add_look_options(command, state.look, state.picture);
-  add_legend_options(command, state.legend, state.picture);
-  command.remove_option(command.get_option("--legend-file"));
-  add_annotation_options(command, state.annotations);
-  command.remove_option(command.get_option("--time-stamp"));
-  PropertyOptions(command)
-      .add("image.samples", state.samples)
-      ->description("Rays per pixel of exported pictures [4; of scenes 9]");
-  add_background_option(command, state.background);
-  command.get_option("--background")->description("white, black, #rrggbb, or transparent in exported pictures [white]");
-  add_session_options(command, state);
-  add_scene_options(command);
-}
-
-void take_preview(const CLI::App& command, PreviewCommand& state) {
-  require_probe_of_kind(state.molecule.surface);
-  state.of_scene = command.count("--scene") > 0;
-  state.input = render_input(command);
-  if (!state.of_scene) return;
-  if (command.count("--preset") == 0) state.look.preset = LookRequest{}.preset;
-  if (command.count("--background") == 0) state.background.reset();
-  if (command.count("--model") == 0) state.molecule.reading.model = {};
-}
-
-PreviewFigure figure_of(const PreviewCommand& command, const ColorScheme& color) {
-  PreviewFigure figure;
-  figure.camera.projection = command.picture.projection;
-  figure.kind = command.molecule.surface.kind;
-  figure.probe_radius = command.molecule.surface.probe_radius;
-  figure.show = command.molecule.show;
-  figure.color = color;
-  figure.figure = command.figure;
-  figure.look = command.look;
-  if (command.background) figure.background = *command.background;
-  figure.legend = command.legend.within;
-  figure.legend_style = command.legend.style;
-  return figure;
-}
-
-ExportWishes wishes_of(const PreviewCommand& command, const CLI::App& parsed) {
-  ExportWishes wishes;
-  const auto given = [&](const char* option) { return parsed.count(option) > 0; };
-  if (command.of_scene || given("--size") || given("--width") || given("--height"))
-    wishes.size = command.picture.size();
-  constexpr int kUsualSamples = 9;  // of render
-  wishes.samples = command.of_scene ? command.samples.value_or(kUsualSamples) : command.samples;
-  wishes.transparent = !command.background;
-  wishes.dots_per_inch = command.picture.dots_per_inch;
-  return wishes;
+void take_preview(DeclaredPreview& declared, const std::vector<std::string>& named) {
+  SceneOptions& options = declared.options;
+  options.take(named);
+  PreviewCommand& state = declared.state;
+  Scene& scene = state.scene;
+  require_probe_of_kind(scene.molecule.surface);
+  const bool is_scene = !options.file().empty();
+  if (!is_scene && !options.is_given("look.preset")) scene.look.preset = LookPreset::classic;
+  if (!is_scene && !options.is_given("image.background")) scene.image.background = glm::vec3(1.0f);
+  state.models = !is_scene && !options.is_given("molecule.model") && !scene.frames.asked();
+  state.aims = is_scene || scene.picture.direction || scene.picture.zoom_to || !scene.picture.turns.empty();
+  if (is_scene || options.is_given("image.size") || options.is_given("image.width") || options.is_given("image.height"))
+    state.wishes.size = scene.picture.size();
+  if (is_scene || options.is_given("image.samples")) state.wishes.samples = scene.image.samples;
+  state.wishes.transparent = !scene.image.background;
+  state.wishes.dots_per_inch = scene.picture.dots_per_inch;
 }
 
 }  // namespace meniscus

@@ -6,23 +6,18 @@
 #include <string>
 #include <vector>
 
-#include "app/options/frame_options.h"
-#include "app/options/molecule_options.h"
+#include "app/options/scene_options.h"
 #include "core/structure/selection/selection.h"
 
 namespace meniscus {
 
-struct SurfaceCommand {
-  MoleculeOptions molecule;
-  FrameOptions frames;
+struct SurfaceCommand : SceneCommand {
   bool json = false;
   std::string atom_csv, residue_csv, series_csv, cavity_csv,
       gradient_csv;  ///< paths; empty: none; "-": standard output
   std::string plot;  ///< path of an SVG of a run; empty: none
   std::optional<Selection> context;
-  bool force = false;
 
-  Existing existing() const { return force ? Existing::replace : Existing::refuse; }
   /// Does a table take the place of what is printed else?
   bool prints_csv() const;
 };

@@ -48,23 +48,23 @@ class SurfaceFrames {
         residues_(command.residue_csv, command.existing()),
         gradients_(command.gradient_csv, command.existing()),
         cavities_(command.cavity_csv, command.existing()),
-        tracks_(command.molecule.surface.probe_radius) {
+        tracks_(command.scene.molecule.surface.probe_radius) {
     if (!command.plot.empty()) plot_.emplace(command.plot, command.existing());
   }
 
   void run() {
-    FrameOptions options = command_.frames;
-    FrameRun frames(command_.molecule, options);
-    tell_run(command_.molecule, frames);
-    if (!command_.json && !command_.prints_csv()) std::cout << report_row_header(command_.molecule);
+    SceneCommand command = command_;
+    FrameRun frames(command.scene.molecule, command.scene.frames);
+    tell_run(command, frames);
+    if (!command_.json && !command_.prints_csv()) std::cout << report_row_header(command_.scene.molecule);
     // On a terminal the rows themselves tell how far it is; a bar would run into them.
-    if (options.progress == ProgressStyle::automatic && ::isatty(STDOUT_FILENO)) options.progress = ProgressStyle::none;
+    ProgressStyle& progress = command.reporting.progress;
+    if (progress == ProgressStyle::automatic && ::isatty(STDOUT_FILENO)) progress = ProgressStyle::none;
     std::vector<FrameWorker> workers;
-    for (const auto& builder :
-         frame_builders(frames, command_.molecule, options, kSurfaceBytesPerAtom * frames.structure().atoms.size()))
+    for (const auto& builder : frame_builders(frames, command, kSurfaceBytesPerAtom * frames.structure().atoms.size()))
       workers.push_back(worker(builder));
     try {
-      run_frames(frames, command_.molecule, options, std::move(workers));
+      run_frames(frames, command, std::move(workers));
     } catch (const RunError&) {
       commit();  // of a run that misses some frames the others are kept; the exit code tells
       throw;
@@ -86,17 +86,17 @@ class SurfaceFrames {
   FrameNumbers numbers_of(const Molecule& molecule, const Structure& together, const FrameNote& note,
                           SurfaceComputer& computer) const {
     FrameNumbers numbers;
-    const SurfaceKind kind = command_.molecule.surface.kind;
+    const SurfaceKind kind = command_.scene.molecule.surface.kind;
     const bool by_atom = command_.json || command_.context || atoms_.is_wanted() || residues_.is_wanted();
     std::vector<AreaColumn> columns =
         by_atom ? area_columns(molecule.structure, molecule.objects, kind) : area_totals(molecule.objects, kind);
     std::optional<ContextNote> context;
     if (command_.context) {
-      ContextAreas areas = context_areas(command_.molecule, together, molecule, columns, computer);
+      ContextAreas areas = context_areas(command_.scene.molecule, together, molecule, columns, computer);
       context = ContextNote{command_.context->text(), areas.atoms};
       std::move(areas.columns.begin(), areas.columns.end(), std::back_inserter(columns));
     }
-    const SurfaceReport report{molecule, command_.molecule, columns, context};
+    const SurfaceReport report{molecule, command_.scene.molecule, columns, context};
     if (!command_.prints_csv())
       numbers.printed = command_.json ? report_json_line(report, note) : report_row(report, note);
     if (series_.is_wanted() || plot_) numbers.values = series_values(molecule, columns);
@@ -187,8 +187,8 @@ class SurfaceFrames {
 void surface_frames(const SurfaceCommand& asked) {
   check_outputs(asked);
   SurfaceCommand command = asked;
-  command.frames.context = command.context;
-  settle_selections(command.molecule, command.frames);
+  command.scene.frames.context = command.context;
+  settle_selections(command.scene.molecule, command.scene.frames);
   SurfaceFrames(command).run();
 }
 

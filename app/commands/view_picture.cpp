@@ -9,7 +9,7 @@
 #include "app/process/program_error.h"
 #include "core/scene/hidden_atoms.h"
 #include "app/reports/notes.h"
-#include "app/options/molecule_options.h"
+#include "app/options/scene_options.h"
 #include "core/color/color_atoms.h"
 #include "core/base/text.h"
 
@@ -25,35 +25,33 @@ double milliseconds(const std::vector<StageTime>& times, std::initializer_list<s
 
 }  // namespace
 
-void check_view_options(const MoleculeOptions& options) {
+void check_view_options(const MoleculeRequest& request) {
   const auto refuse = [](const char* option) {
     throw UsageError(fmt::format("{} needs the complete surface; leave --extent away", option));
   };
-  if (options.surface.cpu)
+  if (request.surface.cpu)
     throw UsageError(
         "--extent finds on GL what the view needs; leave --device cpu away, or --extent: the picture is the same");
-  if (options.division.groups || options.division.components) refuse("--by");
-  if (options.division.cavities != Cavities::keep) refuse("--cavities");
-  if (options.division.instances != InstanceMode::none) refuse("--instances");
-  if (options.color.by == ColorScheme::By::component) refuse("--color component");
-  if (options.color.by == ColorScheme::By::buried || options.interface) refuse("--color buried");
-  if (options.color.by == ColorScheme::By::volume) refuse("--color-map-file");
-  if (options.surface.verify) refuse("--verify");
-  if (options.surface.kind != SurfaceKind::ses) refuse("--surface sas or vdw");
+  if (request.division.groups || request.division.components) refuse("--by");
+  if (request.division.cavities != Cavities::keep) refuse("--cavities");
+  if (request.division.instances != InstanceMode::none) refuse("--instances");
+  if (request.color.by == ColorScheme::By::component) refuse("--color component");
+  if (request.color.by == ColorScheme::By::buried || request.interface) refuse("--color buried");
+  if (request.color.by == ColorScheme::By::volume) refuse("--color-map-file");
+  if (request.surface.verify) refuse("--verify");
+  if (request.surface.kind != SurfaceKind::ses) refuse("--surface sas or vdw");
 }
 
-ColoredAtoms load_atoms(const MoleculeOptions& options) { return colored_atoms(options, read_and_tell(options)); }
-
-ColoredAtoms colored_atoms(const MoleculeOptions& options, Structure molecule) {
+ColoredAtoms colored_atoms(const MoleculeRequest& request, Structure molecule) {
   ColoredAtoms atoms;
   atoms.molecule.structure = std::move(molecule);
-  atoms.molecule.color = color_of(options);
+  atoms.molecule.color = color_of(request);
   const Structure& structure = atoms.molecule.structure;
   atoms.balls = balls_of(structure);
   std::vector<std::uint32_t> all(structure.atoms.size());
   std::iota(all.begin(), all.end(), 0u);
   atoms.coloring = color_object(structure, all, atoms.molecule.color, 0);
-  if (options.show) atoms.coloring.hidden = hidden_atoms(*options.show, structure);
+  if (request.show) atoms.coloring.hidden = hidden_atoms(*request.show, structure);
   return atoms;
 }
 

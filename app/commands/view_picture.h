@@ -6,14 +6,13 @@
 
 #include "core/scene/molecule.h"
 #include "core/visible_surface/extent.h"
-#include "app/options/molecule_options.h"
 #include "core/visible_surface/view_pipeline.h"
 
 namespace meniscus {
 
 /// Throws UsageError for options that only a complete surface can serve: --by, --cavities, --instances, --verify,
 /// --color component, another --surface, and for --device cpu.
-void check_view_options(const MoleculeOptions& options);
+void check_view_options(const MoleculeRequest& request);
 
 /// The atoms of a structure with their colours, and no surface yet. Throws InputError.
 struct ColoredAtoms {
@@ -21,8 +20,7 @@ struct ColoredAtoms {
   std::vector<Ball> balls;
   Coloring coloring;
 };
-ColoredAtoms load_atoms(const MoleculeOptions& options);
-ColoredAtoms colored_atoms(const MoleculeOptions& options, Structure structure);
+ColoredAtoms colored_atoms(const MoleculeRequest& request, Structure structure);
 
 /// What the next pictures of `view` show.
 void show(const ColoredAtoms& atoms, double probe_radius, Extent extent, ViewPipeline& view);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus preview` of builds without window and page: it says so.
 #include "app/commands/commands.h"
-#include "app/options/molecule_options.h"
+#include "app/options/scene_options.h"
 #include "app/process/program_error.h"
 
 namespace meniscus {

@@ -5,31 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "app/options/molecule_options.h"
-#include "app/options/picture_options.h"
-#include "core/scene/run_cameras.h"
-#include "app/options/frame_options.h"
+#include "app/options/scene_options.h"
 
 namespace meniscus::farm {
 
 struct BundledCommand {
-  std::vector<std::string> words;      ///< {"render"}, {"export", "povray"} and others of bundled_steps.h
-  std::vector<std::string> arguments;  ///< behind the words, as written: FILE first
-  std::vector<std::string> device;     ///< those of them that say where it is computed, taken out
-  std::vector<std::string> renderer;   ///< what stood behind a second --: for POV-Ray, or Blender's driver
-
-  MoleculeOptions molecule;
-  FrameOptions frames;
-  ViewRequest picture;
-  CameraMotionRequest camera_motion;
-
-  /// A word in `arguments` that is the path of a file to read, or has it behind "--option=".
-  struct File {
-    std::size_t place = 0;  ///< in `arguments`
-    std::string prefix;     ///< "" or "--option="
-    std::string path;
-  };
-  std::vector<File> files;
+  std::vector<std::string> words;     ///< {"render"}, {"export", "povray"} and others of bundled_steps.h
+  CommandBit bit = for_render;        ///< the same
+  SceneCommand command;               ///< its scene, complete
+  std::vector<std::string> further;   ///< options that are not of the scene: --provenance
+  std::vector<std::string> device;    ///< options that say where it is computed
+  std::vector<std::string> renderer;  ///< what stood behind a second --: for POV-Ray, or Blender's driver
 };
 
 }  // namespace meniscus::farm

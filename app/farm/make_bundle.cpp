@@ -22,9 +22,11 @@
 #include "app/farm/worker.h"
 #include "app/reports/notes.h"
 #include "app/film/film.h"
+#include "app/options/scene_words.h"
 #include "app/process/program_error.h"
 #include "core/scene/run_cameras.h"
 #include "core/scene/frame_run.h"
+#include "core/scene/scene_values.h"
 #include "core/scene/settled_selections.h"
 #include "app/process/stop_signals.h"
 #include "core/base/output_file.h"
@@ -42,16 +44,11 @@ std::vector<Step> steps_with_arguments(const BundledCommand& command) {
   return steps;
 }
 
-bool has(const BundledCommand& command, const std::string& option) {
-  return std::ranges::any_of(command.arguments,
-                             [&](const std::string& word) { return word.substr(0, word.find('=')) == option; });
-}
-
 /// The camera that shows all of every frame, so that no worker has to read all frames for it. Nothing if the command
 /// has its own, or frames the molecule beside a legend.
-std::optional<std::string> default_camera(const BundledCommand& command, const GivenCameras& given, FrameRun& frames) {
-  if (given.any() || has(command, "--legend")) return {};
-  return camera_json(run_cameras(command.picture, command.molecule.show, command.camera_motion, given, frames).front());
+std::optional<Camera> default_camera(const Scene& scene, const GivenCameras& given, FrameRun& frames) {
+  if (given.any() || scene.legend.within) return {};
+  return run_cameras(scene.picture, scene.molecule.show, scene.run_camera, given, frames).front();
 }
 
 void add_addon(const fs::path& addon, BundleInputs& inputs) {
@@ -60,31 +57,28 @@ void add_addon(const fs::path& addon, BundleInputs& inputs) {
   for (const DriverFile& file : driver_files()) inputs.add_file_as("blender/" + file.path, addon / file.path);
 }
 
-/// Takes an option and its value out, as often as it is there.
-void take_out(std::string_view name, std::vector<std::string>& arguments) {
-  for (auto word = arguments.begin(); word != arguments.end();) {
-    const std::size_t equals = word->find('=');
-    if (std::string_view(*word).substr(0, equals) == name)
-      word = arguments.erase(word, word + (equals == std::string::npos ? 2 : 1));
-    else
-      ++word;
-  }
-}
-
-/// The arguments with paths in the bundle, and with the camera.
-std::vector<std::string> bundled_command(const BundledCommand& command, const std::optional<std::string>& camera,
-                                         BundleInputs& inputs) {
-  std::vector<std::string> arguments = command.arguments;
-  for (const BundledCommand::File& file : command.files)
-    arguments[file.place] = file.prefix + inputs.add_file(file.path);
+/// The words of the command with paths in the bundle, and with the camera.
+std::vector<std::string> bundled_words(const BundledCommand& command, const std::optional<Camera>& camera,
+                                       BundleInputs& inputs) {
+  Scene scene = command.command.scene;
+  // Where it is computed is said for each step.
+  scene.molecule.surface.cpu = false;
+  scene.molecule.surface.gl = {};
+  scene.molecule.surface.threads = 0;
+  // All that was asked of the default camera is in the one that is added.
   if (camera) {
-    // All that the options of the default camera said is in the file now, and some of them exclude it.
-    for (const std::string_view name : {"--projection", "--view", "--turn", "--zoom-to"}) take_out(name, arguments);
-    arguments.insert(arguments.end(), {"--camera", inputs.add_text("camera.json", *camera)});
+    scene.picture.projection = Projection::perspective;
+    scene.picture.direction.reset();
+    scene.picture.turns.clear();
+    scene.picture.zoom_to.reset();
   }
-  std::vector<std::string> all = command.words;
-  all.insert(all.end(), arguments.begin(), arguments.end());
-  return all;
+  std::vector<std::string> words = command.words;
+  const std::vector<std::string> values =
+      scene_words(scene, command.bit, [&](const std::string& path) { return inputs.add_file(path); });
+  words.insert(words.end(), values.begin(), values.end());
+  words.insert(words.end(), command.further.begin(), command.further.end());
+  if (camera) words.insert(words.end(), {"--camera", inputs.add_text("camera.json", camera_json(*camera))});
+  return words;
 }
 
 /// A folder under a hidden name beside its final one; it vanishes unless renamed.
@@ -194,29 +188,33 @@ std::optional<std::uint64_t> threads_of(const std::vector<std::string>& device) 
 
 Bundle described(const BundleOptions& options, const BundledCommand& asked, BundleInputs& inputs,
                  std::vector<std::string>& notes) {
-  BundledCommand command = asked;
-  settle_selections(command.molecule, command.frames, {.view = &command.picture, .motion = &command.camera_motion});
-  const GivenCameras cameras = given_cameras(command.picture, command.camera_motion);
-  FrameRun frames(command.molecule, command.frames);
-  tell_run(command.molecule, frames);
+  SceneCommand command = asked.command;
+  command.scene = readied(command.scene);
+  Scene& scene = command.scene;
+  settle_selections(scene.molecule, scene.frames, {.view = &scene.picture, .motion = &scene.run_camera});
+  const GivenCameras cameras = given_cameras(scene.picture, scene.run_camera);
+  FrameRun frames(scene.molecule, scene.frames);
+  tell_run(command, frames);
   if (!frames.trajectory().cut_short().empty())
     notes.push_back(frames.trajectory().path() + ": " + frames.trajectory().cut_short());
   Bundle bundle;
   bundle.program_version = build_version();
   bundle.frames = frames.numbers();
-  bundle.steps = steps_with_arguments(command);
+  bundle.steps = steps_with_arguments(asked);
   if (options.film && !bundle.makes_pictures())
     throw UsageError("--film: this bundle makes scenes, and whoever renders them the film; leave it away");
-  bundle.width = command.picture.width;
-  bundle.height = command.picture.height;
+  if (options.film && scene.image.aovs)
+    throw UsageError("--film: pictures with --aovs are .exr, which films are not made of; leave one of them out");
+  bundle.width = scene.picture.width;
+  bundle.height = scene.picture.height;
   if (options.film)
     check_film_size(film_encoder(options.film->file, options.film->format), {bundle.width, bundle.height});
   bundle.film = options.film;
-  bundle.command = bundled_command(command, default_camera(command, cameras, frames), inputs);
+  bundle.command = bundled_words(asked, default_camera(scene, cameras, frames), inputs);
   if (bundle.steps.back().maker == Maker::blender) add_addon(options.addon, inputs);
   bundle.inputs = inputs.measured();
   bundle.chunking = options.chunking;
-  if (!options.cores_asked) bundle.chunking.cores = threads_of(command.device).value_or(bundle.chunking.cores);
+  if (!options.cores_asked) bundle.chunking.cores = threads_of(asked.device).value_or(bundle.chunking.cores);
   check_bundle(bundle);
   return bundle;
 }

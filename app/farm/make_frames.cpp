@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The command line of each maker.
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
@@ -42,9 +43,11 @@ Arguments meniscus_command(const Bundle& bundle, const Step& step, const Workpla
   command.insert(command.end(), checked.begin(), checked.end());
   const Arguments device = device_words(step, place, alone);
   command.insert(command.end(), device.begin(), device.end());
-  const bool pictures = bundle.command.front() == "render";
-  for (const char* word : {"--force", "-q", "--progress", "json", "-o", pictures ? "images/frame_#####.png" : "scene"})
-    command.emplace_back(word);
+  const bool layered = std::ranges::find(checked, "--aovs") != checked.end();
+  const char* const output = bundle.command.front() != "render" ? "scene"
+                             : layered                          ? "images/frame_#####.exr"
+                                                                : "images/frame_#####.png";
+  for (const char* word : {"--force", "-q", "--progress", "json", "-o", output}) command.emplace_back(word);
   command.insert(command.end(), {"--only", frame_list_text(frames)});
   return command;
 }

@@ -1,24 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the pictures of a film are encoded: what a user may choose, and what ffmpeg is told of it.
+// How the pictures of a film are encoded: from what a user chose to the arguments of ffmpeg.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include <glm/vec2.hpp>
 
+#include "core/scene/outputs.h"
+
 namespace meniscus {
-
-/// As asked for; what is empty or 0 is left to the codec, and the codec to the ending of the name.
-struct FilmFormat {
-  std::string codec;               ///< h264, h265, vp9, prores, prores4444, dnxhr or gif
-  std::optional<int> rate_factor;  ///< --crf: less is better and larger
-  int bits = 0;                    ///< of a channel, 8 or 10
-  int chroma = 0;                  ///< 420, 422 or 444: colour in how many of the pixels
-
-  bool operator==(const FilmFormat&) const = default;
-};
 
 /// The pixels that an encoder takes: rows from the top, sRGB, channels of 16 bits little-endian.
 struct FilmPixels {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of what options need.
+// Finds options that change nothing for want of another one, by a table of what each needs.
 #include "app/options/idle_options.h"
 
 #include <algorithm>
@@ -11,9 +11,11 @@
 #include <fmt/ranges.h>
 
 #include "app/film/film_format.h"
+#include "app/options/scene_options.h"
 #include "app/process/program_error.h"
 #include "core/properties/properties.h"
 #include "core/render/look_presets.h"
+#include "core/scene/scene_values.h"
 #include "core/text/parse_number.h"
 
 namespace meniscus {
@@ -22,20 +24,26 @@ namespace {
 /// A command whose options are parsed, as the table asks about it.
 class Asked {
  public:
-  explicit Asked(const CLI::App& command) : command_(command) {}
+  explicit Asked(const SceneOptions& options) : options_(options), command_(options.command()) {}
 
   bool has(const char* option) const { return command_.get_option_no_throw(option) != nullptr; }
-  /// Was it given?
+  /// Was it given, by the command line or the scene?
   bool given(const char* option) const {
     const CLI::Option* const found = command_.get_option_no_throw(option);
-    return found && found->count() > 0;
+    if (found && found->count() > 0) return true;
+    const Property* const property = has(option) ? scene_property(option) : nullptr;
+    return property && options_.is_given(property->key);
   }
   bool any(std::initializer_list<const char*> options) const {
     return std::ranges::any_of(options, [&](const char* option) { return given(option); });
   }
   /// The value that counts; empty if there is none.
   std::string value(const char* option) const {
-    return given(option) ? command_.get_option_no_throw(option)->results().back() : "";
+    if (!given(option)) return "";
+    if (const CLI::Option* const found = command_.get_option_no_throw(option); found->count() > 0)
+      return found->results().back();
+    const std::vector<std::string> texts = value_texts(options_.scene(), *scene_property(option));
+    return texts.empty() ? "" : texts.back();
   }
   const std::string& name() const { return command_.get_name(); }
 
@@ -45,30 +53,19 @@ class Asked {
   }
   bool is_film() const { return is_film_path(value("--output")); }
 
-  /// Of the preset, if the option does not say it.
-  double look(const char* option, float Material::*part) const {
-    double number = 0.0;
-    if (given(option) && parse_number(value(option), number)) return number;
-    return preset().material.*part;
-  }
-  double shade() const {
-    double number = 0.0;
-    const char* const option = "--ambient-occlusion";
-    return given(option) && parse_number(value(option), number) ? number : preset().ambient_occlusion;
-  }
+  Look look() const { return look_of(options_.scene().look, {1, 1}, std::nullopt, Hues::free); }
   /// Colours are not simply those given. Objects may have a material of their own.
-  bool is_shaded() const { return given("--object") || look("--ambient", &Material::ambient) < 1.0; }
-  bool has_highlights() const { return given("--object") || look("--specular", &Material::specular) > 0.0; }
+  bool is_shaded() const { return given("--object") || look().material.ambient < 1.0f; }
+  bool has_highlights() const { return given("--object") || look().material.specular > 0.0f; }
 
  private:
-  Look preset() const {
-    const std::vector<std::string> words = words_of(property_of("look.preset"));
-    const std::string asked = value("--preset");
-    for (std::size_t n = 0; n < words.size(); ++n)  // scenes of version 0.1.0 have its number
-      if (asked == words[n] || asked == std::to_string(n)) return preset_look(static_cast<LookPreset>(n), {1, 1});
-    return preset_look(LookRequest{}.preset, {1, 1});
+  static const Property* scene_property(std::string_view option) {
+    for (const Property* property : properties())
+      if (property->long_option() == option && is_scene_value(*property)) return property;
+    return nullptr;
   }
 
+  const SceneOptions& options_;
   const CLI::App& command_;
 };
 
@@ -155,7 +152,7 @@ const std::vector<Need>& needs() {
        [](const Asked& asked) { return asked.has_highlights(); },
        "there are no highlights; add --specular"},
       {{"--ambient-occlusion-radius"},
-       [](const Asked& asked) { return asked.shade() > 0.0; },
+       [](const Asked& asked) { return asked.look().ambient_occlusion > 0.0f; },
        "no shade is cast; add --ambient-occlusion"},
       {{"--linear-alpha"},
        [](const Asked& asked) {
@@ -216,8 +213,8 @@ void add_unlikely_values(const Asked& asked, std::vector<std::string>& sentences
 
 }  // namespace
 
-std::vector<std::string> idle_options(const CLI::App& command) {
-  const Asked asked(command);
+std::vector<std::string> idle_options(const SceneOptions& options) {
+  const Asked asked(options);
   std::vector<std::string> sentences;
   for (const Need& need : needs()) {
     std::vector<std::string_view> idle;

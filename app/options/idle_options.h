@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 namespace meniscus {
+
+class SceneOptions;
 
 /// Of a command whose options are parsed: a sentence for each group of its options that change nothing for want of
 /// another one, and for each value that looks like one of another unit. Throws UsageError where an option would have
 /// changed the numbers or the frames.
-std::vector<std::string> idle_options(const CLI::App& command);
+std::vector<std::string> idle_options(const SceneOptions& options);
 
 }  // namespace meniscus

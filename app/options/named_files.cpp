@@ -44,22 +44,26 @@ bool are_one_file(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-void guard_named_files(const CLI::App& command, const std::string& scene) {
-  if (!scene.empty()) protect(scene);
-  std::vector<std::pair<std::string, std::string>> outputs;  // option, path
+NamedFiles::NamedFiles(const CLI::App& command) {
   for (const CLI::Option* const option : command.get_options()) {
     if (option->empty() || !takes_path(*option)) continue;
     const bool writes = std::ranges::find(kOutputs, option->get_name()) != kOutputs.end();
-    for (const std::string& path : option->results()) {
-      if (writes && path != "-") outputs.emplace_back(option->get_name(), path);
-      if (!writes) protect(path);
-    }
+    for (const std::string& path : option->results()) writes ? write(option->get_name(), path) : read(path);
   }
-  for (std::size_t a = 0; a < outputs.size(); ++a)
+}
+
+void NamedFiles::read(const std::string& path) { protect(path); }
+
+void NamedFiles::write(const std::string& option, const std::string& path) {
+  if (path != "-") outputs_.emplace_back(option, path);
+}
+
+void NamedFiles::check() const {
+  for (std::size_t a = 0; a < outputs_.size(); ++a)
     for (std::size_t b = 0; b < a; ++b)
-      if (outputs[a].first != outputs[b].first && are_one_file(outputs[a].second, outputs[b].second))
-        throw UsageError(fmt::format("{} and {} name the same file, {}; choose two", outputs[b].first, outputs[a].first,
-                                     in_quotes(outputs[a].second)));
+      if (outputs_[a].first != outputs_[b].first && are_one_file(outputs_[a].second, outputs_[b].second))
+        throw UsageError(fmt::format("{} and {} name the same file, {}; choose two", outputs_[b].first,
+                                     outputs_[a].first, in_quotes(outputs_[a].second)));
 }
 
 }  // namespace meniscus

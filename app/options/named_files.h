@@ -1,15 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The files that a command's options name: what it reads is never replaced, and no two outputs are one file.
+// The files that a command names: what it reads is never replaced, and no two outputs are one file.
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
 namespace meniscus {
 
-/// Before a command begins whose options are parsed. scene: the file of --scene, which is in none of them; may be
-/// empty. Throws UsageError for two outputs that are the same file.
-void guard_named_files(const CLI::App& command, const std::string& scene);
+/// Before a command begins whose options are parsed.
+class NamedFiles {
+ public:
+  /// Those of its options.
+  explicit NamedFiles(const CLI::App& command);
+
+  /// A file, or a bundle with all its files, that no output replaces.
+  void read(const std::string& path);
+  void write(const std::string& option, const std::string& path);
+
+  /// Throws UsageError for two outputs that are the same file.
+  void check() const;
+
+ private:
+  std::vector<std::pair<std::string, std::string>> outputs_;  ///< option, path
+};
 
 }  // namespace meniscus

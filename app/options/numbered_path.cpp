@@ -2,6 +2,8 @@
 // Puts numbers into file names.
 #include "app/options/numbered_path.h"
 
+#include <filesystem>
+
 #include <fmt/format.h>
 
 namespace meniscus {
@@ -20,6 +22,12 @@ std::optional<NumberedPath> NumberedPath::parse(const std::string& path) {
 
 std::string NumberedPath::at(std::uint64_t number) const {
   return fmt::format("{}{:0{}}{}", before_, number, digits_, behind_);
+}
+
+std::string numbered_name(const std::string& path) {
+  const std::filesystem::path plain(path);
+  const std::string ending = plain.has_extension() ? plain.extension().string() : ".png";
+  return (plain.parent_path() / (plain.stem().string() + "_#####" + ending)).string();
 }
 
 }  // namespace meniscus

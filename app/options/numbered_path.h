@@ -21,4 +21,7 @@ class NumberedPath {
   std::size_t digits_ = 0;
 };
 
+/// The path with "_#####" before its ending, to be proposed.
+std::string numbered_name(const std::string& path);
+
 }  // namespace meniscus

@@ -2,11 +2,13 @@
 // Turns a row of the table of properties into an option of CLI11: names, help, heading, and what its value may be.
 #include "app/options/property_options.h"
 
+#include <algorithm>
 #include <cstdint>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/process/program_error.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/text/parse_number.h"
@@ -34,21 +36,11 @@ CLI::Validator within(const Property& property) {
 
 }  // namespace
 
+std::string group_of(const Property& property) { return std::string(property.has(rare) ? "" : property.heading); }
+
 CLI::Option* PropertyOptions::add_parsed(std::string_view key, const std::function<void(const std::string&)>& parse) {
   const Property& property = property_of(key);
   return finish(property, command_.add_option_function<std::string>(std::string(property.option), parse));
-}
-
-CLI::Option* PropertyOptions::add_list(std::string_view key,
-                                       const std::function<void(const std::vector<std::string>&)>& parse) {
-  const Property& property = property_of(key);
-  return finish(property, command_.add_option_function<std::vector<std::string>>(std::string(property.option), parse));
-}
-
-CLI::Option* PropertyOptions::add_numbers(std::string_view key,
-                                          const std::function<void(const std::vector<float>&)>& parse) {
-  const Property& property = property_of(key);
-  return finish(property, command_.add_option_function<std::vector<float>>(std::string(property.option), parse));
 }
 
 CLI::Option* PropertyOptions::add_selection(std::string_view key, std::optional<Selection>& selection) {
@@ -71,7 +63,7 @@ std::size_t PropertyOptions::place_of_word(const Property& property, const std::
 }
 
 CLI::Option* PropertyOptions::finish(const Property& property, CLI::Option* option) const {
-  option->description(help_of(property))->group(std::string(property.heading));
+  option->description(help_of(property))->group(group_of(property));
   if (property.type == ValueType::flag) return option;
   option->type_name(std::string(property.value));
   if (property.has(repeatable)) option->allow_extra_args(false);
@@ -81,6 +73,15 @@ CLI::Option* PropertyOptions::finish(const Property& property, CLI::Option* opti
     option->check(within(property));
   if (!property.words.empty()) option->check(proposes(words_of(property)));
   return option;
+}
+
+std::size_t place_of(const std::string& text, const Property& property) {
+  const std::vector<std::string> words = words_of(property);
+  const auto word = std::ranges::find(words, text);
+  if (word == words.end())
+    throw UsageError(
+        fmt::format("{}: {} is not one of {}", property.long_option(), in_quotes(text), fmt::join(words, ", ")));
+  return static_cast<std::size_t>(word - words.begin());
 }
 
 Selection parse_selection_option(const std::string& option, const std::string& text) {

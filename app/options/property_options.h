@@ -55,10 +55,6 @@ class PropertyOptions {
 
   /// Text that `parse` understands.
   CLI::Option* add_parsed(std::string_view key, const std::function<void(const std::string&)>& parse);
-  /// Every text that was given of a repeatable option, in order.
-  CLI::Option* add_list(std::string_view key, const std::function<void(const std::vector<std::string>&)>& parse);
-  /// The numbers of one value.
-  CLI::Option* add_numbers(std::string_view key, const std::function<void(const std::vector<float>&)>& parse);
   /// A selection of atoms. Throws SelectionError that names the option.
   CLI::Option* add_selection(std::string_view key, std::optional<Selection>& selection);
   /// A flag that does something.
@@ -79,6 +75,17 @@ class PropertyOptions {
 
   CLI::App& command_;
 };
+
+/// What a word of a property means; `meanings` in the order of its words, the first where the text is empty. Throws
+/// UsageError.
+std::size_t place_of(const std::string& text, const Property& property);
+template <typename Meaning>
+Meaning meaning_of(const std::string& text, std::string_view key, std::initializer_list<Meaning> meanings) {
+  return text.empty() ? *meanings.begin() : *(meanings.begin() + place_of(text, property_of(key)));
+}
+
+/// The heading of the help under which a property's option stands; empty: the help does not have it.
+std::string group_of(const Property& property);
 
 /// Understands an expression that is the value of an option. Throws SelectionError, which names the option.
 Selection parse_selection_option(const std::string& option, const std::string& text);

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/options/object_option.h"
+#include "core/scene/object_json.h"
 #include "core/properties/properties.h"
 
 namespace meniscus {

@@ -23,7 +23,7 @@
 #include "app/preview/legend_strip.h"
 #include "app/preview/preview_view.h"
 #include "app/preview/export_job.h"
-#include "app/preview/render_words.h"
+#include "app/preview/rendered_scene.h"
 #include "app/preview/view_export.h"
 #include "core/camera/camera.h"
 #include "core/camera/camera_path.h"
@@ -56,14 +56,10 @@ struct SessionContext {
   /// Reads the molecule again as it is at a frame, with the atoms that are drawn beside its surface
   /// (FigureRequest::ask_for); so they are those that `meniscus render` would draw. Throws InputError.
   std::function<Structure(const FigureRequest& figure, std::size_t frame)> read_shown;
-  RenderInput input;              ///< for the command that makes the picture again
+  std::optional<Scene> scene;     ///< that the preview began with; nothing: it writes no scenes
   MakePictureDevice make_device;  ///< of exported pictures
   /// What is written into exported pictures of the molecule, as it is at a frame.
   std::function<Annotations(const Structure& structure)> annotations;
-  /// Writes the scene of a command line of `meniscus render`. Throws OutputError, RequestError.
-  std::function<void(const std::vector<std::string>& words, const ExportTarget& target)> save_scene;
-  /// The same scene as the text that pictures carry.
-  std::function<std::string(const std::vector<std::string>& words)> scene_text;
   /// Reads a scene. Throws InputError, UsageError; RequestError where it is one of another molecule.
   std::function<OpenedScene(const std::filesystem::path& path)> open_scene;
 };
@@ -200,7 +196,7 @@ class PreviewSession {
   /// The scene of that picture; empty where there is none.
   std::string scene_of(const CommandReader& command) const;
   /// The command that makes the picture which a command wishes.
-  std::vector<std::string> words_of(const CommandReader& command) const;
+  Scene shown_scene(const CommandReader& command) const;
   void update_legend();
   std::uint64_t number_of(std::size_t frame) const { return trajectory_ ? trajectory_->numbers[frame] : frame; }
   std::vector<CameraKey> camera_keys() const;

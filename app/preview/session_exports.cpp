@@ -11,12 +11,14 @@
 
 #include "app/preview/command_values.h"
 #include "app/preview/export_job.h"
+#include "app/options/scene_words.h"
 #include "app/preview/session.h"
 #include "app/preview/view_export.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/color_scale.h"
 #include "core/render/image_output.h"
+#include "core/scene/scene_json.h"
 #include "core/scene/surface_objects.h"
 
 namespace meniscus {
@@ -101,15 +103,15 @@ Json PreviewSession::cancel_export(const CommandReader&) {
 }
 
 std::string PreviewSession::scene_of(const CommandReader& command) const {
-  if (!context_.scene_text || trajectory_) return {};  // frames of a run carry none
+  if (!context_.scene || trajectory_) return {};  // frames of a run carry none
   try {
-    return context_.scene_text(words_of(command));
+    return scene_text(shown_scene(command), "");
   } catch (const RequestError&) {
     return {};  // render cannot make this view
   }
 }
 
-std::vector<std::string> PreviewSession::words_of(const CommandReader& command) const {
+Scene PreviewSession::shown_scene(const CommandReader& command) const {
   const PictureWishes wishes = wishes_of(command, view_);
   RenderedView view{view_, wishes.size, wishes.samples, wishes.transparent, {}, {}, {}, view_.wishes.dots_per_inch};
   if (trajectory_) view.frame = number_of(view_.frame);
@@ -124,21 +126,23 @@ std::vector<std::string> PreviewSession::words_of(const CommandReader& command) 
     // A model alone would have a scale of its own.
     if (view_.color.has_scale()) view.range = color_scale(structure_, view_.color).range;
   }
-  return render_words(context_.input, view);
+  return rendered_scene(context_.scene.value_or(Scene{}), view);
 }
 
 Json PreviewSession::render_command(const CommandReader& command) {
-  const std::vector<std::string> words = words_of(command);
+  const std::vector<std::string> words = render_words(shown_scene(command));
   return {{"words", words}, {"text", shell_line(words)}};
 }
 
 Json PreviewSession::save_scene(const CommandReader& command) {
-  if (!context_.save_scene) throw RequestError("save: this preview writes no scenes");
+  if (!context_.scene) throw RequestError("save: this preview writes no scenes");
   if (!command.text("path").ends_with(".json"))
     throw RequestError(
         fmt::format("save: \"path\" is {}; a scene's name must end in .json", in_quotes(command.text("path"))));
   const ExportTarget target = target_of(command, export_folder_);
-  context_.save_scene(words_of(command), target);
+  OutputFile file(target.path, target.existing);
+  file.write(scene_text(shown_scene(command), target.path.parent_path().string()));
+  file.commit();
   return {{"path", target.path.string()}};
 }
 

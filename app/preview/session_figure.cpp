@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "app/options/object_option.h"
+#include "core/scene/object_json.h"
 #include "app/preview/command_values.h"
 #include "app/preview/session.h"
 #include "core/base/error.h"

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 
-#include "app/options/object_option.h"
+#include "core/scene/object_json.h"
 #include "core/camera/camera_json.h"
 #include "app/preview/command_json.h"
 #include "app/preview/command_reader.h"
@@ -211,7 +211,7 @@ Json PreviewSession::state(const CommandReader&) {
              {"probe_radius", view_.probe_radius},
              {"color", color_json(view_.color)},
              {"patch_kinds", view_.patch_kinds},
-             {"preset", preset_word(view_.look.preset)},
+             {"preset", words_of(property_of("look.preset"))[static_cast<std::size_t>(view_.look.preset)]},
              {"look", look_json(look())},
              {"width", view_.size.x},
              {"height", view_.size.y},

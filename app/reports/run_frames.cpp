@@ -19,7 +19,7 @@
 #include "app/process/program_error.h"
 #include "app/reports/run_progress.h"
 #include "app/reports/notes.h"
-#include "app/options/molecule_options.h"
+#include "app/options/scene_options.h"
 #include "core/base/ordered_jobs.h"
 #include "core/base/text.h"
 
@@ -99,13 +99,13 @@ std::vector<Jobs::Worker> jobs_of(std::vector<FrameWorker> workers) {
   return jobs;
 }
 
-std::size_t frames_at_once(const FrameRun& frames, const MoleculeOptions& molecule, const FrameOptions& options,
-                           std::uint64_t frame_bytes) {
-  if (options.jobs > 0) return options.jobs;
+std::size_t frames_at_once(const FrameRun& frames, const SceneCommand& command, std::uint64_t frame_bytes) {
+  if (command.jobs > 0) return command.jobs;
   // Each thread takes far more addresses than memory.
   if (memory_is_limited()) return 1;
-  const auto cores = static_cast<std::uint64_t>(molecule.surface.threads > 0 ? molecule.surface.threads
-                                                                             : tbb::info::default_concurrency());
+  const auto cores =
+      static_cast<std::uint64_t>(command.scene.molecule.surface.threads > 0 ? command.scene.molecule.surface.threads
+                                                                            : tbb::info::default_concurrency());
   constexpr std::uint64_t kPartOfMemory = 4;  // the rest is for what else runs, and for the files read
   const std::uint64_t fit = memory_size() / kPartOfMemory / std::max<std::uint64_t>(1, frame_bytes);
   return std::max<std::uint64_t>(1, std::min({cores, fit, std::uint64_t{frames.chunk().size()}}));
@@ -113,25 +113,25 @@ std::size_t frames_at_once(const FrameRun& frames, const MoleculeOptions& molecu
 
 }  // namespace
 
-std::vector<std::shared_ptr<MoleculeBuilder>> frame_builders(const FrameRun& frames, const MoleculeOptions& molecule,
-                                                             const FrameOptions& options, std::uint64_t frame_bytes,
-                                                             const EglContext* context) {
-  std::vector<std::shared_ptr<MoleculeBuilder>> builders{std::make_shared<MoleculeBuilder>(molecule, context)};
+std::vector<std::shared_ptr<MoleculeBuilder>> frame_builders(const FrameRun& frames, const SceneCommand& command,
+                                                             std::uint64_t frame_bytes, const EglContext* context) {
+  std::vector<std::shared_ptr<MoleculeBuilder>> builders{
+      std::make_shared<MoleculeBuilder>(command.scene.molecule, context)};
   if (!builders.front()->is_on_cpu()) return builders;
-  const std::size_t count = frames_at_once(frames, molecule, options, frame_bytes);
-  while (builders.size() < count) builders.push_back(std::make_shared<MoleculeBuilder>(molecule, context));
+  const std::size_t count = frames_at_once(frames, command, frame_bytes);
+  while (builders.size() < count)
+    builders.push_back(std::make_shared<MoleculeBuilder>(command.scene.molecule, context));
   return builders;
 }
 
-void tell_beyond_map(const MoleculeOptions& molecule, std::span<const std::shared_ptr<MoleculeBuilder>> builders) {
+void tell_beyond_map(const SceneCommand& command, std::span<const std::shared_ptr<MoleculeBuilder>> builders) {
   double most = 0.0;
   for (const std::shared_ptr<MoleculeBuilder>& builder : builders) most = std::max(most, builder->most_beyond_map());
-  tell_beyond_map(molecule, most, "the surface of one frame, and no more of any other,");
+  tell_beyond_map(command, most, "the surface of one frame, and no more of any other,");
 }
 
-void run_frames(FrameRun& frames, const MoleculeOptions& molecule, const FrameOptions& options,
-                std::vector<FrameWorker> workers) {
-  RunProgress progress(options.progress, molecule.quiet, frames.chunk().size(), workers.size());
+void run_frames(FrameRun& frames, const SceneCommand& command, std::vector<FrameWorker> workers) {
+  RunProgress progress(command.reporting.progress, command.reporting.quiet, frames.chunk().size(), workers.size());
   Failures failures;
   EmptyPictures empty;
   // One more than are worked on waits to be, and one to be finished.
@@ -153,7 +153,7 @@ void run_frames(FrameRun& frames, const MoleculeOptions& molecule, const FrameOp
     }
   }
   progress.end();
-  if (empty.count > 0) say(molecule, empty.sentence());
+  if (empty.count > 0) say(command, empty.sentence());
   if (failures.count > 0) {
     throw RunError(failures.code,
                    fmt::format("{} of {} frames failed; the first, frame {}: {}", with_thousands(failures.count),

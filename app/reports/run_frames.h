@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "app/options/frame_options.h"
-#include "app/options/molecule_options.h"
+#include "app/options/scene_options.h"
 #include "core/scene/frame_run.h"
 #include "core/scene/molecule.h"
 
@@ -31,12 +30,12 @@ using FrameWorker = std::function<FinishFrame(RunFrame frame)>;
 /// Builders for as many frames as are worked on at once: as many as asked for (--jobs), else as the processor, the
 /// frames and the memory allow. `frame_bytes`: what a frame takes until it is finished. One alone where surfaces are
 /// made by GL, in `context` if there is one. Throws what MoleculeBuilder throws.
-std::vector<std::shared_ptr<MoleculeBuilder>> frame_builders(const FrameRun& frames, const MoleculeOptions& molecule,
-                                                             const FrameOptions& options, std::uint64_t frame_bytes,
+std::vector<std::shared_ptr<MoleculeBuilder>> frame_builders(const FrameRun& frames, const SceneCommand& command,
+                                                             std::uint64_t frame_bytes,
                                                              const EglContext* context = nullptr);
 
 /// Says how much of a frame's surface a volume map did not reach, of that frame of which it is the most.
-void tell_beyond_map(const MoleculeOptions& molecule, std::span<const std::shared_ptr<MoleculeBuilder>> builders);
+void tell_beyond_map(const SceneCommand& command, std::span<const std::shared_ptr<MoleculeBuilder>> builders);
 
 /// What a frame takes until it is finished, about: its surface and areas; and a mesh of half a pixel, with its file.
 constexpr std::uint64_t kSurfaceBytesPerAtom = 8'000, kMeshBytesPerAtom = 150'000;
@@ -47,7 +46,6 @@ constexpr std::uint64_t kSurfaceBytesPerAtom = 8'000, kMeshBytesPerAtom = 150'00
 /// meet them too. Pictures that show nothing are told in one line for all of them. At the end throws RunError: with the
 /// code of the first frame that failed, else with kExitIncomplete if the trajectory was cut short and the run reaches
 /// its last whole frame.
-void run_frames(FrameRun& frames, const MoleculeOptions& molecule, const FrameOptions& options,
-                std::vector<FrameWorker> workers);
+void run_frames(FrameRun& frames, const SceneCommand& command, std::vector<FrameWorker> workers);
 
 }  // namespace meniscus

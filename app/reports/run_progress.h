@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "app/options/frame_options.h"
+#include "app/options/scene_options.h"
 
 namespace meniscus {
 

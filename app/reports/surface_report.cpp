@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include "core/scene/surface_objects.h"
-#include "app/options/molecule_options.h"
 #include "core/base/text.h"
 
 namespace meniscus {
@@ -216,7 +215,7 @@ std::string report_json_line(const SurfaceReport& report, const FrameNote& note)
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string report_row_header(const MoleculeOptions& options) {
+std::string report_row_header(const MoleculeRequest& options) {
   return fmt::format("{:>9} {:>12} {:>14} {:>16} {:>10} {}\n", "frame", "time ps", "area Å²", "volume Å³", "components",
                      options.surface.kind == SurfaceKind::ses ? " accessible Å²" : "");
 }

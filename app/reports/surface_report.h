@@ -9,7 +9,6 @@
 
 #include "core/scene/area_columns.h"
 #include "core/scene/molecule.h"
-#include "app/options/molecule_options.h"
 
 namespace meniscus {
 
@@ -22,7 +21,7 @@ struct ContextNote {
 /// All numbers of a molecule's surfaces. `columns`: areas of its atoms.
 struct SurfaceReport {
   const Molecule& molecule;
-  const MoleculeOptions& options;
+  const MoleculeRequest& options;
   const std::vector<AreaColumn>& columns;
   const std::optional<ContextNote>& context;
 };
@@ -41,6 +40,6 @@ struct FrameNote {
 std::string report_json_line(const SurfaceReport& report, const FrameNote& note);
 /// A row of the table of a run, and the line above all of them.
 std::string report_row(const SurfaceReport& report, const FrameNote& note);
-std::string report_row_header(const MoleculeOptions& options);
+std::string report_row_header(const MoleculeRequest& options);
 
 }  // namespace meniscus

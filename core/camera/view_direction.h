@@ -27,6 +27,8 @@ struct ViewDirection {
   Frame frame = Frame::inertia;
   int axis = 2;           ///< of a file's frame or of inertia: 0 to 2
   bool opposite = false;  ///< from the other side
+
+  bool operator==(const ViewDirection&) const = default;
 };
 
 /// Understands x, y, z (file), 1, 2, 3 (inertia), symmetry, symmetry-side, each with - before it for the other side,

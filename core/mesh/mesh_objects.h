@@ -19,6 +19,9 @@ namespace meniscus {
 inline constexpr double kSmallestTolerance = 1e-5, kLargestTolerance = 1.0;  // Å
 inline constexpr double kSmallestDensity = 0.005, kLargestDensity = 1000.0;  // vertices per Å², of even meshes
 
+/// What a camera is for: nothing finer than this many pixels can be seen.
+inline constexpr double kPixelsOfACamera = 0.5;
+
 /// How far a mesh may be from the surface.
 struct MeshRequest {
   double tolerance = 0.01;        ///< Å

@@ -11,88 +11,97 @@ constexpr unsigned kShared = in_scene | in_bundle;
 constexpr unsigned kLook = kShared | live;
 constexpr std::string_view kLight = "Light", kLines = "Lines";
 
-constexpr auto kTable = std::to_array<Property>({
-    word("look.preset", "--preset", "WORD",
-         "Look on which the other options of light and lines build, in any order: publication (shade, thin lines, "
-         "colours as given), cover (studio light, highlights), flat (constant colours and lines), soft (matt, no "
-         "lines), classic (studio light alone). Where colours show numbers or a legend explains them, light "
-         "changes only their lightness")
-        .one_of("publication|cover|flat|soft|classic")
-        .initially("publication")
-        .in(kLight, kLook),
-    text("look.light", "--light", "X,Y,Z", "Direction towards the lamp: right, up, towards the viewer")
-        .initially("-0.45,0.65,0.75")
-        .in(kLight, kLook),
-    number("look.light_strength", "--light-strength", "F", "Strength of the lamp, 0 to 10")
-        .from(0, 10)
-        .initially("1")
-        .slider("Lamp", 2)
-        .in(kLight, kLook),
-    number("look.ambient", "--ambient", "F",
-           "Share of light that comes evenly from everywhere, 0 to 1; with 1 colours are exactly those given")
-        .from(0, 1)
-        .in(kLight, kLook),
-    number("look.roughness", "--roughness", "F",
-           "Roughness, from wax (0), which darkens towards its edges, to chalk (1)")
-        .from(0, 1)
-        .in(kLight, kLook),
-    number("look.specular", "--specular", "F", "Strength of highlights, 0 (none) to 1").from(0, 1).in(kLight, kLook),
-    number("look.shininess", "--shininess", "F", "Specular exponent, 1 to 1000; a larger one makes smaller highlights")
-        .from(1, 1000)
-        .in(kLight, kLook),
-    number("look.ambient_occlusion", "--ambient-occlusion", "F",
-           "Strength of the shade in pockets and clefts, 0 (none) to 1; only what the picture shows casts shade")
-        .from(0, 1)
-        .slider("Shade", 1)
-        .in(kLight, kLook),
-    number("look.ambient_occlusion_radius", "--ambient-occlusion-radius", "Å",
-           "Farthest distance that shade is cast, in Å")
-        .from(0.1, 1000)
-        .in(kLight, kLook),
-    text("look.silhouettes", "--silhouettes", "WIDTH",
-         "Width of black lines around what stands in front and between chains: pixels, 0.5pt or 0.2mm; 0: no lines")
-        .from(0, 16)
-        .slider("Lines", 6)
-        .in(kLines, kLook),
-    text("look.outer_lines", "--outer-lines", "WIDTH", "Width of the outline of the whole")
-        .from(0, 16)
-        .initially("--silhouettes")
-        .in(kLines, kLook),
-    text("look.inner_lines", "--inner-lines", "WIDTH",
-         "Width of lines where something stands in front of something else")
-        .from(0, 16)
-        .initially("--silhouettes")
-        .in(kLines, kLook),
-    text("look.part_lines", "--part-lines", "WIDTH", "Width of lines where chains meet")
-        .from(0, 16)
-        .initially("--silhouettes")
-        .in(kLines, kLook),
-    number("look.depth_cue", "--depth-cue", "F",
-           "How much the farthest atoms fade into the background (into white where it is transparent), 0 to 1. "
-           "Presets do not fade where colours show numbers or a legend explains them")
-        .from(0, 1)
-        .slider("Depth", 1)
-        .in(kLight, kLook),
-    flag("look.linear_alpha", "--linear-alpha",
-         "Make the edges of transparent .png and .tif for programs that blend in linear light; without it they "
-         "look right on a page")
-        .in("Picture", kLook),
-    text("look.material", "--material", "WORD", "Material of the surface, in the words of the renderer")
-        .in(kLight, kShared),
-    flag("look.comments", "--comments",
-         "Write a comment before each patch: convex, toroidal or concave, and the atoms that it touches")
-        .in("Output", kShared),
-    word("povray.material", "--material", "WORD",
-         "Material that the scene begins with: opaque, ghost, glass, wax or flat; the scene has all of them")
-        .one_of("opaque|ghost|glass|wax|flat")
-        .initially("opaque")
-        .in(kLight),
-    word("path_tracers.material", "--material", "WORD",
-         "Material of the surface: matte, plastic, glass or wax; what is shown beside it is matte")
-        .one_of("matte|plastic|glass|wax")
-        .initially("matte")
-        .in(kLight),
-});
+constexpr auto kTable = of_commands(
+    for_render | for_preview,
+    std::to_array<Property>({
+        word("look.preset", "--preset", "WORD",
+             "Look on which the other options of light and lines build, in any order: publication (shade, thin lines, "
+             "colours as given), cover (studio light, highlights), flat (constant colours and lines), soft (matt, no "
+             "lines), classic (studio light alone). Where colours show numbers or a legend explains them, light "
+             "changes only their lightness")
+            .one_of("publication|cover|flat|soft|classic")
+            .initially("publication")
+            .in(kLight, kLook),
+        text("look.light", "--light", "X,Y,Z", "Direction towards the lamp: right, up, towards the viewer")
+            .initially("-0.45,0.65,0.75")
+            .in(kLight, kLook),
+        number("look.light_strength", "--light-strength", "F", "Strength of the lamp, 0 to 10")
+            .from(0, 10)
+            .initially("1")
+            .slider("Lamp", 2)
+            .in(kLight, kLook),
+        number("look.ambient", "--ambient", "F",
+               "Share of light that comes evenly from everywhere, 0 to 1; with 1 colours are exactly those given")
+            .from(0, 1)
+            .in(kLight, kLook),
+        number("look.roughness", "--roughness", "F",
+               "Roughness, from wax (0), which darkens towards its edges, to chalk (1)")
+            .from(0, 1)
+            .in(kLight, kLook),
+        number("look.specular", "--specular", "F", "Strength of highlights, 0 (none) to 1")
+            .from(0, 1)
+            .in(kLight, kLook),
+        number("look.shininess", "--shininess", "F",
+               "Specular exponent, 1 to 1000; a larger one makes smaller highlights")
+            .from(1, 1000)
+            .in(kLight, kLook),
+        number("look.ambient_occlusion", "--ambient-occlusion", "F",
+               "Strength of the shade in pockets and clefts, 0 (none) to 1; only what the picture shows casts shade")
+            .from(0, 1)
+            .slider("Shade", 1)
+            .in(kLight, kLook),
+        number("look.ambient_occlusion_radius", "--ambient-occlusion-radius", "Å",
+               "Farthest distance that shade is cast, in Å")
+            .from(0.1, 1000)
+            .in(kLight, kLook),
+        text("look.silhouettes", "--silhouettes", "WIDTH",
+             "Width of black lines around what stands in front and between chains: pixels, 0.5pt or 0.2mm; 0: no lines")
+            .from(0, 16)
+            .slider("Lines", 6)
+            .in(kLines, kLook),
+        text("look.outer_lines", "--outer-lines", "WIDTH", "Width of the outline of the whole")
+            .from(0, 16)
+            .initially("--silhouettes")
+            .in(kLines, kLook | rare),
+        text("look.inner_lines", "--inner-lines", "WIDTH",
+             "Width of lines where something stands in front of something else")
+            .from(0, 16)
+            .initially("--silhouettes")
+            .in(kLines, kLook | rare),
+        text("look.part_lines", "--part-lines", "WIDTH", "Width of lines where chains meet")
+            .from(0, 16)
+            .initially("--silhouettes")
+            .in(kLines, kLook | rare),
+        number("look.depth_cue", "--depth-cue", "F",
+               "How much the farthest atoms fade into the background (into white where it is transparent), 0 to 1. "
+               "Presets do not fade where colours show numbers or a legend explains them")
+            .from(0, 1)
+            .slider("Depth", 1)
+            .in(kLight, kLook),
+        flag("look.linear_alpha", "--linear-alpha",
+             "Make the edges of transparent .png and .tif for programs that blend in linear light; without it they "
+             "look right on a page")
+            .in("Picture", kLook | rare),
+        text("look.material", "--material", "WORD", "Material of the surface, in the words of the renderer")
+            .in(kLight, kShared)
+            .of(for_povray | for_path_tracers),
+        flag("look.comments", "--comments",
+             "Write a comment before each patch: convex, toroidal or concave, and the atoms that it touches")
+            .in("Output", kShared)
+            .of(for_povray),
+        word("povray.material", "--material", "WORD",
+             "Material that the scene begins with: opaque, ghost, glass, wax or flat; the scene has all of them")
+            .one_of("opaque|ghost|glass|wax|flat")
+            .initially("opaque")
+            .in(kLight)
+            .of(for_povray),
+        word("path_tracers.material", "--material", "WORD",
+             "Material of the surface: matte, plastic, glass or wax; what is shown beside it is matte")
+            .one_of("matte|plastic|glass|wax")
+            .initially("matte")
+            .in(kLight)
+            .of(for_path_tracers),
+    }));
 
 }  // namespace
 

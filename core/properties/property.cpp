@@ -23,9 +23,10 @@ SceneForm scene_form(const Property& property) {
   }
 }
 
-std::vector<std::string> words_of(const Property& property) {
+std::vector<std::string> words_of(const Property& property) { return parted(property.words); }
+
+std::vector<std::string> parted(std::string_view left) {
   std::vector<std::string> words;
-  std::string_view left = property.words;
   while (!left.empty()) {
     const std::size_t bar = std::min(left.find('|'), left.size());
     words.emplace_back(left.substr(0, bar));

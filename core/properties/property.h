@@ -3,6 +3,8 @@
 // rows.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -30,8 +32,27 @@ enum Trait : unsigned {
   repeatable = 8,       ///< may be given several times; a list in scene files
   value_optional = 16,  ///< the option may stand without a value; true in scene files
   needs_support = 32,   ///< a command without it would show something else, so it refuses a scene that sets it
-  negated = 64          ///< the scene key is false where the option is given
+  negated = 64,         ///< the scene key is false where the option is given
+  rare = 128            ///< few need it: the help has no words about its option; --set has its key
 };
+
+/// Which commands have an option for a property; combined by |.
+enum CommandBit : unsigned {
+  for_surface = 1,
+  for_pockets = 2,
+  for_render = 4,
+  for_preview = 8,
+  for_povray = 16,
+  for_blender = 32,
+  for_path_tracers = 64,
+  for_mesh = 128,
+  for_atoms = 256,
+  for_info = 512,
+  for_bench = 1024
+};
+inline constexpr unsigned kForExports = for_povray | for_blender | for_path_tracers;  ///< of figures
+inline constexpr unsigned kForFigures = for_render | for_preview | kForExports;
+inline constexpr unsigned kForRuns = for_surface | for_pockets | kForFigures | for_mesh | for_atoms;
 
 /// The highest value of a property that has no upper limit.
 inline constexpr double kUnlimited = 1e18;
@@ -49,9 +70,11 @@ struct Property {
   double lowest = 0.0, highest = 0.0;  ///< of numbers, counts and lengths in pixels; equal: no range
   std::string_view words{};            ///< of a word all of them, else some that completion proposes: "ses|sas|vdw"
   std::string_view initial{};          ///< the default, which the help shows in brackets; empty: it shows none
-  std::string_view without{};          ///< in a scene: the value that means the same as leaving the key out
   std::string_view label{};            ///< of its slider in the preview; empty: it has none
   double slider_end = 0.0;             ///< the largest value that the slider reaches
+  unsigned commands = 0;               ///< those that have the option; 0: one that adds it by itself
+  std::string_view excluded{};         ///< keys that are not given beside it: "image.size|camera.from"
+  std::string_view needed{};           ///< a key without which it means nothing
 
   constexpr Property from(double least, double most) const {
     Property changed = *this;
@@ -70,9 +93,19 @@ struct Property {
     changed.initial = shown;
     return changed;
   }
-  constexpr Property omitted_as(std::string_view same) const {
+  constexpr Property of(unsigned all_commands) const {
     Property changed = *this;
-    changed.without = same;
+    changed.commands = all_commands;
+    return changed;
+  }
+  constexpr Property excludes(std::string_view keys) const {
+    Property changed = *this;
+    changed.excluded = keys;
+    return changed;
+  }
+  constexpr Property needs(std::string_view other_key) const {
+    Property changed = *this;
+    changed.needed = other_key;
     return changed;
   }
   constexpr Property slider(std::string_view name, double end) const {
@@ -126,6 +159,14 @@ constexpr Property camera(std::string_view key, std::string_view option, std::st
   return {ValueType::camera, key, option, value, help};
 }
 
+/// The table, its rows that name no commands given these.
+template <std::size_t size>
+constexpr std::array<Property, size> of_commands(unsigned commands, std::array<Property, size> table) {
+  for (Property& property : table)
+    if (property.commands == 0) property.commands = commands;
+  return table;
+}
+
 /// What the value of a property looks like in a scene file, and as words of a command line.
 enum class SceneForm {
   text,          ///< a text or a number
@@ -142,6 +183,8 @@ SceneForm scene_form(const Property& property);
 
 /// `words` parted at the bars.
 std::vector<std::string> words_of(const Property& property);
+/// Any such list.
+std::vector<std::string> parted(std::string_view list);
 
 /// The help with the default behind it, in brackets.
 std::string help_of(const Property& property);

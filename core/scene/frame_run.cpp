@@ -106,8 +106,7 @@ class Bound {
 /// Does it depend on where atoms stand which of them a frame has, or how they are drawn beside the surface?
 bool chooses_by_positions(const MoleculeRequest& molecule, const RunRequest& request) {
   const auto asks = [](const std::optional<Selection>& selection) { return selection && selection->uses_positions(); };
-  ReadOptions reading = molecule.reading;
-  molecule.representations.ask_for(reading);
+  const ReadOptions& reading = molecule.reading;
   return reading.secondary_structure || asks(reading.selection) || asks(request.context) ||
          std::ranges::any_of(reading.shown, [](const ShownAtoms& shown) { return shown.atoms.uses_positions(); }) ||
          std::ranges::any_of(reading.radii.overrides,
@@ -262,9 +261,7 @@ void FrameRun::prepare(const MoleculeRequest& molecule, const RunRequest& reques
       for (const Atom& atom : together_->atoms) wanted.push_back(atom.index);
     if (molecule.reading.selection) add_measured(*molecule.reading.selection, topology.atoms, wanted);
     if (request.context) add_measured(*request.context, topology.atoms, wanted);
-    ReadOptions reading = molecule.reading;
-    molecule.representations.ask_for(reading);
-    for (const ShownAtoms& shown : reading.shown) add_measured(shown.atoms, topology.atoms, wanted);
+    for (const ShownAtoms& shown : molecule.reading.shown) add_measured(shown.atoms, topology.atoms, wanted);
     preparation.whole.emplace(topology.atoms, bonds, wanted, molecule.file);
   }
   frames_ = std::make_unique<PreparedFrames>(*trajectory_, std::move(preparation));

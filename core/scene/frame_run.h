@@ -16,6 +16,7 @@
 #include "core/trajectory/read_ahead.h"
 #include "core/trajectory/trajectory.h"
 #include "core/scene/molecule.h"
+#include "core/scene/representations.h"
 #include "core/structure/selection/selection.h"
 
 namespace meniscus {

@@ -35,7 +35,6 @@ void refuse_trajectory(const std::string& path) {
 ReadOptions reading_of(const MoleculeRequest& request) {
   ReadOptions reading = request.reading;
   if (request.division.instances != InstanceMode::none) reading.copy_mode = CopyMode::instances;
-  request.representations.ask_for(reading);
   return reading;
 }
 
@@ -110,13 +109,6 @@ ColorScheme color_of(const MoleculeRequest& request) {
   return color;
 }
 
-std::vector<Ball> shown_balls(const Molecule& molecule) {
-  std::vector<Ball> balls = placed_balls(molecule.objects);
-  const std::vector<Ball> beside = balls_around(molecule.beside.shapes);
-  balls.insert(balls.end(), beside.begin(), beside.end());
-  return balls;
-}
-
 ColorKey key_of(const Molecule& molecule) {
   std::vector<std::string> names;
   for (const SurfaceObject& object : molecule.objects) names.push_back(object.name);
@@ -167,7 +159,6 @@ Molecule MoleculeBuilder::build(Structure structure) {
   if (!hidden.empty()) hide(hidden, molecule.objects);
   if (color_.volume) molecule.beyond_map = checked_share_beyond(*color_.volume, request_.volume_file, molecule);
   most_beyond_map_ = std::max(most_beyond_map_, molecule.beyond_map);
-  molecule.beside = shown_shapes(molecule.structure, request_.representations, molecule.color);
   molecule.device = computer_.device();
   molecule.stages = computer_.stages();
   return molecule;

@@ -11,7 +11,6 @@
 #include "core/color/color_key.h"
 #include "core/queries/surface_object.h"
 #include "core/scene/open_book.h"
-#include "core/scene/representations.h"
 #include "core/scene/surface_computer.h"
 #include "core/scene/surface_objects.h"
 #include "core/scene/surface_request.h"
@@ -29,7 +28,7 @@ struct MoleculeRequest {
   SurfaceRequest surface;
   Division division;
   ColorScheme color;
-  Representations representations;            ///< what is drawn beside the surface, of whatever atoms of the file
+  bool color_named = false;                   ///< whether somebody asked for the scheme of all atoms
   std::optional<InterfaceRequest> interface;  ///< opened like a book
   std::string number_file;                    ///< numbers to colour by, for ColorScheme::By::file
   std::string number_column;                  ///< of a number file that is a table
@@ -43,7 +42,6 @@ struct Molecule {
   Structure structure;
   ColorScheme color;                   ///< as asked for, with the numbers of its file
   std::vector<SurfaceObject> objects;  ///< at least one
-  ColoredShapes beside;                ///< what is drawn beside them
   double beyond_map = 0.0;             ///< share of the surface, in [0, 1), that its volume map does not reach
   std::string device;                  ///< what computed them
   std::vector<StageTime> stages;       ///< of all of them
@@ -60,9 +58,6 @@ std::unique_ptr<StructureFile> open_molecule(const MoleculeRequest& request);
 
 /// The colour scheme with the numbers of its file, if it has one. Throws InputError.
 ColorScheme color_of(const MoleculeRequest& request);
-
-/// Balls of its objects, wherever these stand, and around what is drawn beside them: what a camera shall show.
-std::vector<Ball> shown_balls(const Molecule& molecule);
 
 /// What the colours of its objects mean.
 ColorKey key_of(const Molecule& molecule);

@@ -32,7 +32,6 @@ struct Expressions {
     for (RadiusOverride& radius : molecule.reading.radii.overrides) of_surface.push_back(&radius.atoms);
     add(molecule.show, of_surface);
     add(molecule.color);
-    add(molecule.representations);
   }
 
   void add(FigureRequest& figure) {

@@ -83,7 +83,8 @@ TEST(Altloc, TakesARuleOrALetter) {
   EXPECT_NE(run("Z").err.find("no atom has the alternate location Z"), std::string::npos);
   const ProgramResult wrong = run("AB");
   EXPECT_EQ(wrong.exit_code, 2);
-  EXPECT_EQ(wrong.err, "meniscus: error: --altloc is 'AB'; it must be best, first, all or one letter\n");
+  EXPECT_EQ(wrong.err,
+            "meniscus: error: --altloc: 'AB' is not best, first, all or one letter; see meniscus surface --help\n");
 }
 
 TEST(Warnings, AreSummedUpListedOrLeftAway) {

@@ -169,7 +169,7 @@ ROWS = {
     "--time-stamp": (None, "frames"), "--curve": ("{curve.csv}", "frames"), "--curve-column": ("volume", "curve"),
     "--aovs": (None, "plain"), "--provenance": (None, "plain"), "--no-provenance": (None, "plain"),
     "--save-camera": ("saved.json", "plain"), "--scene": ("{scene.json}", "plain"), "--save-scene": ("saved.json", "plain"),
-    "--json": (None, "plain"), "--csv": ("a.csv", "plain"), "--csv-series": ("s.csv", "frames"),
+    "--set": ("surface.probe=2", "plain"), "--json": (None, "plain"), "--csv": ("a.csv", "plain"), "--csv-series": ("s.csv", "frames"),
     "--csv-cavities": ("c.csv", "frames"), "--csv-residues": ("r.csv", "plain"), "--plot": ("p.svg", "frames"),
     "--gradients": ("g.csv", "plain"), "--context": ("chain B", "choice"), "--ligand": ("resid 1-9", "cup"),
     "--mesh": ("p.ply", "cup"), "--figure": ("f.json", "cup"), "--large-probe": ("6", "cup"), "--trim": ("0", "cup"),
@@ -177,6 +177,16 @@ ROWS = {
     "--comments": (None, "plain"), "--tolerance": ("0.3", "plain"), "--tolerance-pixels": ("2", "plain"),
     "--density": ("1", "plain"), "--even": (None, "plain"), "--format": ("obj", "plain"), "--attributes": ("all", "plain"),
     "--unit": ("nanometer", "plain"), "--scale": ("3", "plain"),
+}
+
+# Options of which the help says nothing, as few need them.
+RARE = {
+    **{option: ("render", "preview") for option in ("--outer-lines", "--inner-lines", "--part-lines", "--linear-alpha",
+                                                    "--legend-place")},
+    **{option: ("render",) for option in ("--curve-column", "--stats")},
+    **{option: ("render", "farm bundle") for option in ("--bits", "--chroma")},
+    "--map-offset": ("render", "preview", "export povray", "export blender", "export mitsuba", "export pbrt", "export mesh",
+                     "export atoms"),
 }
 
 # Where it takes another value or another context.
@@ -217,14 +227,15 @@ EXCLUDES = {"--tolerance-pixels": "--tolerance", "--density": "--tolerance", "--
 
 def output_of(command, context):
     of_run = "--frames" in CONTEXTS[context] or "--trajectory" in CONTEXTS[context]
-    return {"render": "a.mp4" if context == "film" else "a.exr" if context == "exr" else "a_#.png" if of_run else "a.png", "export mesh": "a.glb",
-            "export ply": "a.ply", "export atoms": "a.atoms", "export blender": "a" if of_run else "a.mns"}.get(command, "a")
+    return {"render": "a.mp4" if context == "film" else "a.exr" if context == "exr" else "a_#.png" if of_run else "a.png", "export mesh": "a_#.glb" if of_run else "a.glb",
+            "export ply": "a_#.ply" if of_run else "a.ply", "export atoms": "a.atoms", "export blender": "a" if of_run else "a.mns"}.get(command, "a")
 
 
 def options_of(command):
-    """The options of a command, from its help."""
+    """The options of a command, from its help, and those that the help leaves out."""
     text = subprocess.run([PROGRAM, *command.split(), "--help-all"], capture_output=True, text=True).stdout
-    return sorted(set(re.findall(r"^  (?:-\w,)?(--[a-z-]+)", text, re.M)) - {"--output"})
+    shown = set(re.findall(r"^  (?:-\w,)?(--[a-z-]+)", text, re.M)) - {"--output"}
+    return sorted(shown | {option for option, commands in RARE.items() if command in commands})
 
 
 class Result:
@@ -355,6 +366,7 @@ TESTED = ["surface", "pockets", "info", "render", "preview", "export povray", "e
           "export mesh", "export ply", "export atoms", "formats", "farm bundle"]
 # What it is for is nothing that the command can do, or not with an output of that name.
 REFUSED = {("pockets", "--instances"), ("render", "--frames"), ("render", "--trajectory"),
+           *((f"export {mesh}", option) for mesh in ("mesh", "ply") for option in ("--frames", "--trajectory")),
            ("preview", "--color-map-file"), ("preview", "--map-offset"), ("export atoms", "--color-map-file"), ("export atoms", "--map-offset"), ("export pbrt", "--color-map-file"),
            ("export pbrt", "--map-offset"), ("export mitsuba", "--cap-hatching"), ("export mitsuba", "--film-opacity"),
            ("export pbrt", "--cap-hatching"), ("export pbrt", "--film-opacity")}

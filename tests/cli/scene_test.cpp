@@ -243,11 +243,13 @@ TEST_F(SceneFile, FaultsAreNamed) {
        {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr"},"imgae":{}})", "did you mean image", 3},
        {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr","keep_water":"yes"}})", "neither true nor false", 3},
        {R"({"meniscus_scene":1,"molecule":{"file":7}})", "molecule.file is no path", 3},
-       {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr"},"image":{"size":"big"}})", "image.size: --size", 2},
-       {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr","select":"chain"}})", "molecule.select: --select", 2},
+       {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr"},"image":{"size":"big"}})",
+        "image.size: 'big' is not WIDTHxHEIGHT", 2},
+       {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr","select":"chain"}})",
+        "molecule.select: a value is missing", 2},
        {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr"},"objects":{}})", "no JSON list", 3},
-       {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr"},"objects":[{"clip":"q<1"}]})", "objects[0].clip: --clip",
-        2},
+       {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr"},"objects":[{"clip":"q<1"}]})",
+        "objects[0].clip: 'q<1' is no plane", 2},
        {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr"},"objects":[{"representation":"cartoon","selection":"all"}]})",
         "none of surface, sticks", 2},
        {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr"},"objects":[{"representation":"sticks","selection":"all","clip":"x<1"}]})",
@@ -259,7 +261,7 @@ TEST_F(SceneFile, FaultsAreNamed) {
     EXPECT_NE(result.err.find(why), std::string::npos) << text << result.err;
     EXPECT_FALSE(std::filesystem::exists(path("bad.png")));
   }
-  EXPECT_NE(run({"info", "--scene", path("bad0.json")}).err.find("takes no --scene"), std::string::npos);
+  EXPECT_NE(run({"info", "--scene", path("bad0.json")}).err.find("has no option '--scene'"), std::string::npos);
   const std::string cut =
       folder_.file("cut.json", R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr"},"objects":[{"clip":"x<1"}]})");
   const ProgramResult refused = run({"export", "ply", "--scene", cut, "-o", path("cut.ply")});
@@ -271,7 +273,7 @@ TEST_F(SceneFile, FaultsAreNamed) {
 TEST_F(SceneFile, EveryOptionOfAPictureIsInScenesOrNamedAsLeftOut) {
   const std::set<std::string> beside{
       "--device",     "--force",  "--help",        "--help-all",      "--jobs",       "--only",  "--progress",
-      "--provenance", "--quiet",  "--require-gpu", "--save-camera",   "--save-scene", "--scene", "--stats",
+      "--provenance", "--quiet",  "--require-gpu", "--save-camera",   "--save-scene", "--scene", "--set",
       "--threads",    "--verify", "--warnings",    "--no-provenance", "--trust-scene"};
   const std::string scenes = run({"help", "scenes"}).out;
   for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{

@@ -239,8 +239,8 @@ class Hostile(FarmCase):
     def test_every_option_is_known_to_the_list_or_refused_on_purpose(self):
         """A new option of a command that can be bundled is looked at before it gets into bundles."""
         refused = {"--output", "--force", "--only", "--progress", "--save-camera", "--save-scene", "--scene", "--trust-scene", "--device",
-                   "--threads", "--require-gpu", "--jobs", "--help", "--help-all", "--aovs", "--stats", "--legend-file",
-                   "--codec", "--crf", "--bits", "--chroma"}
+                   "--threads", "--require-gpu", "--jobs", "--help", "--help-all", "--set", "--legend-file",
+                   "--codec", "--crf"}
         manifest = json.loads((self.render / "bundle.json").read_text())
         names = set()
         for command in (("render",), ("export", "povray"), ("export", "blender"), ("export", "mitsuba"), ("export", "pbrt")):

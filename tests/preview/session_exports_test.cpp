@@ -26,11 +26,7 @@ class SessionExports : public ::testing::Test {
     PreviewView view;
     view.size = {80, 60};
     SessionContext context;
-    context.save_scene = [](const std::vector<std::string>&, const ExportTarget& target) {
-      OutputFile file(target.path, target.existing);
-      file.write("a scene");
-      file.commit();
-    };
+    context.scene.emplace();
     session_ =
         std::make_unique<PreviewSession>(make_cpu_view_renderer(), read_structure(folder_.file("two.pdb", kTwoModels)),
                                          view, std::nullopt, folder_.path(), std::nullopt, context);

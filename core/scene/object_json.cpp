@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads each key by the same parsers that options have.
-#include "app/options/object_option.h"
+#include "core/scene/object_json.h"
 
 #include <algorithm>
 #include <array>

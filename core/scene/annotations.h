@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The options that write into a picture: its legend, a panel's letter, a scale bar, labels, the time.
+// What is written into a picture as a scene asks for it: its legend, a panel's letter, a scale bar, labels, the time.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
-#include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
-#include "core/camera/view_request.h"
 #include "core/render/annotation.h"
 #include "core/render/legend.h"
 #include "core/structure/selection/selection.h"
@@ -40,17 +38,13 @@ struct AnnotationRequest {
   std::string curve, curve_column;  ///< the file and a name in it; empty: none, the first
 };
 
-/// --legend, --legend-file, --legend-title, --legend-size, --legend-place. picture: as for add_look_options.
-void add_legend_options(CLI::App& command, LegendRequest& request, ViewRequest& picture);
+/// "auto" or a length in Å. Throws RequestError.
+void parse_scale_bar(const std::string& text, AnnotationRequest& request);
+/// Reads "EXPR=TEXT", split at the last "=", for selections may have some. Throws RequestError, SelectionError.
+LabelRequest parse_label(std::string_view text);
 
-/// --panel, --scale-bar, --label, --time-stamp.
-void add_annotation_options(CLI::App& command, AnnotationRequest& request);
-
-/// --curve, --curve-column.
-void add_curve_options(CLI::App& command, AnnotationRequest& request);
-
-/// The numbers of --curve for the frames of a run, given by their numbers in the trajectory; nothing if there is none.
-/// Throws InputError.
+/// The numbers of the curve for the frames of a run, given by their numbers in the trajectory; nothing if there is
+/// none. Throws InputError.
 std::optional<Curve> curve_of(const AnnotationRequest& request, std::span<const std::uint64_t> frames);
 
 /// What is written into a picture of the structure; no time. Throws InputError for a label of no atoms.

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads a scene's molecule or run, aims its cameras, and hands its figures to sinks.
+#include "app/commands/figure_run.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "app/options/camera_file.h"
+#include "app/process/program_error.h"
+#include "app/reports/notes.h"
+#include "core/queries/combine.h"
+#include "core/scene/copied_atoms.h"
+#include "core/scene/scene_values.h"
+#include "core/scene/settled_selections.h"
+#include "core/scene/surface_kind.h"
+
+namespace meniscus {
+namespace {
+
+SceneCommand ready(const SceneCommand& command) {
+  SceneCommand made = command;
+  made.scene = readied(command.scene);
+  settle_selections(made.scene.molecule, made.scene.frames,
+                    {.figure = &made.scene.figure, .view = &made.scene.picture, .motion = &made.scene.run_camera});
+  return made;
+}
+
+}  // namespace
+
+FigureRun::FigureRun(const SceneCommand& command, bool velocities)
+    : command_(ready(command)), given_(given_cameras(command_.scene.picture, command_.scene.run_camera)) {
+  if (command_.scene.frames.asked())
+    open_run(velocities);
+  else
+    make_one_figure();
+}
+
+void FigureRun::open_run(bool velocities) {
+  frames_ = std::make_unique<FrameRun>(command_.scene.molecule, command_.scene.frames, velocities);
+  tell_run(command_, *frames_);
+  measure_colors(command_.scene.molecule.color, *frames_);
+}
+
+void FigureRun::make_one_figure() {
+  Structure structure = read_and_tell(command_);
+  aim_.emplace(command_.scene.picture, command_.scene.molecule.show, structure);
+  tell_if_unseen(command_, given_.still, structure);
+  figure_ = make_figure(build_and_tell(command_, std::move(structure)), command_.scene.figure);
+}
+
+void FigureRun::aim(const ViewRequest& picture, bool extent) {
+  if (!frames_) {
+    framing_.cameras = {aim_->camera(picture, given_.still, figure_->molecule.objects)};
+  } else if (extent) {
+    framing_ = run_framing(picture, scene().molecule.show, scene().run_camera, given_, *frames_);
+  } else {
+    framing_.cameras = run_cameras(picture, scene().molecule.show, scene().run_camera, given_, *frames_);
+  }
+  tell_idle_cuts();
+}
+
+void FigureRun::tell_idle_cuts() const {
+  const Camera& camera = framing_.cameras.front();
+  if (!frames_) {
+    for (const std::string& sentence : idle_cuts(scene().figure, *figure_, camera))
+      say(command_, "note: --clip " + sentence);
+    return;
+  }
+  if (scene().figure.cuts.empty() || scene().figure.hides_surface) return;
+  const SurfaceRequest& surface = scene().molecule.surface;
+  std::vector<Ball> balls = grown(balls_of(structure()), growth_of(surface.kind, surface.probe_radius));
+  if (!structure().instances.empty()) balls = reaching_balls(balls, structure().instances);
+  for (const std::string& sentence : idle_cuts(scene().figure.cuts, camera, balls, balls))
+    say(command_, fmt::format("note: --clip {}, in the first frame of the run", sentence));
+}
+
+ColorKey FigureRun::key() const {
+  return frames_ ? color_key(frames_->reach(), color_of(scene().molecule), {}) : key_of(figure_->molecule);
+}
+
+void FigureRun::make(const FigureWork& work, const std::function<Sink()>& make_sink) {
+  if (!frames_) {
+    const Camera& camera = framing_.cameras.front();
+    if (make_sink()({0, 0, 0, std::nullopt, std::move(*figure_), camera, {}})().shows_nothing)
+      say(command_, kShowsNothing);
+    return;
+  }
+  const std::uint64_t bytes = work.bytes_per_atom * structure().atoms.size() + work.bytes_per_frame;
+  const auto builders = frame_builders(*frames_, command_, bytes, work.context);
+  std::vector<FrameWorker> workers;
+  for (const std::shared_ptr<MoleculeBuilder>& builder : builders)
+    workers.push_back([this, builder, sink = make_sink()](RunFrame frame) {
+      const Camera& seen_by = camera(frame.place);
+      return sink({frame.number, frame.source, frame.place, frame.time,
+                   make_figure(builder->build(std::move(frame.structure)), scene().figure), seen_by,
+                   std::move(frame.velocities)});
+    });
+  run_frames(*frames_, command_, std::move(workers));
+  tell_beyond_map(command_, builders);
+}
+
+void settle_copies(std::vector<SurfaceObject>& objects) {
+  if (std::ranges::none_of(objects, [](const SurfaceObject& object) { return object.copies.size() > 1; })) return;
+  SurfaceObject whole = merged(std::move(objects));
+  objects.clear();
+  objects.push_back(std::move(whole));
+}
+
+void check_caps_of_map(const Scene& scene, std::string_view reason) {
+  if (scene.molecule.color.by != ColorScheme::By::volume) return;
+  if (!scene.figure.cuts.empty() && !scene.figure.cap.color)
+    throw UsageError(fmt::format("--color-map-file with --clip needs --cap-color: {}", reason));
+  for (const FigureObjectRequest& object : scene.figure.objects)
+    if (!object.shapes && !object.color && !object.cuts.empty() && !object.cap.color)
+      throw UsageError(fmt::format("--color-map-file with a \"clip\" in --object needs its \"cap_color\": {}", reason));
+}
+
+void check_saved_camera(const SceneCommand& command) {
+  check_camera_file(command.save_camera, command.existing());
+  if (!command.save_camera.empty() && command.scene.frames.asked() && command.scene.run_camera.moves())
+    throw UsageError("--save-camera: a camera that moves is not a single one; leave it out");
+}
+
+MadeFrame made_frame(std::span<const std::filesystem::path> files) {
+  MadeFrame made;
+  for (const std::filesystem::path& file : files) made.files.push_back(file.string());
+  return made;
+}
+
+void run_and_save_scene(const SceneCommand& command, const std::function<void()>& run) {
+  SceneOutput scene(command);
+  run();
+  scene.commit();
+}
+
+}  // namespace meniscus

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Draws pictures into files, or for a film, with their legend and what is written into them.
+#include "app/commands/picture_sink.h"
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/process/program_error.h"
+#include "app/reports/notes.h"
+#include "core/base/progress.h"
+#include "core/base/text.h"
+#include "core/render/picture_file.h"
+
+namespace meniscus {
+namespace {
+
+/// Tells how far a picture is that takes long on the CPU; GL makes it in a fraction of the time.
+class PictureProgress {
+ public:
+  PictureProgress(const RenderCommand& command, RenderSettings& settings) {
+    const double rays = static_cast<double>(settings.samples) * settings.size.x * settings.size.y;
+    if (command.reporting.quiet || rays < kManyRays) return;
+    progress_.emplace(progress_on_stderr(command), "picture", kParts);
+    settings.progress = [this](double share) { tell(static_cast<std::uint64_t>(share * kParts)); };
+  }
+  void end() {
+    if (progress_) tell(kParts);
+  }
+
+ private:
+  void tell(std::uint64_t parts) {
+    if (parts <= told_) return;
+    progress_->advance(parts - told_);
+    told_ = parts;
+  }
+
+  static constexpr double kManyRays = 5e7;  // some seconds
+  static constexpr std::uint64_t kParts = 100;
+  std::optional<Progress> progress_;
+  std::uint64_t told_ = 0;
+};
+
+std::optional<Curve> curve_of_run(const Scene& scene, const FrameRun& run) {
+  std::vector<std::uint64_t> numbers = run.numbers();
+  for (std::uint64_t& number : numbers) number = run.source(number);
+  return curve_of(scene.annotations, numbers);
+}
+
+}  // namespace
+
+PictureSink::PictureSink(const RenderCommand& command, const PictureLayout& layout, const FrameRun* run)
+    : command_(command), layout_(layout), run_(run) {
+  if (!run) return;
+  name_files(command.scene.output);
+  curve_ = curve_of_run(command.scene, *run);
+}
+
+void PictureSink::name_files(const std::string& path) {
+  const Scene& scene = command_.scene;
+  if (is_film_path(path)) {
+    if (!scene.frames.only.empty())
+      throw UsageError("--only: a film needs all frames; write the chunk as pictures: frame_#####.png");
+    film_ = std::make_unique<FilmWriter>(path, command_.existing(), scene.picture.size(), scene.film.frames_per_second,
+                                         scene.film);
+    return;
+  }
+  numbered_ = NumberedPath::parse(path);
+  if (!numbered_)
+    throw UsageError(
+        fmt::format("-o {}: every frame would replace the one before; put # where its number goes, as in "
+                    "{}, or name a film (.mp4)",
+                    in_quotes(path), in_quotes(numbered_name(path))));
+  check_image_path(path);
+}
+
+Annotations PictureSink::annotations(const SinkPicture& picture, const Structure& structure) const {
+  Annotations annotations = annotations_of(command_.scene.annotations, structure);
+  if (!run_) return annotations;
+  if (command_.scene.annotations.time_stamp) annotations.time = time_text(picture.time, picture.source);
+  annotations.curve = curve_;
+  if (curve_) annotations.curve->now = picture.place;
+  return annotations;
+}
+
+FinishFrame PictureSink::keep(const SinkPicture& picture, const Annotations& annotations, const Draw& draw) {
+  return film_ ? to_film(picture, annotations, draw) : to_file(picture, annotations, draw);
+}
+
+FinishFrame PictureSink::to_file(const SinkPicture& picture, const Annotations& annotations, const Draw& draw) {
+  RenderSettings settings = render_settings(command_, layout_);
+  std::optional<PictureProgress> progress;
+  if (!run_) progress.emplace(command_, settings);
+  const std::string path = numbered_ ? numbered_->at(picture.number) : command_.scene.output;
+  PictureFile file(path, {annotations, layout_.legend}, picture.camera, image_settings(command_), settings);
+  if (run_ && layout_.legend)
+    settings.take_band = [this, take = settings.take_band](Framebuffer band, int first_row) {
+      const std::lock_guard lock(legend_);
+      take(std::move(band), first_row);
+    };
+  draw(settings);
+  if (progress) progress->end();
+  file.commit();
+  return [path, shows_nothing = !file.shows_something()] { return MadeFrame{{path}, shows_nothing}; };
+}
+
+FinishFrame PictureSink::to_film(const SinkPicture& picture, const Annotations& annotations, const Draw& draw) {
+  Framebuffer drawn = draw(render_settings(command_, layout_));
+  const bool shows_nothing = std::ranges::none_of(drawn.color, [](const glm::vec4& pixel) { return pixel.w > 0.0f; });
+  annotate(drawn, annotations, picture.camera, command_.scene.image.background);
+  if (layout_.legend) {
+    const std::lock_guard lock(legend_);
+    drawn = layout_.legend->add_to(drawn, command_.scene.image.background);
+  }
+  auto pixels =
+      std::make_shared<const std::vector<std::uint8_t>>(srgb_pixels(drawn, ground_of_film(), film_->pixels().bytes));
+  return [this, pixels, shows_nothing] {
+    film_->add(*pixels);
+    return MadeFrame{{}, shows_nothing};
+  };
+}
+
+/// White where none was asked for, but in a film that keeps what is transparent.
+std::optional<glm::vec3> PictureSink::ground_of_film() const {
+  const std::optional<glm::vec3>& background = command_.scene.image.background;
+  if (background || film_->pixels().channels == 4) return background;
+  return glm::vec3(1.0f);
+}
+
+void PictureSink::finish() {
+  if (film_) film_->finish();
+}
+
+}  // namespace meniscus

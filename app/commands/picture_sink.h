@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the pictures of `meniscus render` go: a file, numbered files, or a film.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "app/commands/render_command.h"
+#include "app/film/film.h"
+#include "app/options/numbered_path.h"
+#include "app/reports/run_frames.h"
+#include "core/camera/camera.h"
+#include "core/render/annotation.h"
+#include "core/scene/frame_run.h"
+
+namespace meniscus {
+
+/// A picture to be drawn.
+struct SinkPicture {
+  std::uint64_t number = 0;  ///< in the run
+  std::uint64_t place = 0;   ///< in the run, from 0
+  std::uint64_t source = 0;  ///< in the trajectory
+  std::optional<double> time{};
+  Camera camera{};
+};
+
+class PictureSink {
+ public:
+  /// run: whose frames they are; nullptr: there is one picture. Throws UsageError for a name that does not fit, and for
+  /// a film of a part of a run. The command, the layout and the run must stay.
+  PictureSink(const RenderCommand& command, const PictureLayout& layout, const FrameRun* run);
+
+  /// Draws the molecule as the settings say: in bands where there are some to take (RenderSettings::take_band), else as
+  /// a whole.
+  using Draw = std::function<Framebuffer(const RenderSettings& settings)>;
+  /// What is written into a picture of the structure. Throws InputError for a label of no atoms.
+  Annotations annotations(const SinkPicture& picture, const Structure& structure) const;
+  /// Draws a picture, on any thread; what it returns adds it to a film.
+  FinishFrame keep(const SinkPicture& picture, const Annotations& annotations, const Draw& draw);
+
+  /// Once all pictures are there.
+  void finish();
+
+ private:
+  void name_files(const std::string& path);
+  FinishFrame to_file(const SinkPicture& picture, const Annotations& annotations, const Draw& draw);
+  FinishFrame to_film(const SinkPicture& picture, const Annotations& annotations, const Draw& draw);
+  std::optional<glm::vec3> ground_of_film() const;
+
+  const RenderCommand& command_;
+  const PictureLayout& layout_;
+  const FrameRun* run_;
+  std::optional<NumberedPath> numbered_;
+  std::unique_ptr<FilmWriter> film_;
+  std::optional<Curve> curve_;  ///< the same in all pictures but for its mark
+  std::mutex legend_;           ///< its letters come from one font, which one thread uses at a time
+};
+
+}  // namespace meniscus

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Declares options by the table of properties, and sets the values of a scene from a scene file and from what was
+// typed.
+#include "app/options/scene_options.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "app/options/command_tree.h"
+#include "app/options/idle_options.h"
+#include "app/options/property_options.h"
+#include "app/options/scene_trust.h"
+#include "app/options/usage_faults.h"
+#include "app/options/value_words.h"
+#include "app/process/program_error.h"
+#include "core/base/error.h"
+#include "core/base/similar_words.h"
+#include "core/base/text.h"
+#include "core/color/color_maps.h"
+#include "core/mesh/check_by_mesh.h"
+#include "core/scene/scene_values.h"
+#include "core/structure/formats/formats.h"
+#include "exporters/mesh_files/mesh_formats.h"
+#include "exporters/mesh_files/vertex_numbers.h"
+
+namespace meniscus {
+namespace {
+
+bool has_option(const Property& property, CommandBit bit) {
+  return (property.commands & bit) != 0 && is_scene_value(property);
+}
+
+/// Which GPUs this process is meant to see, which of several it takes, and where their kernels are kept.
+void read_environment(DeviceChoice& choice) {
+  const char* const kept = std::getenv(kKernelVariable);
+  if (const std::string cache = cache_folder(); !cache.empty() && !(kept && std::string_view(kept) == "off"))
+    choice.kernel_folder = cache + "/kernels";
+  if (const char* const visible = std::getenv("CUDA_VISIBLE_DEVICES")) choice.cuda_visible = visible;
+  for (const char* const variable : {"SLURM_LOCALID", kWorkerVariable}) {
+    const char* const text = std::getenv(variable);
+    int number = -1;
+    if (text && std::from_chars(text, text + std::strlen(text), number).ec == std::errc() && number >= 0)
+      choice.worker = number;
+  }
+}
+
+/// Words to propose that other tables know.
+std::vector<std::string> proposed_words(std::string_view key) {
+  std::vector<std::string> words;
+  const auto add = [&](const auto& table, auto name) {
+    for (const auto& row : table) words.emplace_back(name(row));
+  };
+  if (key == "surface.color") add(color_schemes(), [](const auto& row) { return row.word; });
+  if (key == "surface.map") add(color_maps(), [](const auto& row) { return row.name; });
+  if (key == "camera.view") words = view_direction_words();
+  if (key == "mesh.format") add(mesh_formats(), [](const auto& row) { return row.word; });
+  if (key == "mesh.attributes") {
+    words = {"usual", "all", "none"};
+    add(vertex_number_kinds(), [](const auto& row) { return row.name; });
+  }
+  if (key == "molecule.radii") {
+    words = {"file"};
+    add(radii_sets(), [](const auto* row) { return row->name; });
+  }
+  return words;
+}
+
+void add_option(CLI::App& command, const Property& property) {
+  const std::string name(property.option);
+  if (property.type == ValueType::flag) {
+    command.add_flag(name)->description(help_of(property))->group(group_of(property));
+    return;
+  }
+  // Values are looked at when all are known.
+  CLI::Option* const option = command.add_option(name)->description(help_of(property))->group(group_of(property));
+  option->type_name(std::string(property.value));
+  if (property.has(repeatable)) option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->expected(1);
+  if (property.has(value_optional)) option->expected(0, 1);
+  if (property.key == "look.light") option->delimiter(',')->expected(3);
+  std::vector<std::string> words = proposed_words(property.key);
+  if (words.empty()) words = words_of(property);
+  if (!words.empty()) option->check(proposes(words));
+}
+
+bool is_path(const Property& property) {
+  return property.type == ValueType::file || property.type == ValueType::new_file || property.type == ValueType::camera;
+}
+
+}  // namespace
+
+SceneOptions::SceneOptions(CLI::App& command, CommandBit bit, SceneCommand& into)
+    : command_(command), bit_(bit), into_(into) {
+  for (const Property* property : properties()) {
+    if ((property->commands & bit) == 0) continue;
+    if (is_scene_value(*property))
+      add_option(command, *property);
+    else
+      add_own_option(*property);
+  }
+  if (command.get_option_no_throw("--device")) read_environment(into.scene.molecule.surface.gl);
+  if (command.get_option_no_throw("FILE"))
+    option("molecule.file")->description("Molecule: " + format_names() + "; .gz too; - is standard input")->required();
+  if ((bit & kForRuns) != 0) into.scene.frames.index_folder = cache_folder();
+}
+
+/// Those that say how the work is done; and trajectories that stand behind FILE.
+void SceneOptions::add_own_option(const Property& property) {
+  PropertyOptions options(command_);
+  const std::string_view key = property.key;
+  if (key == "molecule.warnings")
+    options.add_word(key, into_.reporting.warnings, {WarningDetail::full, WarningDetail::summary, WarningDetail::none});
+  if (key == "molecule.quiet") options.add(key, into_.reporting.quiet);
+  if (key == "frames.jobs") options.add(key, into_.jobs);
+  if (key == "frames.progress") {
+    using enum ProgressStyle;
+    options.add_word(key, into_.reporting.progress, {automatic, bar, plain, json, openjd, none});
+  }
+  if (key == "frames.trajectories")
+    command_.add_option_function<std::vector<std::string>>("TRAJECTORY", [](const std::vector<std::string>&) {})
+        ->description(std::string(property.help))
+        ->group(std::string(property.heading))
+        ->allow_extra_args()
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  if (key == "camera.save") options.add(key, into_.save_camera);
+  if (key == "output.force") options.add(key, into_.force);
+  if (key == "scene.save") options.add(key, into_.save_scene);
+  if (key == "scene.set")
+    command_.add_option(std::string(property.option))
+        ->description(std::string(property.help))
+        ->type_name(std::string(property.value))
+        ->group(std::string(property.heading))
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->expected(1);
+  if (key == "scene.trust") options.add_switch(key, [] {});
+  if (key == "scene.read")
+    options.add_parsed(key, [this](const std::string& path) {
+      if (path.empty()) throw UsageError("--scene needs a FILE");
+      file_ = path;
+      option("molecule.file")->required(false);
+    });
+}
+
+CLI::Option* SceneOptions::option(std::string_view key) const {
+  return command_.get_option(std::string(property_of(key).long_option()));
+}
+
+void SceneOptions::describe_output(const std::string& what, OutputName name) {
+  option("output.file")->description(what)->required(name == OutputName::required);
+}
+
+bool SceneOptions::typed(std::string_view key) const {
+  const CLI::Option* const option = command_.get_option_no_throw(std::string(property_of(key).long_option()));
+  if (key == "frames.trajectory" && command_.get_option_no_throw("TRAJECTORY") && command_.count("TRAJECTORY") > 0)
+    return true;
+  return option && option->count() > 0;
+}
+
+std::vector<std::string> SceneOptions::typed_texts(const Property& property) const {
+  std::vector<std::string> texts;
+  if (property.key == "frames.trajectory" && command_.get_option_no_throw("TRAJECTORY"))
+    texts = command_.get_option("TRAJECTORY")->results();
+  const CLI::Option* const given = option(property.key);
+  if (given->count() == 0) return texts;
+  const std::vector<std::string>& all = given->results();
+  if (property.has(repeatable)) {
+    texts.insert(texts.end(), all.begin(), all.end());
+  } else if (property.key == "look.light") {
+    const std::size_t first = all.size() > 3 ? all.size() - 3 : 0;
+    texts = {fmt::format("{}", fmt::join(all.begin() + static_cast<std::ptrdiff_t>(first), all.end(), ","))};
+  } else {
+    texts = {all.empty() ? std::string() : all.back()};
+  }
+  return texts;
+}
+
+void SceneOptions::refuse(std::string_view key, const std::string& what) const {
+  const auto place = places_.find(std::string(key));
+  if (place != places_.end() && !typed(key))
+    throw UsageError(place->second.starts_with("--") ? fmt::format("{}: {}", place->second, what)
+                                                     : fmt::format("{}: {}: {}", escaped(file_), place->second, what));
+  throw CLI::ValidationError(std::string(property_of(key).long_option()), what);
+}
+
+void SceneOptions::set(const Property& property, const std::vector<std::string>& texts) {
+  try {
+    set_value(into_.scene, property, texts);
+  } catch (const SelectionError& error) {
+    const auto place = places_.find(std::string(property.key));
+    const std::string where = place == places_.end() || typed(property.key) ? std::string(property.long_option())
+                              : place->second.starts_with("--")             ? place->second
+                                                                : fmt::format("{}: {}", escaped(file_), place->second);
+    throw SelectionError(fmt::format("{}: {}", where, error.sentence()), error.picture());
+  } catch (const ValueError& error) {
+    refuse(property.key, error.what());
+  }
+}
+
+std::vector<SceneSetting> SceneOptions::read_scene_file(const std::vector<std::string>& named) {
+  if (file_.empty()) return {};
+  std::vector<std::string> words;
+  for (const CLI::Option* option : command_.get_options())
+    words.insert(words.end(), option->results().begin(), option->results().end());
+  const SceneTrust trust{
+      file_, std::move(words), named,
+      command_.count("--trust-scene") > 0 || std::ranges::find(named, "--trust-scene") != named.end(),
+      command_.get_option_no_throw("--force") && command_.count("--force") > 0};
+  std::vector<SceneSetting> settings = parse_scene(read_scene_text(file_), file_);
+  std::erase_if(settings, [&](const SceneSetting& setting) {
+    const Property& property = *setting.property;
+    // The name of a picture does not fit the folder of an export.
+    if (property.key == "output.file" && bit_ != for_render) return true;
+    return is_path(property) && !property.has(repeatable) && typed(property.key);
+  });
+  for (SceneSetting& setting : settings)
+    for (std::string& text : setting.texts)
+      if (is_path(*setting.property) && !(setting.property->type == ValueType::camera && text.starts_with('{')))
+        text = trust.path(*setting.property, text, setting.place);
+  if (!typed("molecule.file") &&
+      std::ranges::none_of(settings, [](const auto& setting) { return setting.property->key == "molecule.file"; }))
+    throw InputError(file_, 0, "scene: molecule.file is missing; name it there, or on the command line");
+  return settings;
+}
+
+/// Of --set, in the form of a scene file's settings.
+std::vector<SceneSetting> SceneOptions::typed_settings() const {
+  std::vector<SceneSetting> settings;
+  const CLI::Option* const option = command_.get_option_no_throw("--set");
+  if (!option) return settings;
+  for (const std::string& text : option->results()) {
+    const std::size_t sign = std::min(text.find('='), text.size());
+    const std::string key = text.substr(0, sign);
+    std::vector<std::string_view> keys;
+    const Property* named = nullptr;
+    for (const Property* property : properties()) {
+      if (!has_option(*property, bit_)) continue;
+      keys.push_back(property->key);
+      if (property->key == key) named = property;
+    }
+    if (!named || sign == text.size()) {
+      const std::string_view nearest = nearest_word(key, keys);
+      throw CLI::ValidationError(
+          "--set", named ? fmt::format("{} has no value; write KEY=VALUE", in_quotes(text))
+                         : fmt::format("{} is not a key that {} has{}; meniscus help scenes lists them", in_quotes(key),
+                                       command_path(command_),
+                                       nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest)));
+    }
+    settings.push_back({named, {text.substr(sign + 1)}, "--set " + key});
+  }
+  return settings;
+}
+
+void SceneOptions::take_setting(const SceneSetting& setting) {
+  const Property& property = *setting.property;
+  if ((property.commands & bit_) != 0) {
+    places_[std::string(property.key)] = setting.place;
+    return set(property, setting.texts);
+  }
+  const bool shows = has_option(property_of("surface.color"), bit_);
+  if (!shows || !property.has(needs_support)) return;
+  Scene alone;
+  set_value(alone, property, setting.texts);
+  if (!value_texts(alone, property).empty())
+    throw UsageError(fmt::format("{}: {}: {} cannot show that ({}); leave it out of the scene, or choose render",
+                                 escaped(file_), setting.place, command_path(command_), property.long_option()));
+}
+
+void SceneOptions::take(const std::vector<std::string>& named) {
+  const std::vector<SceneSetting> settings = read_scene_file(named), typed_by_key = typed_settings();
+  for (const Property* property : properties()) {
+    if (!is_scene_value(*property)) continue;
+    const bool is_overruled = std::ranges::any_of(properties(), [&](const Property* other) {
+      const std::vector<std::string> keys = parted(other->excluded);
+      return has_option(*other, bit_) && typed(other->key) && !typed(property->key) &&
+             std::ranges::find(keys, property->key) != keys.end();
+    });
+    for (const SceneSetting& setting : settings)
+      if (setting.property == property && !is_overruled) take_setting(setting);
+    for (const SceneSetting& setting : typed_by_key)
+      if (setting.property == property) take_setting(setting);
+    if (!has_option(*property, bit_)) continue;
+    if (const std::vector<std::string> texts = typed_texts(*property); !texts.empty() || typed(property->key))
+      set(*property, texts);
+  }
+  check_table();
+  into_.scene.molecule.surface.check = check_by_mesh;
+  try {
+    complete(into_.scene);
+  } catch (const ValueError& error) {
+    refuse(error.key(), error.what());
+  }
+  guard_scene_files(*this, settings);
+  for (const std::string& sentence : idle_options(*this))
+    if (!into_.reporting.quiet) std::cerr << "meniscus: " << escaped(sentence) << std::endl;
+}
+
+void SceneOptions::check_table() const {
+  const auto name = [](std::string_view key) { return std::string(property_of(key).long_option()); };
+  for (const Property* property : properties()) {
+    if (!has_option(*property, bit_) || !is_given(property->key)) continue;
+    for (const std::string& other : parted(property->excluded))
+      if (is_given(other) && has_option(property_of(other), bit_))
+        throw CLI::ExcludesError(name(property->key), name(other));
+    if (!property->needed.empty() && !is_given(property->needed))
+      throw CLI::RequiresError(name(property->key), name(property->needed));
+  }
+}
+
+SceneOutput::SceneOutput(const SceneCommand& command) {
+  if (command.save_scene.empty()) return;
+  if (command.scene.molecule.file == "-")
+    throw UsageError("--save-scene: a scene names its molecule's file, which standard input is not");
+  file_.emplace(command.save_scene, command.existing());
+  file_->write(scene_text_beside(command.scene, command.save_scene));
+}
+
+void SceneOutput::commit() {
+  if (file_) file_->commit();
+}
+
+std::string scene_text_beside(const Scene& scene, const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  return scene_text(scene, folder.empty() ? "." : folder);
+}
+
+std::string cache_folder() {
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache == '/')
+    return std::string(cache) + "/meniscus";
+  if (const char* home = std::getenv("HOME"); home && *home == '/') return std::string(home) + "/.cache/meniscus";
+  return {};
+}
+
+}  // namespace meniscus

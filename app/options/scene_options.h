@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From the words of a command line, and the scene file that they name, to one scene.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "core/base/output_file.h"
+#include "core/properties/properties.h"
+#include "core/scene/scene.h"
+#include "core/scene/scene_json.h"
+
+namespace meniscus {
+
+/// How much is said about the oddities of a file: a line for every atom, a sentence for every kind, nothing.
+enum class WarningDetail { full, summary, none };
+
+/// How a run of frames reports how far it is.
+enum class ProgressStyle {
+  automatic,  ///< a bar on a terminal, else plain lines
+  bar,
+  plain,   ///< a line at every tenth
+  json,    ///< a JSON object a line on standard error: start, each frame, end
+  openjd,  ///< openjd_progress and openjd_status lines on standard output, as OpenJD 2023-09 defines them
+  none
+};
+
+/// What is said on standard error.
+struct Reporting {
+  WarningDetail warnings = WarningDetail::summary;
+  bool quiet = false;
+  ProgressStyle progress = ProgressStyle::automatic;
+};
+
+/// What a command makes of a scene, and how. Commands keep one of these alive as long as their CLI::App.
+struct SceneCommand {
+  Scene scene;
+  Reporting reporting;
+  std::size_t jobs = 0;                 ///< frames that are made at once; 0: as cores and memory allow
+  bool force = false;                   ///< outputs replace what is there
+  std::string save_scene, save_camera;  ///< paths; empty: it is not saved
+
+  Existing existing() const { return force ? Existing::replace : Existing::refuse; }
+};
+
+/// Must an output be named?
+enum class OutputName { required, optional };
+
+/// Options for the properties that a command has, in the order of their table, and --scene. Nothing is read before
+/// take().
+class SceneOptions {
+ public:
+  /// The command and `into` must live as long.
+  SceneOptions(CLI::App& command, CommandBit bit, SceneCommand& into);
+
+  /// The option of a property that the command has, for what it says otherwise than the table.
+  CLI::Option* option(std::string_view key) const;
+
+  /// What -o names.
+  void describe_output(const std::string& what, OutputName name = OutputName::required);
+
+  /// Has a scene file read as if --scene named it.
+  void name_file(const std::string& path) { file_ = path; }
+
+  /// Sets the values of the scene: those of the scene file, then those of the command line; and completes it. named:
+  /// words of an earlier command line, whose files the scene may name, too. Throws UsageError, CLI::ParseError,
+  /// SelectionError; InputError for a file that is no scene or names files that it may not.
+  void take(const std::vector<std::string>& named = {});
+
+  /// Whether the command line or the scene file has a value of this property.
+  bool is_given(std::string_view key) const { return typed(key) || places_.contains(std::string(key)); }
+  /// Whether the command line has.
+  bool typed(std::string_view key) const;
+  /// The path of the scene file; empty: there is none.
+  const std::string& file() const { return file_; }
+  const CLI::App& command() const { return command_; }
+  const Scene& scene() const { return into_.scene; }
+
+ private:
+  void add_own_option(const Property& property);
+  std::vector<std::string> typed_texts(const Property& property) const;
+  std::vector<SceneSetting> read_scene_file(const std::vector<std::string>& named);
+  std::vector<SceneSetting> typed_settings() const;
+  void take_setting(const SceneSetting& setting);
+  void set(const Property& property, const std::vector<std::string>& texts);
+  void check_table() const;
+  [[noreturn]] void refuse(std::string_view key, const std::string& what) const;
+
+  CLI::App& command_;
+  CommandBit bit_;
+  SceneCommand& into_;
+  std::string file_;
+  std::map<std::string, std::string> places_;  ///< in the scene file, by key
+};
+
+/// A command and its options; `State` is a SceneCommand with what else the command has.
+template <typename State = SceneCommand>
+struct DeclaredCommand {
+  State state;
+  SceneOptions options;
+
+  DeclaredCommand(CLI::App& command, CommandBit bit) : options(command, bit, state) {}
+  DeclaredCommand(const DeclaredCommand&) = delete;
+  DeclaredCommand& operator=(const DeclaredCommand&) = delete;
+};
+
+/// The file of --save-scene.
+class SceneOutput {
+ public:
+  /// Fails before any work is done if it cannot be written: throws OutputError, UsageError for a molecule from standard
+  /// input.
+  explicit SceneOutput(const SceneCommand& command);
+  /// Once the work is done.
+  void commit();
+
+ private:
+  std::optional<OutputFile> file_;
+};
+
+/// The scene with paths as seen from the folder of `path`, where it is to be saved.
+std::string scene_text_beside(const Scene& scene, const std::string& path);
+
+/// Where indices of frames and compiled kernels are kept: beside other caches of the user, or nowhere.
+std::string cache_folder();
+
+/// What `meniscus work` tells the programs it starts: from 0, which of the workers on this machine they belong to.
+inline constexpr const char* kWorkerVariable = "MENISCUS_WORKER";
+/// "off": compiled kernels are not kept beside other caches of the user.
+inline constexpr const char* kKernelVariable = "MENISCUS_KERNEL_CACHE";
+
+}  // namespace meniscus

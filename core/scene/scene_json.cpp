@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads and writes the JSON of scenes by the table of properties.
+#include "core/scene/scene_json.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "core/base/error.h"
+#include "core/base/json_depth.h"
+#include "core/base/similar_words.h"
+#include "core/base/text.h"
+#include "core/scene/scene_values.h"
+
+namespace meniscus {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+constexpr const char* kVersionKey = "meniscus_scene";
+constexpr int kVersion = 1;
+/// Representations of objects that have a property of their own.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kShapes{
+    {{"sticks", "figure.sticks"}, {"balls", "figure.balls"}, {"spheres", "figure.spheres"}, {"tube", "figure.tube"}}};
+
+/// The settings of one file.
+class SceneParser {
+ public:
+  explicit SceneParser(const std::string& file) : file_(file) {}
+
+  std::vector<SceneSetting> parse(std::string_view text) {
+    const Json scene = json_of(text);
+    for (const auto& [section, value] : scene.items()) {
+      if (section == kVersionKey || section == "objects") continue;
+      check_section(section);
+      if (!value.is_object()) fail(section, "is no JSON object {...}");
+      for (const auto& [key, own] : value.items())
+        if (section != "molecule" || key != "select")
+          add(property_of_key(section, key, fmt::format("{}.{}", section, key)), own,
+              fmt::format("{}.{}", section, key));
+    }
+    read_objects(scene);
+    std::vector<SceneSetting> ordered;
+    for (const Property* property : properties())
+      for (SceneSetting& setting : settings_)
+        if (setting.property == property) ordered.push_back(std::move(setting));
+    return ordered;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& place, const std::string& what) const {
+    throw InputError(file_, 0, fmt::format("scene: {} {}", place, what));
+  }
+
+  Json json_of(std::string_view text) const {
+    if (is_nested_too_deep(text)) throw InputError(file_, 0, "scene: is nested too deep to be one");
+    Json scene;
+    try {
+      scene = Json::parse(text);
+    } catch (const Json::parse_error& error) {
+      const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
+      throw InputError(file_, static_cast<std::size_t>(1 + std::count(text.begin(), end, '\n')),
+                       "scene: this is not JSON");
+    } catch (const Json::exception&) {
+      throw InputError(file_, 0, "scene: a number is too large");
+    }
+    if (!scene.is_object() || !scene.contains(kVersionKey))
+      throw InputError(file_, 0, fmt::format("is no scene: it has no \"{}\": {}", kVersionKey, kVersion));
+    if (scene[kVersionKey] != kVersion)
+      throw InputError(file_, 0,
+                       fmt::format("scene: \"{}\" is {}; this program reads version {}", kVersionKey,
+                                   escaped(scene[kVersionKey].dump()), kVersion));
+    return scene;
+  }
+
+  void check_section(const std::string& section) const {
+    std::vector<std::string_view> sections{"objects"};
+    for (const Property* property : properties())
+      if (property->has(in_scene) && property->section() != "surface" &&
+          std::ranges::find(sections, property->section()) == sections.end())
+        sections.push_back(property->section());
+    if (std::ranges::find(sections, section) == sections.end())
+      fail(in_quotes(section), "is no part of a scene" + meant(section, sections));
+  }
+
+  static std::string meant(const std::string& word, const std::vector<std::string_view>& words) {
+    const std::string_view nearest = nearest_word(word, words);
+    return nearest.empty() ? fmt::format("; there are {}", fmt::join(words, ", "))
+                           : fmt::format("; did you mean {}?", nearest);
+  }
+
+  const Property& property_of_key(std::string_view section, const std::string& key, const std::string& place) const {
+    std::vector<std::string_view> keys;
+    for (const Property* known : properties()) {
+      if (!known->has(in_scene) || known->section() != section) continue;
+      if (known->name() == key) return *known;
+      keys.push_back(known->name());
+    }
+    fail(place, "is no key" + meant(key, keys));
+  }
+
+  void set(const Property& property, std::vector<std::string> texts, const std::string& place) {
+    settings_.push_back({&property, std::move(texts), place});
+  }
+
+  void add(const Property& property, const Json& value, const std::string& place) {
+    switch (scene_form(property)) {
+      case SceneForm::text_or_flag:
+        if (value == false) return;
+        return set(property, {value == true ? std::string() : text(value, place)}, place);
+      case SceneForm::flag:
+      case SceneForm::negated:
+        if (!value.is_boolean()) fail(place, "is neither true nor false");
+        return set(property, {value.get<bool>() != property.has(negated) ? "true" : "false"}, place);
+      case SceneForm::text:
+        return set(property, {text(value, place)}, place);
+      case SceneForm::path:
+        return set(property, {path(value, place)}, place);
+      case SceneForm::camera:
+        return set(property, {value.is_object() ? value.dump() : path(value, place)}, place);
+      case SceneForm::list:
+      case SceneForm::paths: {
+        std::vector<std::string> texts;
+        for (const Json& one : value.is_array() ? value.get<std::vector<Json>>() : std::vector<Json>{value})
+          texts.push_back(scene_form(property) == SceneForm::list ? text(one, place) : path(one, place));
+        if (!texts.empty()) set(property, std::move(texts), place);
+        return;
+      }
+    }
+  }
+
+  std::string text(const Json& value, const std::string& place) const {
+    if (value.is_string()) return value.get<std::string>();
+    if (!value.is_number()) fail(place, "is neither a text nor a number");
+    return value.dump();
+  }
+
+  std::string path(const Json& value, const std::string& place) const {
+    if (!value.is_string() || value.get<std::string>().empty()) fail(place, "is no path");
+    return value.get<std::string>();
+  }
+
+  void read_objects(const Json& scene) {
+    std::string select, select_place = "molecule.select";
+    if (scene.contains("molecule") && scene["molecule"].contains("select"))
+      select = text(scene["molecule"]["select"], select_place);
+    bool has_surface = !scene.contains("objects");
+    if (!has_surface && !scene["objects"].is_array()) fail("objects", "is no JSON list [...]");
+    for (std::size_t n = 0; scene.contains("objects") && n < scene["objects"].size(); ++n) {
+      const std::string place = fmt::format("objects[{}]", n);
+      const Json& object = scene["objects"][n];
+      if (!object.is_object()) fail(place, "is no JSON object {...}");
+      if (object.value("representation", Json("surface")) != "surface" || has_surface) {
+        read_object(object, place);
+        continue;
+      }
+      has_surface = true;
+      for (const auto& [key, value] : object.items()) {
+        const std::string own_place = place + "." + key;
+        if (key == "selection") {
+          const std::string own = text(value, own_place);
+          select = select.empty() ? own : fmt::format("({}) and ({})", select, own);
+          select_place = own_place;
+        } else if (key != "representation") {
+          add(property_of_key("surface", key, own_place), value, own_place);
+        }
+      }
+    }
+    if (!has_surface) set(meniscus::property_of("surface.shown"), {"true"}, "objects without a surface");
+    if (!select.empty()) set(meniscus::property_of("molecule.select"), {select}, select_place);
+  }
+
+  void read_object(const Json& object, const std::string& place) {
+    for (const auto& [word, key] : kShapes)
+      if (object.size() == 2 && object.value("representation", Json()) == word && object.contains("selection"))
+        return set(meniscus::property_of(key), {text(object["selection"], place + ".selection")}, place);
+    set(meniscus::property_of("figure.object"), {object.dump()}, place);
+  }
+
+  const std::string& file_;
+  std::vector<SceneSetting> settings_;
+};
+
+/// As a number if it is written as JSON writes numbers.
+Json number_or_text(const std::string& text) {
+  const Json number = Json::parse(text, nullptr, false);
+  return number.is_number() && number.dump() == text ? number : Json(text);
+}
+
+std::string seen_from(const std::string& folder, const std::string& path) {
+  if (folder.empty()) return fs::path(path).filename().string();
+  std::error_code failed;
+  const fs::path seen = fs::proximate(fs::absolute(path), fs::absolute(folder), failed);
+  return failed ? fs::absolute(path).string() : seen.string();
+}
+
+Json json_value(const Property& property, const std::vector<std::string>& texts, const std::string& folder) {
+  Json list = Json::array();
+  switch (scene_form(property)) {
+    case SceneForm::flag:
+      return true;
+    case SceneForm::negated:
+      return false;
+    case SceneForm::text_or_flag:
+      return texts.back() == "auto" ? Json(true) : number_or_text(texts.back());
+    case SceneForm::text:
+      return number_or_text(texts.back());
+    case SceneForm::list:
+      for (const std::string& text : texts) list.push_back(number_or_text(text));
+      return list.size() == 1 ? list.front() : list;
+    case SceneForm::path:
+      return seen_from(folder, texts.back());
+    case SceneForm::paths:
+      for (const std::string& text : texts) list.push_back(seen_from(folder, text));
+      return list;
+    case SceneForm::camera:
+      return texts.back().starts_with('{') ? Json::parse(texts.back(), nullptr, false)
+                                           : Json(seen_from(folder, texts.back()));
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<SceneSetting> parse_scene(std::string_view json, const std::string& file) {
+  return SceneParser(file).parse(json);
+}
+
+std::string scene_text(const Scene& scene, const std::string& folder) {
+  Json sections;
+  Json objects = Json::array({{{"representation", "surface"}}});
+  for (const Property* property : properties()) {
+    if (!property->has(in_scene) || (folder.empty() && property->section() == "output")) continue;
+    const std::vector<std::string> texts = value_texts(scene, *property);
+    if (texts.empty()) continue;
+    const std::string section(property->section()), name(property->name());
+    (section == "surface" ? objects.front() : sections[section])[name] = json_value(*property, texts, folder);
+  }
+  for (const auto& [word, key] : kShapes)
+    for (const std::string& selection : value_texts(scene, property_of(key)))
+      objects.push_back({{"representation", word}, {"selection", selection}});
+  for (const std::string& json : value_texts(scene, property_of("figure.object")))
+    objects.push_back(Json::parse(json, nullptr, false));
+  Json ordered{{kVersionKey, kVersion}};
+  for (const char* section : {"molecule", "frames"})  // what is drawn, before how
+    if (sections.contains(section)) ordered[section] = sections[section];
+  ordered["objects"] = std::move(objects);
+  for (const auto& [section, keys] : sections.items())
+    if (!ordered.contains(section)) ordered[section] = keys;
+  return ordered.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace meniscus
