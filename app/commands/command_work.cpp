@@ -16,6 +16,7 @@
 #include "app/farm/claims.h"
 #include "app/farm/worker.h"
 #include "app/options/molecule_options.h"
+#include "app/options/property_options.h"
 #include "app/options/value_words.h"
 #include "app/process/program_error.h"
 #include "app/process/stop_signals.h"
