@@ -32,22 +32,29 @@ RED = re.compile(r"Test\s+#\d+: (\S+) .*\*\*\*")
 
 @dataclasses.dataclass(frozen=True)
 class Fault:
-    """`old` stands in `file` exactly once and becomes `new`; the tests that match `tests` need the targets `build`."""
+    """What is quoted of `file` becomes `new`; the tests that match `tests` need the targets `build`.
+
+    `old` quotes as few words as make the place known, and a blank in it is any white space, so that it survives another
+    indent or line break. `pattern`, instead, is a regular expression, whose groups `new` may name.
+    """
 
     name: str
     file: str
-    old: str
     new: str
     build: tuple[str, ...]
     tests: str
+    old: str = ""
+    pattern: str = ""
 
     def planted_in(self, root):
         """The faulty text of the file; ValueError if the fault does not apply to it."""
         text = (root / self.file).read_text(encoding="utf-8")
-        count = text.count(self.old)
-        if count != 1:
-            raise ValueError(f"its text stands {count} times in {self.file}")
-        return text.replace(self.old, self.new)
+        quoted = self.pattern or r"\s+".join(re.escape(part) for part in re.split(r"\s+", self.old))
+        found = list(re.finditer(quoted, text))
+        if len(found) != 1:
+            raise ValueError(f"it fits {len(found)} places of {self.file}, not one")
+        new = found[0].expand(self.new) if self.pattern else self.new
+        return text[:found[0].start()] + new + text[found[0].end():]
 
 
 def read_faults(path):
@@ -56,8 +63,9 @@ def read_faults(path):
     keys = {field.name for field in dataclasses.fields(Fault)}
     faults = []
     for entry in entries:
-        if set(entry) != keys:
-            sys.exit(f"mutate: error: {path}: {entry.get('name')}: keys are {sorted(entry)}, not {sorted(keys)}")
+        if set(entry) not in (keys - {"old"}, keys - {"pattern"}):
+            sys.exit(f"mutate: error: {path}: {entry.get('name')}: keys are {sorted(entry)}, not {sorted(keys)} with "
+                     "either old or pattern")
         faults.append(Fault(**{**entry, "build": tuple(entry["build"])}))
     names = [fault.name for fault in faults]
     for name in names:

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/run_program.h"
-#include "tests/unit/pdb_line.h"
+#include "tests/support/pdb_line.h"
 
 namespace meniscus {
 namespace {

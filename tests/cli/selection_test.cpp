@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/run_program.h"
-#include "tests/unit/pdb_line.h"
+#include "tests/support/pdb_line.h"
 
 namespace meniscus {
 namespace {

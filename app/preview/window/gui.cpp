@@ -78,6 +78,7 @@ Gui::Gui(DesktopWindow& window) : window_(window) {
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;  // nothing is written into the user's folder
   io.LogFilename = nullptr;
+  io.UserData = this;
   const float scale = static_cast<float>(window.scale());
   const float per_unit = static_cast<float>(window.pixels_per_unit().y);
   load_font(kLetterHeight * scale);
@@ -95,6 +96,7 @@ Gui::~Gui() {
 }
 
 void Gui::begin() {
+  places_.clear();
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   hand_on();
@@ -145,5 +147,14 @@ void Gui::hand_on() {
 
 bool Gui::list_open() { return ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup); }
 bool Gui::typing() { return ImGui::GetIO().WantTextInput; }
+
+void Gui::mark(const std::string& name) {
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const ImVec2 middle{0.5f * (low.x + high.x), 0.5f * (low.y + high.y)};
+  if (!ImGui::IsRectVisible(middle, {middle.x + 1.0f, middle.y + 1.0f})) return;
+  Gui& gui = *static_cast<Gui*>(ImGui::GetIO().UserData);
+  const glm::dvec2 scale = gui.window_.pixels_per_unit();
+  gui.places_[name] = {low.x * scale.x, low.y * scale.y, high.x * scale.x, high.y * scale.y};
+}
 
 }  // namespace meniscus

@@ -4,6 +4,8 @@
 
 #include <array>
 #include <deque>
+#include <map>
+#include <string>
 
 #include "app/preview/window/desktop_window.h"
 
@@ -34,6 +36,12 @@ class Gui {
   /// True while a field is typed into.
   static bool typing();
 
+  /// Keeps where the widget that was drawn last has its corners, until the next frame begins; if its middle is in
+  /// sight.
+  static void mark(const std::string& name);
+  /// Left, top, right and bottom of marked widgets, pixels of the window.
+  const std::map<std::string, std::array<double, 4>>& places() const { return places_; }
+
  private:
   void hand_on();
 
@@ -43,6 +51,7 @@ class Gui {
   glm::dvec2 pointer_{0.0};     // ImGui's units, as handed on
   bool inside_ = false;
   bool lists_close_ = false;
+  std::map<std::string, std::array<double, 4>> places_;
   float em_ = 0.0f;
 };
 

@@ -14,6 +14,7 @@
 
 #include "app/preview/look_json.h"
 #include "app/preview/command_json.h"
+#include "app/preview/window/gui.h"
 #include "app/preview/window/keys.h"
 #include "core/base/text.h"
 #include "core/color/color_maps.h"
@@ -58,9 +59,14 @@ double rounded(float value) { return std::round(100.0 * value) / 100.0; }
 /// A list to choose from; the word chosen now, or nothing.
 std::optional<std::string> chosen(const char* id, const std::string& current, const std::vector<std::string>& words) {
   std::optional<std::string> choice;
-  if (!ImGui::BeginCombo(id, current.c_str(), ImGuiComboFlags_HeightLarge)) return choice;
-  for (const std::string& word : words)
+  if (!ImGui::BeginCombo(id, current.c_str(), ImGuiComboFlags_HeightLarge)) {
+    Gui::mark(id);
+    return choice;
+  }
+  for (const std::string& word : words) {
     if (ImGui::Selectable(word.c_str(), word == current)) choice = word;
+    Gui::mark(word);
+  }
   ImGui::EndCombo();
   return choice;
 }
@@ -129,6 +135,7 @@ void Panel::surface() {
   float radius = link_.state()["probe_radius"];
   if (ImGui::SliderFloat("##probe", &radius, 0.0f, kLargestSliderProbe, "%.2f \xc3\x85", ImGuiSliderFlags_Logarithmic))
     link_.send({{"command", "probe"}, {"radius", rounded(std::max(radius, 0.0f))}});
+  Gui::mark("##probe");
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Ctrl + click to type a radius; 0 shows the van der Waals surface");
 }
 
@@ -233,6 +240,7 @@ void Panel::frames() {
   const bool playing = state["playing"];
   if (ImGui::Button(playing ? "Pause" : "Play", {5.5f * ImGui::GetFontSize(), 0.0f}))
     link_.send({{"command", playing ? "pause" : "play"}});
+  Gui::mark("play");
   ImGui::SameLine(6.5f * ImGui::GetFontSize());
   ImGui::SetNextItemWidth(-1.0f);
   int number = state["frame"].get<int>() + 1;
@@ -247,6 +255,7 @@ void Panel::frames() {
   label("A second");
   if (ImGui::SliderFloat("##fps", &rate, 1.0f, 60.0f, "%.0f frames", ImGuiSliderFlags_AlwaysClamp))
     link_.send({{"command", playing ? "play" : "pause"}, {"fps", std::round(rate)}});
+  Gui::mark("##fps");
   bool follows = state["follow_keys"];
   if (ImGui::Checkbox("follow", &follows)) link_.send({{"command", "follow_keys"}, {"on", follows}});
 }

@@ -3,6 +3,11 @@
 #include "app/preview/window/window.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <system_error>
 #include <utility>
 
 #include <epoxy/gl.h>
@@ -61,6 +66,7 @@ class PreviewWindow {
   void go_on();
   void fit_picture();
   void draw();
+  void write_state() const;
 
   const WindowOptions& options_;
   DesktopWindow window_;
@@ -81,6 +87,8 @@ class PreviewWindow {
   std::uint64_t first_number_ = 0;
   bool replay_done_ = false;
   double next_frame_due_ = 0.0, next_tick_ = 0.0;
+  const char* const state_file_ = std::getenv("MENISCUS_WINDOW_STATE");  // for tests: see write_state()
+  std::size_t letters_ = 0;                                              // that came so far
 };
 
 WindowReport PreviewWindow::run() {
@@ -151,6 +159,7 @@ void PreviewWindow::take_events() {
     const bool elsewhere = list_open || event.position.x >= picture_area().x;
     // A click into a field, or out of it, counts for what is typed behind it, though nothing has been drawn since.
     if (event.kind == InputEvent::Kind::press) assume_typing(elsewhere);
+    letters_ += event.kind == InputEvent::Kind::text;
     const bool for_panel = unsure_frames_ > 0 ? typing_assumed_ : Gui::typing();
     // A letter that is a command must not turn up in the field that it opens.
     if (event.kind != InputEvent::Kind::text || for_panel) gui_.take(event);
@@ -267,6 +276,19 @@ void PreviewWindow::draw() {
   window_.swap();
   link_.presented(shown);
   latency_.shown(shown, window_.seconds());
+  if (state_file_) write_state();
+}
+
+/// Tests wait for what is here instead of for some time, and click where widgets are.
+void PreviewWindow::write_state() const {
+  const Json state{
+      {"idle", redraws_ == 0},   {"settled", link_.settled()}, {"full", link_.settled() && link_.news().full},
+      {"typing", Gui::typing()}, {"letters", letters_},        {"pointed", hover_.answer()},
+      {"widgets", gui_.places()}};
+  const std::string part = std::string(state_file_) + ".part";
+  std::ofstream(part) << state.dump();
+  std::error_code ignored;
+  std::filesystem::rename(part, state_file_, ignored);
 }
 
 }  // namespace

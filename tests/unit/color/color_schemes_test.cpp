@@ -10,7 +10,7 @@
 #include "core/color/named_colors.h"
 #include "core/structure/hydropathy.h"
 #include "tests/support/run_program.h"
-#include "tests/unit/colored_atoms.h"
+#include "tests/unit/color/colored_atoms.h"
 
 namespace meniscus {
 namespace {

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What making frames at once rests on: jobs with results in order, and how much memory there is.
+// Jobs that are done at once give their results in the order in which they were begun.
 #include <atomic>
 #include <chrono>
-#include <sstream>
 #include <stdexcept>
 #include <thread>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include "app/process/memory_size.h"
 #include "core/base/ordered_jobs.h"
-#include "tests/support/run_program.h"
 
 namespace meniscus {
 namespace {
@@ -68,34 +64,6 @@ TEST(OrderedJobs, WhatNobodyHasBegunIsDropped) {
     EXPECT_EQ(jobs.take(), 0);
   }
   EXPECT_LT(done, 100);
-}
-
-TEST(MemorySize, IsThatOfTheMachineOrLess) {
-  EXPECT_GT(memory_size(), std::uint64_t{1} << 20);
-  EXPECT_LE(memory_size(), static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
-                               static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)));
-}
-
-std::uint64_t limit_of(const std::string& groups, const std::filesystem::path& mounted) {
-  std::istringstream lines(groups);
-  return memory_limit(lines, mounted);
-}
-
-TEST(MemorySize, IsLimitedByTheControlGroupAndByThoseItLiesIn) {
-  const test::TemporaryFolder folder;
-  const auto& root = folder.path();
-  std::filesystem::create_directories(root / "job/step");
-  std::filesystem::create_directories(root / "memory/slurm/job");
-  folder.file("job/step/memory.max", "max\n");
-  folder.file("job/memory.max", "3000000000\n");
-  folder.file("memory/slurm/job/memory.limit_in_bytes", "9223372036854771712\n");
-  folder.file("memory/slurm/memory.limit_in_bytes", "2000000000\n");
-  EXPECT_EQ(limit_of("0::/job/step\n", root), 3'000'000'000u);
-  EXPECT_EQ(limit_of("5:cpu,cpuacct:/slurm\n4:memory:/slurm/job\n", root), 2'000'000'000u);
-  EXPECT_EQ(limit_of("4:memory:/slurm/job\n0::/job/step\n", root), 2'000'000'000u);
-  EXPECT_EQ(limit_of("0::/elsewhere\n", root), UINT64_MAX);
-  EXPECT_EQ(limit_of("0::/\n", root), UINT64_MAX);
-  EXPECT_EQ(limit_of("nonsense\n", root), UINT64_MAX);
 }
 
 }  // namespace

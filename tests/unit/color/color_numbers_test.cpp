@@ -12,7 +12,7 @@
 #include "core/color/color_key.h"
 #include "core/color/named_colors.h"
 #include "tests/support/run_program.h"
-#include "tests/unit/colored_atoms.h"
+#include "tests/unit/color/colored_atoms.h"
 
 namespace meniscus {
 namespace {

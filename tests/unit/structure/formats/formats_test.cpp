@@ -10,7 +10,7 @@
 
 #include "core/base/error.h"
 #include "tests/support/run_program.h"
-#include "tests/unit/pdb_line.h"
+#include "tests/support/pdb_line.h"
 
 namespace meniscus {
 namespace {

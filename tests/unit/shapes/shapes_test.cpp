@@ -17,7 +17,7 @@
 #include "core/structure/formats/read_structure.h"
 #include "core/structure/molecule_bonds.h"
 #include "tests/support/run_program.h"
-#include "tests/unit/pdb_line.h"
+#include "tests/support/pdb_line.h"
 
 namespace meniscus {
 namespace {
