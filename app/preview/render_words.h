@@ -11,7 +11,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "app/preview/preview_view.h"
+#include "app/preview/preview_state.h"
 
 namespace meniscus {
 
