@@ -28,7 +28,7 @@ PYTHON
 
 # The look that pictures had before there were others, in the words that a build knows.
 classic_look() {
-  if "$1" render --help | grep -q -- --preset; then echo --preset classic; fi
+  if [[ $("$1" render --help) == *--preset* ]]; then echo --preset classic; fi  # a pipe may break where grep ends early
 }
 
 # compare NAME OUTPUT ARGUMENTS...: the file OUTPUT that both builds make, or their standard output if it is "-".

@@ -19,7 +19,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/preview_command.h"
 #include "core/scene/molecule.h"
-#include "app/preview/command_log.h"
+#include "app/preview/command_json.h"
 #include "app/preview/server/serve.h"
 #include "app/preview/session.h"
 #include "app/preview/window/window.h"
@@ -121,7 +121,7 @@ std::unique_ptr<ViewRenderer> make_renderer(const PreviewCommand& command, const
 /// A session as the options say.
 std::unique_ptr<PreviewSession> begin_session(const DeclaredPreview& declared, bool on_gl, Shown shown) {
   const PreviewCommand& command = declared.state;
-  PreviewView view;
+  PreviewState view;
   static_cast<PreviewFigure&>(view) = figure_of(shown.scene, shown.scene.molecule.color);
   view.copies_apart = command.scene.molecule.division.instances == InstanceMode::exact;
   view.size = command.scene.picture.size();
@@ -137,8 +137,7 @@ std::unique_ptr<PreviewSession> begin_session(const DeclaredPreview& declared, b
   std::unique_ptr<ViewRenderer> renderer = make_renderer(command, shown.structure, on_gl);
   auto session = std::make_unique<PreviewSession>(std::move(renderer), std::move(shown.structure), view, shown.camera,
                                                   command.output_folder, std::move(shown.trajectory), context);
-  for (const std::string& sentence : session->idle_among(session->view().figure.cuts))
-    say(command, "note: --clip " + sentence);
+  for (const std::string& sentence : session->idle_cuts()) say(command, "note: --clip " + sentence);
   if (!command.record.empty()) {
     auto log = std::make_shared<CommandLog>(command.record, command.existing());
     session->record([log](const nlohmann::json& line) { log->write(line); });

@@ -1,12 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lines of JSON.
+// Words of commands; drags, zooms and sliders that add up; recorded lines.
 #include "app/preview/command_json.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <iterator>
+#include <ostream>
+#include <span>
 #include <string_view>
 
+#include "core/base/error.h"
+#include "core/base/json_depth.h"
+
 namespace meniscus {
+namespace {
+
+bool is_one_of(std::span<const std::string_view> words, const std::string& word) {
+  return std::ranges::find(words, word) != words.end();
+}
+
+bool are_numbers(const nlohmann::json& a, const nlohmann::json& b, const char* key) {
+  return a.contains(key) && b.contains(key) && a[key].is_number() && b[key].is_number();
+}
+
+}  // namespace
 
 std::string json_line(const nlohmann::json& json) {
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -34,6 +52,75 @@ Change change_of(const nlohmann::json& command) {
     return Change::none;
   constexpr std::string_view kSurfaces[] = {"surface", "probe", "frame", "next_frame", "undo", "redo", "open", "quit"};
   return std::ranges::find(kSurfaces, word) != std::end(kSurfaces) ? Change::surface : Change::view;
+}
+
+bool merge_commands(nlohmann::json& first, const nlohmann::json& second) {
+  constexpr std::array<std::string_view, 2> kDrags{"orbit", "pan"};
+  constexpr std::array<std::string_view, 6> kLatest{"probe", "frame", "resize", "pick", "samples", "look"};
+  if (!first.is_object() || !second.is_object() || first.size() != second.size()) return false;
+  if (!first.contains("command") || !first["command"].is_string() ||
+      first["command"] != second.value("command", nlohmann::json()))
+    return false;
+  const std::string word = first["command"];
+  if (is_one_of(kDrags, word) && first.size() == 3 && are_numbers(first, second, "dx") &&
+      are_numbers(first, second, "dy")) {
+    const auto sum = [&](const char* key) { return first[key].get<double>() + second[key].get<double>(); };
+    const double dx = sum("dx"), dy = sum("dy");
+    if (!std::isfinite(dx) || !std::isfinite(dy)) return false;  // no number of JSON
+    first["dx"] = dx;
+    first["dy"] = dy;
+    return true;
+  }
+  const auto same = [&](const char* key) {
+    return first.value(key, nlohmann::json()) == second.value(key, nlohmann::json());
+  };
+  if (word == "zoom" && same("x") && same("y") && are_numbers(first, second, "factor")) {
+    const auto is_factor = [](double factor) { return factor >= 1.0 / kMostZoom && factor <= kMostZoom; };
+    const double before = first["factor"].get<double>(), after = second["factor"].get<double>();
+    if (!is_factor(before) || !is_factor(after)) return false;  // refused, each by itself
+    first["factor"] = std::clamp(before * after, 1.0 / kMostZoom, kMostZoom);
+    return true;
+  }
+  // A slider that belongs to one entry of a list.
+  constexpr std::array<std::string_view, 3> kEntries{"object", "cut", "opacity"};
+  const bool same_entry = is_one_of(kEntries, word) && first.contains("index") && same("index");
+  // A pick that is waited for is a click, and each click counts.
+  const auto waits = [](const nlohmann::json& pick) { return !pick.contains("wait") || pick["wait"] != false; };
+  if (!(is_one_of(kLatest, word) || same_entry) || (word == "pick" && (waits(first) || waits(second)))) return false;
+  if (std::ranges::any_of(first.items(), [&](const auto& item) { return !second.contains(item.key()); })) return false;
+  first = second;
+  return true;
+}
+
+CommandLog::CommandLog(const std::filesystem::path& path, Existing existing) : path_(path.string()) {
+  check_output(path, existing);
+  stream_.open(path, std::ios::trunc);
+  if (!stream_) throw OutputError(path_, "cannot be written");
+}
+
+void CommandLog::write(const nlohmann::json& command) {
+  stream_ << json_line(command) << std::endl;
+  if (!stream_) throw OutputError(path_, "cannot be written");
+}
+
+std::vector<WrittenCommand> read_commands(const std::string& path) {
+  std::ifstream stream(path);
+  if (!stream) throw InputError(path, 0, "commands: the file cannot be opened");
+  std::vector<WrittenCommand> commands;
+  std::string line;
+  for (std::size_t number = 1; std::getline(stream, line); ++number) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    if (is_nested_too_deep(line)) throw InputError(path, number, "commands: this is nested too deep to be a command");
+    commands.push_back({number, nlohmann::json::parse(line, nullptr, false)});
+    if (commands.back().command.is_discarded()) throw InputError(path, number, "commands: this is not JSON");
+  }
+  if (stream.bad()) throw InputError(path, 0, "commands: the file cannot be read");
+  return commands;
+}
+
+void print_reply(const std::string& path, std::size_t line, const nlohmann::json& reply, std::ostream& replies) {
+  if (reply["ok"] == false) throw InputError(path, line, reply["error"]);
+  replies << json_line(reply) << std::endl;
 }
 
 }  // namespace meniscus

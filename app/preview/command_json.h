@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Commands of a preview as text, and which of them only ask; for those who pass commands on without a session.
+// Commands of a preview as JSON, without a session: lines and files of them, their kinds, two that become one.
 #pragma once
 
+#include <filesystem>
+#include <fstream>
+#include <iosfwd>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
+
+#include "core/base/output_file.h"
 
 namespace meniscus {
 
@@ -28,5 +34,37 @@ enum class Change {
   surface  ///< there will be another surface, or an end
 };
 Change change_of(const nlohmann::json& command);
+
+/// The most by which one command zooms in, and its reciprocal out, however many turns of a wheel became one.
+inline constexpr double kMostZoom = 1e300;
+
+/// Makes one command of two that follow each other, `first` then `second`; false if both are needed.
+bool merge_commands(nlohmann::json& first, const nlohmann::json& second);
+
+/// Writes a session while it goes on: each line is complete as soon as its command was carried out, however the program
+/// ends.
+class CommandLog {
+ public:
+  /// Throws OutputError: the file exists (Existing::refuse) or cannot be written.
+  CommandLog(const std::filesystem::path& path, Existing existing);
+  /// Throws OutputError.
+  void write(const nlohmann::json& command);
+
+ private:
+  std::string path_;
+  std::ofstream stream_;
+};
+
+/// A command of a file, and the line it stands in.
+struct WrittenCommand {
+  std::size_t line = 0;  ///< from 1
+  nlohmann::json command;
+};
+
+/// The commands of a file, empty lines left out. Throws InputError, naming the line that is no JSON.
+std::vector<WrittenCommand> read_commands(const std::string& path);
+
+/// Throws InputError, naming the line, if the command was refused; else prints the reply as a line.
+void print_reply(const std::string& path, std::size_t line, const nlohmann::json& reply, std::ostream& replies);
 
 }  // namespace meniscus

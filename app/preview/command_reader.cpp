@@ -64,7 +64,12 @@ std::string CommandReader::text(const char* key) const {
   return value(key).get<std::string>();
 }
 
-std::size_t CommandReader::choice(const char* key, std::initializer_list<std::string_view> words) const {
+Selection CommandReader::selection() const {
+  const std::string words = text("selection");
+  return naming([&] { return parse_selection(words); });
+}
+
+std::size_t CommandReader::choice(const char* key, const std::vector<std::string>& words) const {
   const auto found = std::ranges::find(words, text(key));
   if (found == words.end()) fail(key, fmt::format("one of {}", fmt::join(words, ", ")));
   return static_cast<std::size_t>(found - words.begin());

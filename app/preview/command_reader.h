@@ -2,12 +2,16 @@
 // The values of one JSON command, with complaints that name the key, the value and what is wanted.
 #pragma once
 
-#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <nlohmann/json.hpp>
+
+#include "core/base/error.h"
+#include "core/properties/property.h"
+#include "core/structure/selection/selection.h"
 
 namespace meniscus {
 
@@ -30,7 +34,29 @@ class CommandReader {
   bool flag(const char* key) const;
   std::string text(const char* key) const;
   /// One of these words: its place in the list.
-  std::size_t choice(const char* key, std::initializer_list<std::string_view> words) const;
+  std::size_t choice(const char* key, const std::vector<std::string>& words) const;
+  /// The same within the limits, or of the words, of a property.
+  double number(const char* key, const Property& property) const {
+    return number(key, property.lowest, property.highest);
+  }
+  int integer(const char* key, const Property& property) const {
+    return integer(key, static_cast<int>(property.lowest), static_cast<int>(property.highest));
+  }
+  std::size_t choice(const char* key, const Property& property) const { return choice(key, words_of(property)); }
+  /// "selection". Throws RequestError as all do.
+  Selection selection() const;
+
+  /// What `parse` makes of values of the command; its errors come to name the command.
+  template <typename Parse>
+  auto naming(const Parse& parse) const {
+    try {
+      return parse();
+    } catch (const SelectionError& error) {
+      throw RequestError(word() + ": " + error.sentence());
+    } catch (const RequestError& error) {
+      throw RequestError(word() + ": " + error.what());
+    }
+  }
 
   double number_or(double other, const char* key, double lowest, double highest) const {
     return has(key) ? number(key, lowest, highest) : other;

@@ -14,31 +14,29 @@ namespace {
 
 constexpr std::size_t kKept = 16;  // frames and probes
 
-std::vector<double> exposed_areas(const std::vector<Ball>& balls, double probe_radius) {
-  return atom_areas(compute_surface_cpu(balls, probe_radius)).surface;
-}
-
 std::future<std::vector<double>> begin_areas(const AtomsInView& atoms) {
   if (atoms.surface)
     return std::async(std::launch::async, [surface = atoms.surface] { return atom_areas(*surface).surface; });
   return std::async(std::launch::async, [balls = atoms.balls, radius = rolling_probe(atoms.kind, atoms.probe_radius)] {
-    return exposed_areas(balls, radius);
+    return atom_areas(compute_surface_cpu(balls, radius)).surface;
   });
-}
-
-bool is_ready(const std::future<std::vector<double>>& pending) {
-  return pending.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
 }  // namespace
 
 std::optional<double> ExposedAreas::of(const AtomsInView& atoms, std::size_t atom, bool wait) {
   const Key key{atoms.frame, atoms.group, atoms.kind, atoms.probe_radius};
-  if (pending_.valid() && pending_key_ != key && (wait || is_ready(pending_))) forget_or_keep();
-  if (pending_.valid() && pending_key_ == key && (wait || is_ready(pending_))) finish();
+  if (pending_.valid() && (wait || pending_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)) {
+    try {
+      keep();
+    } catch (const Error&) {
+      if (pending_key_ == key) throw;  // else nobody asks for this surface any more
+    }
+  }
   if (!known_.contains(key) && !pending_.valid()) {
-    begin(key, atoms);
-    if (wait) finish();
+    pending_key_ = key;
+    pending_ = begin_areas(atoms);
+    if (wait) keep();
   }
   const auto found = known_.find(key);
   if (found == known_.end()) return {};
@@ -52,20 +50,7 @@ std::optional<double> ExposedAreas::if_cheap(const AtomsInView& atoms, std::size
   return of(atoms, atom, false);
 }
 
-void ExposedAreas::begin(const Key& key, const AtomsInView& atoms) {
-  pending_key_ = key;
-  pending_ = begin_areas(atoms);
-}
-
-void ExposedAreas::forget_or_keep() {
-  try {
-    finish();
-  } catch (const Error&) {
-    // Nobody asks for this surface any more.
-  }
-}
-
-void ExposedAreas::finish() {
+void ExposedAreas::keep() {
   known_.insert_or_assign(pending_key_, pending_.get());
   order_.push_back(pending_key_);
   if (order_.size() <= kKept) return;

@@ -42,9 +42,7 @@ class ExposedAreas {
   using Key = std::tuple<std::size_t, std::size_t, SurfaceKind, double>;
   using Areas = std::vector<double>;
 
-  void begin(const Key& key, const AtomsInView& atoms);
-  void finish();
-  void forget_or_keep();
+  void keep();
 
   std::map<Key, Areas> known_;
   std::vector<Key> order_;  ///< of known_, oldest first

@@ -18,7 +18,7 @@ constexpr LiveView::Clock::duration kRest = 150ms, kLongestRest = 1500ms;
 }  // namespace
 
 LiveView::LiveView(PreviewSession& session)
-    : session_(session), seen_revision_(session.revision()), last_change_(Clock::now()), rest_(kRest) {}
+    : session_(session), seen_revision_(session.state().revision), last_change_(Clock::now()), rest_(kRest) {}
 
 nlohmann::json LiveView::apply(const nlohmann::json& command) {
   nlohmann::json reply = session_.apply(command);
@@ -27,11 +27,11 @@ nlohmann::json LiveView::apply(const nlohmann::json& command) {
 }
 
 void LiveView::note_change() {
-  if (session_.revision() == seen_revision_) return;
-  seen_revision_ = session_.revision();
+  if (session_.state().revision == seen_revision_) return;
+  seen_revision_ = session_.state().revision;
   last_change_ = Clock::now();
   fault_.clear();
-  if (session_.playing()) return;
+  if (session_.state().playing) return;
   draft_cost_.reset();
   plain_cost_.reset();
 }
@@ -66,7 +66,7 @@ std::optional<Quality> LiveView::drawn() const {
 
 std::optional<Quality> LiveView::next() const {
   const std::optional<Quality> best = drawn();
-  if (!fault_.empty() || best == Quality::full || (best && session_.playing())) return {};
+  if (!fault_.empty() || best == Quality::full || (best && session_.state().playing)) return {};
   if (!best) return Quality::draft;
   return best == Quality::draft ? Quality::plain : Quality::full;
 }
@@ -77,15 +77,15 @@ LiveView::Clock::duration LiveView::rest(Quality quality) const {
 }
 
 Quality LiveView::at_once() const {
-  if (!session_.playing() || !draft_cost_) return Quality::draft;
+  if (!session_.state().playing || !draft_cost_) return Quality::draft;
   constexpr int kMostLikely = 3;  // drafts of a quarter of the pixels that a plain picture takes
-  const std::chrono::duration<double> frame(0.8 / session_.frames_per_second());
+  const std::chrono::duration<double> frame(0.8 / session_.state().frames_per_second);
   return plain_cost_.value_or(kMostLikely * *draft_cost_) < frame ? Quality::plain : Quality::draft;
 }
 
 Quality LiveView::due(Clock::time_point now) const {
   const Clock::duration rested = now - last_change_;
-  if (session_.playing()) return at_once();
+  if (session_.state().playing) return at_once();
   if (rested < rest(Quality::plain)) return Quality::draft;
   return rested < rest(Quality::full) ? Quality::plain : Quality::full;
 }

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/preview/command_json.h"
 #include "app/preview/session.h"
 
 namespace meniscus {

@@ -8,7 +8,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "app/preview/preview_view.h"
+#include "app/preview/preview_state.h"
 #include "core/scene/scene.h"
 
 namespace meniscus {

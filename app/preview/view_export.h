@@ -17,7 +17,7 @@
 #include "core/camera/camera.h"
 #include "core/camera/camera_path.h"
 #include "app/preview/export_job.h"
-#include "app/preview/preview_view.h"
+#include "app/preview/preview_state.h"
 #include "core/color/coloring.h"
 #include "core/render/annotation.h"
 #include "core/scene/figure.h"

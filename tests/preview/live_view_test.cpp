@@ -48,7 +48,7 @@ TEST(LivePictures, SurfacesCanBeGivenUpBetweenStages) {
 
 TEST(LivePictures, FramesPlayInFullSizeWhenThereIsTime) {
   const TemporaryFolder folder;
-  PreviewView view;
+  PreviewState view;
   view.size = {80, 60};
   ReadOptions reading;
   reading.model.all = true;
@@ -80,7 +80,7 @@ TEST(LivePictures, FramesPlayInFullSizeWhenThereIsTime) {
 // What moves never costs a draft; what makes it worthless does, when it takes long.
 TEST(LivePictures, DraftsAreGivenUpForOtherSurfacesOnly) {
   const TemporaryFolder folder;
-  PreviewView view;
+  PreviewState view;
   view.size = {80, 60};
   PreviewSession session(make_cpu_view_renderer(), read_structure(folder.file("one.pdb", kTwoModels)), view,
                          std::nullopt, folder.path());

@@ -28,7 +28,7 @@ class PreviewSessionTest : public ::testing::TestWithParam<const char*> {
   PreviewSessionTest() {
     ReadOptions reading;
     reading.model.all = true;
-    PreviewView view;
+    PreviewState view;
     view.size = {80, 60};
     if (std::string(GetParam()) == "gl") context_.emplace();
     session_ = std::make_unique<PreviewSession>(
@@ -301,12 +301,12 @@ TEST_P(PreviewSessionTest, ExportsAreWholeAndReplaceNothing) {
 
 TEST_P(PreviewSessionTest, PlaysOnlyWhatHasFrames) {
   EXPECT_EQ(apply(R"({"command":"play","fps":25})")["playing"], true);
-  EXPECT_TRUE(session_->playing());
-  EXPECT_EQ(session_->frames_per_second(), 25.0);
+  EXPECT_TRUE(session_->state().playing);
+  EXPECT_EQ(session_->state().frames_per_second, 25.0);
   expect_ok(R"({"command":"pause"})");
-  EXPECT_FALSE(session_->playing());
+  EXPECT_FALSE(session_->state().playing);
   expect_ok(R"({"command":"pause","fps":7})");
-  EXPECT_EQ(session_->frames_per_second(), 7.0) << "a pace may be chosen before";
+  EXPECT_EQ(session_->state().frames_per_second, 7.0) << "a pace may be chosen before";
   EXPECT_FALSE(session_->wants_to_quit());
   expect_ok(R"({"command":"quit"})");
   EXPECT_TRUE(session_->wants_to_quit());

@@ -29,8 +29,8 @@ Structure peptides() {
   return structure;
 }
 
-PreviewView view_of_copies() {
-  PreviewView view;
+PreviewState view_of_copies() {
+  PreviewState view;
   view.size = {160, 120};
   view.samples = 1;
   view.copies_apart = true;
@@ -53,7 +53,7 @@ TEST(PreviewCopies, AreDrawnPickedAndKeptApart) {
     EXPECT_EQ(state["placed_atoms"], 11);
     ASSERT_TRUE(session.render(Quality::full));
     // Where the camera sees an atom of a copy that is what a pick finds.
-    const Camera camera = session.view().camera;
+    const Camera camera = session.state().camera;
     const auto pick_at = [&](const glm::dvec3& point) {
       const ViewBasis basis = view_basis(camera);
       const glm::dvec3 v = point - camera.position;
@@ -82,7 +82,7 @@ TEST(PreviewCopies, AreDrawnPickedAndKeptApart) {
     EXPECT_TRUE(session.render(Quality::draft));
   }
   const Structure structure = peptides();
-  PreviewView near = view_of_copies();
+  PreviewState near = view_of_copies();
   near.probe_radius = 6.0;
   EXPECT_THROW(
       PreviewSession(make_cpu_copies_renderer(structure.instances), structure, near, std::nullopt, folder.path()),

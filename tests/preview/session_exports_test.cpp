@@ -23,7 +23,7 @@ using Json = nlohmann::json;
 class SessionExports : public ::testing::Test {
  protected:
   SessionExports() {
-    PreviewView view;
+    PreviewState view;
     view.size = {80, 60};
     SessionContext context;
     context.scene.emplace();

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "app/preview/camera_motion.h"
-#include "app/preview/merge_commands.h"
+#include "app/preview/command_json.h"
 #include "app/preview/session.h"
 #include "core/structure/formats/read_structure.h"
 #include "tests/support/run_program.h"
@@ -37,7 +37,7 @@ class FigureSession : public ::testing::Test {
     const std::string file = folder_.file("three.pdb", kThree);
     ReadOptions reading;
     reading.selection = parse_selection("polymer");
-    PreviewView view;
+    PreviewState view;
     view.size = {80, 60};
     SessionContext context;
     context.read_shown = [file, reading](const FigureRequest& figure, std::size_t) {
@@ -155,6 +155,13 @@ TEST_F(FigureSession, ADragIsOneStepUntilItIsEnded) {
   EXPECT_EQ(after["undo"], 1) << "a slider moves in one step";
 }
 
+TEST_F(FigureSession, WhatIsRefusedEndsNoStep) {
+  expect_ok(R"({"command":"orbit","dx":0.02,"dy":0.01})");
+  EXPECT_FALSE(apply(R"({"command":"redo"})")["ok"]);
+  expect_ok(R"({"command":"orbit","dx":0.02,"dy":0.01})");
+  EXPECT_EQ(apply(R"({"command":"state"})")["undo"], 1);
+}
+
 TEST_F(FigureSession, WhatIsRefusedChangesNothing) {
   expect_ok(R"({"command":"cut","plane":"x<1"})");
   const Json before = apply(R"({"command":"state"})");
@@ -233,13 +240,13 @@ TEST_F(FigureSession, ACameraThatWasGivenIsWhatResetReturnsTo) {
   Camera given;
   given.position = {1, 2, 30};
   given.target = {1, 2, 0};
-  PreviewView view;
+  PreviewState view;
   view.size = {80, 60};
   PreviewSession session(make_cpu_view_renderer(), session_->structure(), view, given, folder_.path());
   session.apply({{"command", "orbit"}, {"dx", 0.3}, {"dy", 0.0}});
   session.apply({{"command", "reset_view"}});
-  EXPECT_EQ(session.view().camera.position, given.position);
-  EXPECT_EQ(session.view().camera.target, given.target);
+  EXPECT_EQ(session.state().camera.position, given.position);
+  EXPECT_EQ(session.state().camera.target, given.target);
 }
 
 TEST_F(FigureSession, AClickCentresAndZoomStaysAtTheCursor) {
@@ -275,10 +282,10 @@ TEST_F(FigureSession, AFastWheelOverASlowPictureIsNotRefused) {
       SCOPED_TRACE(::testing::Message() << count << " times " << notch);
       Json wheel = one;
       for (int n = 1; n < count; ++n) ASSERT_TRUE(merge_commands(wheel, one));
-      const double before = height_at_target(session_->view().camera);
+      const double before = height_at_target(session_->state().camera);
       const Json reply = session_->apply(wheel);
       ASSERT_TRUE(reply["ok"]) << reply;
-      const double grown = before / height_at_target(session_->view().camera);
+      const double grown = before / height_at_target(session_->state().camera);
       EXPECT_GE(notch > 1.0 ? grown : 1.0 / grown, std::min(10.0, 0.9 * std::pow(std::max(notch, 1.0 / notch), count)));
       expect_ok(R"({"command":"undo"})");
     }
@@ -315,7 +322,7 @@ TEST_F(FigureSession, TheLegendStandsBesideTheMolecule) {
 }
 
 TEST_F(FigureSession, WithoutItsFileNothingCanBeDrawnBeside) {
-  PreviewView view;
+  PreviewState view;
   view.size = {80, 60};
   PreviewSession session(make_cpu_view_renderer(), session_->structure(), view, std::nullopt, folder_.path());
   const Json reply = session.apply({{"command", "represent"}, {"as", "sticks"}, {"selection", "all"}});
@@ -395,7 +402,7 @@ TEST_F(FigureSession, SchemesThatAreOfferedAreThoseItCanShow) {
   // An assembly has copies, and a scheme of numbers that it was begun with is there to be returned to.
   Structure assembly = session_->structure();
   for (std::size_t n = 0; n < assembly.atoms.size(); ++n) assembly.atoms[n].copy = static_cast<std::uint32_t>(n % 2);
-  PreviewView view;
+  PreviewState view;
   view.size = {80, 60};
   view.color.by = ColorScheme::By::file;
   view.color.file = {.path = "numbers.txt", .numbers = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0}};

@@ -31,7 +31,7 @@ TEST(PreviewFrames, FramesOfATrajectory) {
                                 positions.back().x += 30.0 * static_cast<double>(frame);
                                 return positions;
                               }};
-  PreviewView view;
+  PreviewState view;
   view.size = {80, 60};
   PreviewSession session(make_cpu_view_renderer(), structure, view, std::nullopt, folder.path(), moments);
   const auto apply = [&](const char* command) { return session.apply(Json::parse(command)); };
@@ -65,7 +65,7 @@ TEST(PreviewFrames, AtomsThatComeAndGo) {
     return structure;
   };
   TrajectoryPositions moments{{0, 1, 2}, {}, at};
-  PreviewView view;
+  PreviewState view;
   view.size = {80, 60};
   PreviewSession session(make_cpu_view_renderer(), all, view, std::nullopt, folder.path(), moments);
   const auto apply = [&](const char* command) { return session.apply(Json::parse(command)); };
@@ -87,7 +87,7 @@ TEST(PreviewFrames, KeysOfTheCamera) {
   const Structure structure = read_structure(folder.file("one.pdb", kTwoModels));
   std::vector<glm::dvec3> positions;
   for (const Atom& atom : structure.atoms) positions.push_back(atom.position);
-  PreviewView view;
+  PreviewState view;
   view.size = {80, 60};
   PreviewSession session(make_cpu_view_renderer(), structure, view, std::nullopt, folder.path(),
                          TrajectoryPositions{{10, 20, 30, 40}, [positions](std::size_t) { return positions; }});
@@ -97,11 +97,11 @@ TEST(PreviewFrames, KeysOfTheCamera) {
   ASSERT_TRUE(session.render(Quality::full));
   EXPECT_EQ(apply(R"({"command":"key"})")["keys"], 1);
   EXPECT_TRUE(session.is_drawn(Quality::full)) << "the same picture";
-  const Camera first = session.view().camera;
+  const Camera first = session.state().camera;
   apply(R"({"command":"frame","index":3})");
   apply(R"({"command":"orbit","dx":0.5,"dy":0.1})");
   EXPECT_EQ(apply(R"({"command":"key"})")["keys"], 2);
-  const Camera last = session.view().camera;
+  const Camera last = session.state().camera;
   // The file has the numbers of the trajectory, and moves the camera as the preview does.
   ASSERT_TRUE(apply(kExport)["ok"]);
   const CameraPath path = read_camera_path((folder.path() / "path.json").string());
@@ -109,8 +109,8 @@ TEST(PreviewFrames, KeysOfTheCamera) {
   EXPECT_EQ(path.at(40).position, last.position);
   ASSERT_TRUE(apply(R"({"command":"follow_keys","on":true})")["ok"]);
   apply(R"({"command":"frame","index":1})");
-  EXPECT_EQ(session.view().camera.position, path.at(20).position);
-  EXPECT_GT(glm::distance(session.view().camera.position, first.position), 0.1);
+  EXPECT_EQ(session.state().camera.position, path.at(20).position);
+  EXPECT_GT(glm::distance(session.state().camera.position, first.position), 0.1);
   // Keys of two projections make no path.
   apply(R"({"command":"projection","projection":"orthographic"})");
   EXPECT_FALSE(apply(R"({"command":"key"})")["ok"]);

@@ -9,13 +9,13 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
-#include "app/preview/window/atom_question.h"
+#include "app/preview/command_json.h"
 #include "app/preview/window/gestures.h"
-#include "app/preview/window/keys.h"
 #include "app/preview/window/latency.h"
 #include "app/preview/window/panel.h"
+#include "app/preview/window/questions.h"
 #include "app/preview/window/session_link.h"
-#include "app/preview/command_json.h"
+#include "app/preview/window/widgets.h"
 
 namespace meniscus {
 namespace {

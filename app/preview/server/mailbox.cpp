@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "app/preview/merge_commands.h"
+#include "app/preview/command_json.h"
 
 namespace meniscus {
 namespace {

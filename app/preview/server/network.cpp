@@ -14,10 +14,8 @@
 #include <fmt/format.h>
 
 #include "app/preview/command_json.h"
-#include "app/preview/server/access.h"
 #include "app/preview/server/clients.h"
 #include "app/preview/server/connection.h"
-#include "app/preview/server/limits.h"
 #include "core/base/error.h"
 
 namespace meniscus {

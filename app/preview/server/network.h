@@ -13,10 +13,9 @@
 
 namespace meniscus {
 
-/// Serves the page to browsers on this machine that know the token, and passes their commands to the mailbox. Limits:
-/// server/limits.h; the first socket controls, the others
-/// look. Foreign hosts, foreign origins and wrong
-/// tokens are answered with 403. All functions may be called from any thread.
+/// Serves the page to browsers on this machine that know the token, and passes their commands to the mailbox. The first
+/// socket controls, the others look. Foreign hosts, foreign origins and wrong tokens are answered with 403. All
+/// functions may be called from any thread.
 class Network {
  public:
   /// port 0: any free one. Listens when this returns. Throws RequestError if the port cannot be had, Error.

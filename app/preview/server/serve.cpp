@@ -7,13 +7,18 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
+
+#include <turbojpeg.h>
 
 #include "app/preview/live_view.h"
 #include "app/preview/server/mailbox.h"
 #include "app/preview/server/network.h"
-#include "app/preview/server/picture_encoder.h"
+#include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/image/png_encoder.h"
 
 namespace meniscus {
 namespace {
@@ -21,7 +26,45 @@ namespace {
 using Clock = LiveView::Clock;
 using Json = nlohmann::json;
 
-constexpr int kJpegQuality = 80;
+/// Encodes JPEG with one compressor for all pictures: small and quick while something moves.
+class JpegEncoder {
+ public:
+  JpegEncoder() : compressor_(tjInitCompress()) {
+    if (!compressor_) throw Error(std::string("JPEG: ") + tjGetErrorStr2(nullptr));
+  }
+  ~JpegEncoder() { tjDestroy(compressor_); }
+  JpegEncoder(const JpegEncoder&) = delete;
+  JpegEncoder& operator=(const JpegEncoder&) = delete;
+
+  /// rgba: 4 bytes a pixel, rows from the top; alpha is left out.
+  std::vector<std::uint8_t> encode(std::span<const std::uint8_t> rgba, glm::ivec2 size) {
+    constexpr int kQuality = 80;  // of 100
+    unsigned char* bytes = nullptr;
+    unsigned long count = 0;
+    const int failed = tjCompress2(compressor_, rgba.data(), size.x, 0, size.y, TJPF_RGBX, &bytes, &count, TJSAMP_420,
+                                   kQuality, TJFLAG_FASTDCT);
+    std::vector<std::uint8_t> result;
+    if (!failed) result.assign(bytes, bytes + count);
+    tjFree(bytes);
+    if (failed) throw Error(std::string("JPEG: ") + tjGetErrorStr2(compressor_));
+    return result;
+  }
+
+ private:
+  void* compressor_;
+};
+
+/// The same pixels as PNG, nothing lost, lightly compressed.
+std::vector<std::uint8_t> png_of(std::span<const std::uint8_t> rgba, glm::ivec2 size) {
+  ImageToEncode image;
+  image.format = "png";
+  image.width = size.x;
+  image.height = size.y;
+  image.channels = {"R", "G", "B"};
+  image.color_space = "sRGB";
+  image.png_level = 1;  // of 9; more takes longer for a little less
+  return encode_png(image, rgba, 4);
+}
 
 /// A picture as pages get it.
 struct SentPicture {
@@ -62,8 +105,8 @@ class ServedSession {
 
   /// The next frame, when it is time and the pages have come along.
   void play() {
-    if (!session_.playing() || waiting_.empty() || Clock::now() < next_frame_) return;
-    const auto pace = std::chrono::duration<double>(1.0 / session_.frames_per_second());
+    if (!session_.state().playing || waiting_.empty() || Clock::now() < next_frame_) return;
+    const auto pace = std::chrono::duration<double>(1.0 / session_.state().frames_per_second);
     next_frame_ = std::max(next_frame_, Clock::now() - std::chrono::seconds(1)) +
                   std::chrono::duration_cast<Clock::duration>(pace);
     view_.apply({{"command", "next_frame"}});
@@ -71,7 +114,7 @@ class ServedSession {
 
   /// Is the latest picture good enough for now?
   bool is_current() const {
-    return picture_.number > 0 && picture_.revision == session_.revision() &&
+    return picture_.number > 0 && picture_.revision == session_.state().revision &&
            picture_.quality >= view_.due(Clock::now());
   }
 
@@ -102,7 +145,7 @@ class ServedSession {
   /// False if there is nothing to show: it cannot be drawn, or a newer command stopped it.
   bool draw() {
     // However late a page asks, of what it has not seen at all there is a draft first.
-    const bool begun = picture_.number > 0 && picture_.revision == session_.revision();
+    const bool begun = picture_.number > 0 && picture_.revision == session_.state().revision;
     const Quality due = view_.due(Clock::now()), quality = begun ? due : std::min(due, view_.at_once());
     if (!view_.draw(quality, [this] { return mailbox_.waiting_change(); })) {
       if (!view_.fault().empty())
@@ -118,11 +161,11 @@ class ServedSession {
     const glm::ivec2 size = session_.picture_size();
     const auto begin = Clock::now();
     const bool full = quality == Quality::full;
-    picture_.bytes = std::make_shared<const std::vector<std::uint8_t>>(full ? encode_png(rgba, size)
-                                                                            : jpeg_.encode(rgba, size, kJpegQuality));
+    picture_.bytes =
+        std::make_shared<const std::vector<std::uint8_t>>(full ? png_of(rgba, size) : jpeg_.encode(rgba, size));
     const std::chrono::duration<double, std::milli> elapsed = Clock::now() - begin;
     ++picture_.number;
-    picture_.revision = session_.revision();
+    picture_.revision = session_.state().revision;
     picture_.quality = quality;
     picture_.message = {{"event", "picture"},
                         {"type", full ? "image/png" : "image/jpeg"},
@@ -139,9 +182,9 @@ class ServedSession {
     if (waiting_.empty()) return deadline;
     const bool drawable = view_.fault().empty();
     if (drawable && !is_current()) return Clock::now();
-    if (drawable && picture_.quality != Quality::full && !session_.playing())
+    if (drawable && picture_.quality != Quality::full && !session_.state().playing)
       deadline = view_.last_change() + view_.rest(picture_.quality == Quality::draft ? Quality::plain : Quality::full);
-    if (session_.playing()) deadline = deadline ? std::min(*deadline, next_frame_) : next_frame_;
+    if (session_.state().playing) deadline = deadline ? std::min(*deadline, next_frame_) : next_frame_;
     return deadline;
   }
 

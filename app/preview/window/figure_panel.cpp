@@ -3,14 +3,13 @@
 #include "app/preview/window/figure_panel.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "app/preview/window/gui.h"
+#include "app/preview/window/widgets.h"
 #include "core/color/color_schemes.h"
 #include "core/color/css_colors.h"
 #include "core/scene/cut.h"
@@ -35,8 +34,6 @@ float object_opacity(const Json& object) {
   return parse_opacity_rule(opacity.get<std::string>()).opacity;
 }
 
-void same_line() { ImGui::SameLine(0.0f, 0.35f * ImGui::GetFontSize()); }
-
 }  // namespace
 
 void FigurePanel::draw() {
@@ -52,26 +49,23 @@ void FigurePanel::draw() {
 void FigurePanel::atoms() {
   ImGui::SetNextItemWidth(-1.0f);
   ImGui::InputTextWithHint("##atoms", "atoms: ligand, chain A ...", &selection_);
-  Gui::mark("##atoms");
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("A selection; then one of the buttons below");
-  constexpr std::array<const char*, 4> kShapes{"sticks", "balls", "spheres", "tube"};
+  tooltip("A selection; then one of the buttons below");
   const bool empty = selection_.empty();
   if (empty) ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 0.5f);
-  for (const char* shape : kShapes) {
-    if (shape != kShapes.front()) same_line();
-    if (ImGui::Button(shape) && !empty)
+  for (const Json& shape : link_.choices()["representations"]) {
+    if (ImGui::Button(shape.get<std::string>().c_str()) && !empty)
       link_.send({{"command", "represent"}, {"as", shape}, {"selection", selection_}});
+    if (shape != link_.choices()["representations"].back()) same_line();
   }
   if (ImGui::Button("surface") && !empty)
     link_.send({{"command", "object"}, {"object", {{"selection", selection_}, {"color", hex_color(paint_)}}}});
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("A surface of their own, in this colour");
+  tooltip("A surface of their own, in this colour");
   same_line();
   if (ImGui::Button("hide") && !empty) link_.send({{"command", "hide"}, {"selection", selection_}});
   same_line();
   if (ImGui::Button("only") && !empty) link_.send({{"command", "show"}, {"selection", selection_}});
   if (ImGui::Button("paint") && !empty)
     link_.send({{"command", "paint"}, {"selection", selection_}, {"color", hex_color(paint_)}});
-  Gui::mark("paint");
   same_line();
   ImGui::ColorEdit3("##paint", &paint_.x, ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel);
   same_line();
@@ -172,7 +166,7 @@ void FigurePanel::cuts() {
       move(std::round(100.0 * bound) / 100.0, false);
     same_line();
     if (ImGui::SmallButton(fmt::format("<>##side{}", index).c_str())) move(cut.bound, true);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Show the other side");
+    tooltip("Show the other side");
     ++index;
   }
   ImGui::AlignTextToFramePadding();

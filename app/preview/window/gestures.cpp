@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/preview/merge_commands.h"
+#include "app/preview/command_json.h"
 
 namespace meniscus {
 namespace {

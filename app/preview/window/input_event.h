@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a user does to a window, one small record each, in the order it was done.
+// What a user does to a window, one small record each, in the order it was done; and what keys mean.
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <nlohmann/json.hpp>
+
+#include "app/preview/key_table.h"
 
 namespace meniscus {
 
@@ -20,5 +23,8 @@ struct InputEvent {
   bool shift = false;
   double time = 0.0;  ///< seconds on the window's clock
 };
+
+/// What a typed letter or a pressed key means while the session has this state; nothing for all other keys.
+KeyMeaning event_meaning(const InputEvent& event, const nlohmann::json& state);
 
 }  // namespace meniscus

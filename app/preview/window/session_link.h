@@ -44,7 +44,6 @@ class SessionLink {
 
   /// True when all that was sent is done and drawn, if only as a draft.
   bool settled() const { return news_.shown >= sent_ && has_state(); }
-  std::uint64_t sent() const { return sent_; }
   SharedPicture picture() { return thread_.picture(); }
   /// The window now shows all commands up to this number.
   void presented(std::uint64_t number) { thread_.presented(number); }

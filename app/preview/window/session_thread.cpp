@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "app/preview/command_json.h"
-#include "app/preview/merge_commands.h"
 
 namespace meniscus {
 namespace {

@@ -18,7 +18,7 @@
 
 #include "app/preview/live_view.h"
 #include "app/preview/session.h"
-#include "app/preview/window/picture_exchange.h"
+#include "app/preview/window/pictures.h"
 #include "core/gpu/egl_context.h"
 
 namespace meniscus {

@@ -13,16 +13,15 @@
 #include <epoxy/gl.h>
 #include <imgui.h>
 
-#include "app/preview/window/atom_question.h"
 #include "app/preview/command_json.h"
 #include "app/preview/window/desktop_window.h"
 #include "app/preview/window/gestures.h"
 #include "app/preview/window/gui.h"
-#include "app/preview/window/keys.h"
-#include "app/preview/window/overlays.h"
 #include "app/preview/window/panel.h"
-#include "app/preview/window/picture_view.h"
+#include "app/preview/window/pictures.h"
+#include "app/preview/window/questions.h"
 #include "app/preview/window/session_link.h"
+#include "app/preview/window/widgets.h"
 
 namespace meniscus {
 namespace {
@@ -136,7 +135,7 @@ double PreviewWindow::patience() {
   if (link_.news().at_rest)
     if (const auto due = hover_.advance(link_, now)) seconds = std::min(seconds, *due);
   if (const auto due = clicked_.advance(link_, now)) seconds = std::min(seconds, *due);
-  if (const auto due = panel_.exporting().advance(link_, now)) seconds = std::min(seconds, *due);
+  if (const auto due = panel_.exports().question().advance(link_, now)) seconds = std::min(seconds, *due);
   if (link_.state()["playing"].get<bool>()) seconds = std::min(seconds, std::max(next_frame_due_ - now, 1e-3));
   return seconds;
 }
@@ -200,7 +199,7 @@ void PreviewWindow::take_key(const InputEvent& event) {
       break;
     case FaceAction::export_name:
       panel_shown_ = true;
-      panel_.ask_for_name();
+      panel_.exports().ask_for_name();
       assume_typing(true);  // what is typed behind it is for the name
       break;
     case FaceAction::leave:
@@ -230,7 +229,7 @@ void PreviewWindow::take_reply(const SessionReply& reply) {
   if (replaying() && options_.replied) options_.replied(reply.number - first_number_, reply.reply);
   const double now = window_.seconds();
   if (hover_.take(reply, now)) return;
-  if (!clicked_.take(reply, now)) return panel_.show_reply(reply, now);
+  if (!clicked_.take(reply, now)) return panel_.exports().show_reply(reply, now);
   panel_.show_pick(clicked_.answer());
 }
 
@@ -261,7 +260,7 @@ void PreviewWindow::draw() {
   if (window_.pixels().x == 0) return;
   gui_.begin();
   if (panel_shown_) panel_.draw(gui_.em());
-  if (help_) draw_help(gui_.em());
+  if (help_) draw_help(Panel::width(gui_.em()));
   if (!gestures_.dragging() && !help_) draw_answer(hover_.answer());
   const SharedPicture picture = link_.picture();
   const std::uint64_t shown = link_.news().shown;

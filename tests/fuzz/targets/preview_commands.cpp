@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "app/preview/command_json.h"
-#include "app/preview/command_log.h"
 #include "app/preview/command_reader.h"
 #include "app/preview/look_json.h"
 #include "app/preview/server/mailbox.h"

@@ -226,6 +226,8 @@ function fill_choices(choices) {
   for (const map of choices.maps) $("map").add(new Option(map, map));
   choices.sliders.forEach(add_slider);
   if (state) for (const key of strengths) set_value($(key), state.look[key]);
+  $("shapes").prepend(...choices.representations.map((as) =>
+    Object.assign(document.createElement("button"), { name: "do", value: as, textContent: as })));
   for (const preset of choices.presets) $("preset").add(new Option(preset, preset));
   fill_list($("help").querySelector("dl"), choices.keys.filter(({ keys }) => !keys.startsWith("q"))
     .map(({ keys, what }) => [what, keys]));

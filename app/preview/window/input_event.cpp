@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Names of keys.
-#include "app/preview/window/keys.h"
+// GLFW names keys by numbers, the table of keys as browsers do.
+#include "app/preview/window/input_event.h"
 
 #include <string>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hands pictures from the thread that draws them to the thread that shows them, without a copy through the CPU
-// where the GPU draws them.
+// Pictures on their way from the thread that draws them into the window, without a copy through the CPU where the GPU
+// draws them.
 #pragma once
 
 #include <array>
@@ -39,6 +39,22 @@ class PictureExchange {
   int shown_ = 0, ready_ = 1, free_ = 2;
   bool fresh_ = false;  ///< slot ready_ is newer than slot shown_
   std::mutex mutex_;
+};
+
+/// Needs the window's context current for its whole life.
+class PictureView {
+ public:
+  PictureView();
+  ~PictureView();
+  PictureView(const PictureView&) = delete;
+  PictureView& operator=(const PictureView&) = delete;
+
+  /// Puts a texture of `size` (GL_RGBA8, sRGB values, first row on top) into the upper left `area` (pixels) of a window
+  /// `window` pixels large. Of equal sizes every pixel is the picture's own; else it is stretched until it fits.
+  void show(std::uint32_t texture, glm::ivec2 size, glm::ivec2 area, glm::ivec2 window);
+
+ private:
+  std::uint32_t framebuffer_ = 0;
 };
 
 }  // namespace meniscus

@@ -1,33 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The commands that colour: schemes, rules, opacity, the look and the legend.
+// The commands that colour: schemes, rules, opacity, caps, the look and the legend.
 #include <algorithm>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "app/preview/command_values.h"
+#include "app/preview/commands.h"
 #include "app/preview/look_json.h"
-#include "app/preview/session.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/css_colors.h"
+#include "core/properties/properties.h"
 
 namespace meniscus {
 namespace {
-
-using Json = nlohmann::json;
 
 constexpr std::size_t kMostRules = 100;
 
 /// "rules": a list of texts, as --color reads them.
 std::vector<ColorRule> rules_of(const CommandReader& command) {
   std::vector<ColorRule> rules;
-  const Json& texts = command.value("rules");
+  const nlohmann::json& texts = command.value("rules");
   if (!texts.is_array() || texts.size() > kMostRules)
     throw RequestError(
         fmt::format("color: \"rules\" is a list of at most {} texts such as \"ligand=red\"", kMostRules));
-  for (const Json& text : texts) {
+  for (const nlohmann::json& text : texts) {
     if (!text.is_string()) throw RequestError("color: each of \"rules\" is a text such as \"ligand=red\"");
     try {
       rules.push_back(parse_color_rule(text.get<std::string>()));
@@ -103,43 +101,39 @@ ColorScheme scheme_of(const CommandReader& command, const ColorScheme& before, c
 
 }  // namespace
 
-Json PreviewSession::set_color(const CommandReader& command) {
-  PreviewFigure next = view_;
-  next.color = scheme_of(command, view_.color, first_color_);
-  become(std::move(next), Changed::colors);
-  return Json::object();
+Outcome set_color(const CommandReader& command, PreviewState state, const Surroundings& around) {
+  state.color = scheme_of(command, state.color, around.first.color);
+  return {std::move(state), Renewal::colors};
 }
 
-Json PreviewSession::paint(const CommandReader& command) {
-  PreviewFigure next = view_;
-  const Selection selection = selection_of(command);
-  if (next.color.by == ColorScheme::By::kind)
+Outcome paint(const CommandReader& command, PreviewState state, const Surroundings& around) {
+  ColorScheme& color = state.color;
+  const Selection selection = command.selection();
+  if (color.by == ColorScheme::By::kind)
     throw RequestError("paint: kinds of patch are coloured now, not atoms; choose another scheme first");
-  if (next.color.rules.size() == kMostRules)
+  if (color.rules.size() == kMostRules)
     throw RequestError(fmt::format("paint: at most {} selections have colours of their own; remove one", kMostRules));
   const std::string rule = selection.text() + "=" + command.text("color");
-  next.color.rules.push_back(naming(command, [&] { return parse_color_rule(rule); }));
-  require_previewed(next.color);
-  if (next.color.uses_file()) {
-    if (numbers_at_first(first_color_).empty())
+  color.rules.push_back(command.naming([&] { return parse_color_rule(rule); }));
+  require_previewed(color);
+  if (color.uses_file()) {
+    const NumberFile& numbers = numbers_at_first(around.first.color);
+    if (numbers.empty())
       throw RequestError("paint: \"file\" needs numbers; begin the preview with --color-by-file FILE");
-    next.color.set_numbers(numbers_at_first(first_color_));
+    color.set_numbers(numbers);
   }
-  next.color.share_scale();
-  become(std::move(next), Changed::colors);
-  return {{"index", view_.color.rules.size() - 1}};
+  color.share_scale();
+  const std::size_t index = color.rules.size() - 1;
+  return {std::move(state), Renewal::colors, {{"index", index}}};
 }
 
-Json PreviewSession::set_patch_kinds(const CommandReader& command) {
-  PreviewFigure next = view_;
-  next.patch_kinds = command.flag("on");
-  become(std::move(next), Changed::colors);
-  return Json::object();
+Outcome set_patch_kinds(const CommandReader& command, PreviewState state, const Surroundings&) {
+  state.patch_kinds = command.flag("on");
+  return {std::move(state), Renewal::colors};
 }
 
-Json PreviewSession::set_opacity(const CommandReader& command) {
-  PreviewFigure next = view_;
-  std::vector<OpacityRule>& rules = next.color.opacities;
+Outcome set_opacity(const CommandReader& command, PreviewState state, const Surroundings&) {
+  std::vector<OpacityRule>& rules = state.color.opacities;
   OpacityRule rule;
   rule.opacity = static_cast<float>(command.number("opacity", 0.0, 1.0));
   std::size_t index = rules.size();
@@ -147,7 +141,7 @@ Json PreviewSession::set_opacity(const CommandReader& command) {
     index = static_cast<std::size_t>(command.integer("index", 0, static_cast<int>(rules.size()) - 1));
     rules[index].opacity = rule.opacity;
   } else {
-    if (command.has("selection")) rule.atoms = selection_of(command);
+    if (command.has("selection")) rule.atoms = command.selection();
     const auto same = std::ranges::find_if(rules, [&](const OpacityRule& known) {
       return known.atoms.has_value() == rule.atoms.has_value() &&
              (!rule.atoms || known.atoms->text() == rule.atoms->text());
@@ -158,66 +152,54 @@ Json PreviewSession::set_opacity(const CommandReader& command) {
     rules.push_back(rule);
     index = rules.size() - 1;
   }
-  become(std::move(next), Changed::colors);
-  return {{"index", index}};
+  return {std::move(state), Renewal::colors, {{"index", index}}};
 }
 
-Json PreviewSession::set_film_opacity(const CommandReader& command) {
-  PreviewFigure next = view_;
-  next.figure.thickens = command.flag("on");
-  become(std::move(next), Changed::cuts);
-  return Json::object();
+Outcome set_film_opacity(const CommandReader& command, PreviewState state, const Surroundings&) {
+  state.figure.thickens = command.flag("on");
+  return {std::move(state), Renewal::cuts};
 }
 
-Json PreviewSession::set_cap(const CommandReader& command) {
-  PreviewFigure next = view_;
-  CapStyle& cap = next.figure.cap;
+Outcome set_cap(const CommandReader& command, PreviewState state, const Surroundings&) {
+  CapStyle& cap = state.figure.cap;
   if (command.has("color")) {
     cap.color.reset();
     if (command.text("color") != "atom") cap.color = named_color(command, "color");
   }
-  cap.hatching = command.number_or(cap.hatching, "hatching", 0.0, 1000.0);
-  become(std::move(next), Changed::cuts);
-  return Json::object();
+  if (command.has("hatching")) cap.hatching = command.number("hatching", property_of("surface.cap_hatching"));
+  return {std::move(state), Renewal::cuts};
 }
 
-Json PreviewSession::set_look(const CommandReader& command) {
-  PreviewFigure next = view_;
-  next.look = changed_look(view_.look, command);
-  next.background = changed_background(view_.background, command);
-  become(std::move(next), Changed::view);
-  return Json::object();
+Outcome set_look(const CommandReader& command, PreviewState state, const Surroundings&) {
+  state.look = changed_look(state.look, command);
+  state.background = changed_background(state.background, command);
+  return {std::move(state), Renewal::legend};
 }
 
-Json PreviewSession::set_preset(const CommandReader& command) {
-  const std::size_t preset = command.choice("preset", {"publication", "cover", "flat", "soft", "classic"});
-  PreviewFigure next = view_;
-  next.look = {.preset = static_cast<LookPreset>(preset)};
-  become(std::move(next), Changed::view);
-  return Json::object();
+Outcome set_preset(const CommandReader& command, PreviewState state, const Surroundings&) {
+  state.look = {.preset = static_cast<LookPreset>(command.choice("preset", property_of("look.preset")))};
+  return {std::move(state), Renewal::legend};
 }
 
-Json PreviewSession::set_legend(const CommandReader& command) {
+Outcome set_legend(const CommandReader& command, PreviewState state, const Surroundings&) {
   constexpr std::size_t kLongestTitle = 200;
-  PreviewFigure next = view_;
-  LegendStyle& style = next.legend_style;
-  next.legend = command.flag_or(next.legend, "on");
+  const auto is_usual = [&](const char* key) { return command.value(key).is_null(); };
+  LegendStyle& style = state.legend_style;
+  state.legend = command.flag_or(state.legend, "on");
   if (command.has("title")) {
     style.title.reset();
-    if (!command.value("title").is_null()) style.title = shortened(command.text("title"), kLongestTitle);
+    if (!is_usual("title")) style.title = shortened(command.text("title"), kLongestTitle);
   }
   if (command.has("letters")) {
     style.letters.reset();
-    if (!command.value("letters").is_null()) style.letters = command.integer("letters", 6, 1000);
+    if (!is_usual("letters")) style.letters = command.integer("letters", property_of("legend.size"));
   }
   if (command.has("place"))
-    style.place = static_cast<LegendStyle::Place>(command.choice("place", {"auto", "right", "below"}));
-  const ColorScheme color = next.told_scheme();
-  if (next.legend && color.by == ColorScheme::By::fixed && color.rules.empty())
+    style.place = static_cast<LegendStyle::Place>(command.choice("place", property_of("legend.place")));
+  const ColorScheme color = state.told_scheme();
+  if (state.legend && color.by == ColorScheme::By::fixed && color.rules.empty())
     throw RequestError("legend: there is nothing to explain where all is of one colour; choose another scheme first");
-  become(std::move(next), Changed::view);
-  if (view_.overview) look_at_all();
-  return Json::object();
+  return {.state = std::move(state), .renewal = Renewal::legend, .frames_all = true};
 }
 
 }  // namespace meniscus

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a figure's colours mean, and which a preview has.
-#include "app/preview/preview_view.h"
+// What a figure's colours mean, which of them a preview has, and two stacks of figures.
+#include "app/preview/preview_state.h"
 
 #include <string>
 
@@ -10,6 +10,8 @@
 
 namespace meniscus {
 namespace {
+
+constexpr std::size_t kMostSteps = 100;
 
 /// What makes pictures of the schemes that a preview has not; empty: it has it.
 std::string who_shows(ColorScheme::By scheme, bool has_numbers) {
@@ -47,5 +49,19 @@ void require_previewed(const ColorScheme& color) {
 }
 
 bool is_previewed(ColorScheme::By scheme) { return who_shows(scheme, false).empty(); }
+
+void EditHistory::note(std::string_view kind, const PreviewFigure& before) {
+  future_.clear();
+  if (!kind.empty() && kind == kind_) return;
+  kind_ = kind;
+  past_.push_back(before);
+  if (past_.size() > kMostSteps) past_.pop_front();
+}
+
+void EditHistory::move(const PreviewFigure& now, std::deque<PreviewFigure>& from, std::deque<PreviewFigure>& to) {
+  end_step();
+  to.push_back(now);
+  from.pop_back();
+}
 
 }  // namespace meniscus

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a preview shows, as one value: what undo brings back, and around it what belongs to the session.
+// What a preview shows, as one value: the figure that undo brings back, and around it what belongs to the session.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <deque>
 #include <map>
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -56,17 +60,49 @@ void require_previewed(const ColorScheme& color);
 /// Whether it is none of these, whatever a preview was begun with.
 bool is_previewed(ColorScheme::By scheme);
 
-/// What is seen, and how; all of it changes by commands.
-struct PreviewView : PreviewFigure {
+/// All that commands change. A command makes another state of it; the picture follows from the state.
+struct PreviewState : PreviewFigure {
   std::size_t frame = 0;               ///< from 0
   std::map<std::size_t, Camera> keys;  ///< of the camera, by frame; all of one projection
   bool follows_keys = false;           ///< showing a frame moves the camera along its keys
   bool playing = false;
-  double frames_per_second = 10.0;  ///< while playing
-  glm::ivec2 size{1024, 768};       ///< of the full picture with its legend, in pixels
-  int samples = 4;                  ///< rays per pixel of the full picture
-  bool copies_apart = false;        ///< no probe may touch two copies of the structure (Structure::instances)
+  double frames_per_second = 10.0;            ///< while playing
+  glm::ivec2 size{1024, 768};                 ///< of the full picture with its legend, in pixels
+  int samples = 4;                            ///< rays per pixel of the full picture
+  bool copies_apart = false;                  ///< no probe may touch two copies of the structure (Structure::instances)
+  std::map<std::string, Camera> named_views;  ///< kept by the user
   ExportWishes wishes;
+  std::uint64_t revision = 1;  ///< grows with every change of what is seen
+  bool ended = false;          ///< a command asked to end
+
+  /// Of the full picture, its legend included.
+  Look full_look() const { return look_of(look, size, background, hues()); }
+};
+
+/// What a figure was before each step, for undo and redo. Steps of one kind that follow each other without end_step()
+/// between them, such as the movements of one drag, are one step.
+class EditHistory {
+ public:
+  /// What was there before a step of this kind; empty: a step by itself.
+  void note(std::string_view kind, const PreviewFigure& before);
+  /// The next step is one by itself.
+  void end_step() { kind_.clear(); }
+
+  /// The figure that undo or redo brings back; nullptr: none.
+  const PreviewFigure* before() const { return past_.empty() ? nullptr : &past_.back(); }
+  const PreviewFigure* after() const { return future_.empty() ? nullptr : &future_.back(); }
+  /// It has been brought back in place of the figure there was. There must be one.
+  void go_back(const PreviewFigure& now) { move(now, past_, future_); }
+  void go_forward(const PreviewFigure& now) { move(now, future_, past_); }
+
+  std::size_t undo_steps() const { return past_.size(); }
+  std::size_t redo_steps() const { return future_.size(); }
+
+ private:
+  void move(const PreviewFigure& now, std::deque<PreviewFigure>& from, std::deque<PreviewFigure>& to);
+
+  std::deque<PreviewFigure> past_, future_;
+  std::string kind_;  ///< of the last step; empty: it is ended
 };
 
 }  // namespace meniscus

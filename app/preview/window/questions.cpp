@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A question that repeats itself as long as the area is missing.
-#include "app/preview/window/atom_question.h"
+// Each question has one command under way at a time.
+#include "app/preview/window/questions.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "app/preview/command_json.h"
 
 namespace meniscus {
 namespace {
@@ -49,6 +51,23 @@ bool AtomQuestion::take(const SessionReply& reply, double time) {
   if (!with_area_ || !answer_.value("area_follows", false)) place_.reset();
   due_ = time + kAskAgain;
   return true;
+}
+
+bool ExportQuestion::take(const SessionReply& reply, double time) {
+  const std::string word = command_word(reply.command);
+  if (word != "export_state" && !(word == "export" && reply.reply.value("running", false))) return false;
+  number_ = 0;
+  due_ = time + kAskAgain;
+  running_ = reply.reply.value("running", false);
+  told_ = reply.reply;
+  return true;
+}
+
+std::optional<double> ExportQuestion::advance(SessionLink& link, double time) {
+  if (!running_ || number_ != 0) return {};
+  if (time < due_) return due_ - time;
+  number_ = link.send({{"command", "export_state"}});
+  return {};
 }
 
 }  // namespace meniscus

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The table, and the commands of the session itself: undo and redo, keys, the end.
+#include "app/preview/commands.h"
+
+#include <algorithm>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "app/preview/look_json.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+
+namespace meniscus {
+namespace {
+
+std::vector<Command> all_commands() {
+  using Effect = Command::Effect;
+  return {
+      {"orbit", {"dx", "dy"}, Effect::motion, orbit},
+      {"pan", {"dx", "dy"}, Effect::motion, pan},
+      {"zoom", {"factor", "x", "y"}, Effect::motion, zoom},
+      {"roll", {"degrees"}, Effect::motion, roll},
+      {"zoom_to", {"selection"}, Effect::edit, zoom_to},
+      {"center", {"x", "y"}, Effect::edit, center},
+      {"reset_view", {}, Effect::edit, reset_view},
+      {"camera", {"camera"}, Effect::edit, set_camera},
+      {"projection", {"projection"}, Effect::edit, set_projection},
+      {"save_view", {"name"}, Effect::none, save_view},
+      {"recall_view", {"name"}, Effect::edit, recall_view},
+      {"forget_view", {"name"}, Effect::none, forget_view},
+      {"surface", {"kind"}, Effect::edit, set_surface},
+      {"probe", {"radius"}, Effect::slide, set_probe},
+      {"show", {"selection"}, Effect::edit, show},
+      {"hide", {"selection"}, Effect::edit, hide},
+      {"represent", {"as", "selection"}, Effect::edit, represent},
+      {"object", {"object", "index"}, Effect::slide, put_object},
+      {"hide_surface", {"on"}, Effect::edit, hide_surface},
+      {"radii", {"stick", "tube"}, Effect::slide, set_radii},
+      {"color", {"scheme", "map", "range", "missing", "rules"}, Effect::edit, set_color},
+      {"paint", {"selection", "color"}, Effect::edit, paint},
+      {"patch_kinds", {"on"}, Effect::edit, set_patch_kinds},
+      {"opacity", {"opacity", "selection", "index"}, Effect::slide, set_opacity},
+      {"film_opacity", {"on"}, Effect::edit, set_film_opacity},
+      {"cut", {"plane", "index"}, Effect::slide, set_cut},
+      {"cap", {"color", "hatching"}, Effect::slide, set_cap},
+      {"remove", {"of", "index"}, Effect::edit, remove_entry},
+      {"look", look_keys(), Effect::slide, set_look},
+      {"preset", {"preset"}, Effect::edit, set_preset},
+      {"legend", {"on", "title", "letters", "place"}, Effect::edit, set_legend},
+      {"undo", {}, Effect::back, undo},
+      {"redo", {}, Effect::forward, redo},
+      {"end_step", {}, Effect::ends_step, end_step},
+      {"frame", {"index"}, Effect::picture, show_frame},
+      {"next_frame", {}, Effect::picture, next_frame},
+      {"key", {"on"}, Effect::none, set_key},
+      {"follow_keys", {"on"}, Effect::picture, follow_keys},
+      {"play", {"fps"}, Effect::none, play},
+      {"pause", {"fps"}, Effect::none, pause},
+      {"resize", {"width", "height"}, Effect::picture, resize},
+      {"samples", {"count"}, Effect::picture, set_samples},
+      {"press", {"key"}, Effect::none, press, false},  // what it means is recorded
+      {"pick", {"x", "y", "wait", "area"}, Effect::none, pick},
+      {"export",
+       {"format", "path", "width", "height", "samples", "transparent", "force", "wait"},
+       Effect::none,
+       export_view},
+      {"export_state", {}, Effect::none, export_state},
+      {"cancel_export", {}, Effect::none, cancel_export, false},
+      {"save", {"path", "width", "height", "samples", "transparent", "force"}, Effect::none, save_scene},
+      {"open", {"path"}, Effect::edit, open_scene},
+      {"render_command", {"width", "height", "samples", "transparent"}, Effect::none, render_command},
+      {"stats", {}, Effect::none, tell_stats},
+      {"state", {}, Effect::none, tell_state},
+      {"choices", {}, Effect::none, tell_choices},
+      {"quit", {}, Effect::none, quit},
+  };
+}
+
+/// The figure that undo or redo brings back, in place of the state's.
+Outcome restored(PreviewState state, const PreviewFigure& figure, std::size_t undo_steps, std::size_t redo_steps) {
+  static_cast<PreviewFigure&>(state) = figure;
+  return {std::move(state), Renewal::shapes, {{"undo", undo_steps}, {"redo", redo_steps}}, true};
+}
+
+}  // namespace
+
+const Command& row_of(const CommandReader& command) {
+  static const std::vector<Command> table = all_commands();
+  const auto row = std::ranges::find(table, command.word(), &Command::word);
+  if (row == table.end()) {
+    std::vector<std::string_view> words;
+    for (const Command& known : table) words.push_back(known.word);
+    throw RequestError(
+        fmt::format("{} is no command; there are {}", in_quotes(command.word()), fmt::join(words, ", ")));
+  }
+  command.expect_only(row->keys);
+  return *row;
+}
+
+Outcome undo(const CommandReader&, PreviewState state, const Surroundings& around) {
+  const EditHistory& history = around.history;
+  if (!history.before()) throw RequestError("undo: nothing was changed yet");
+  return restored(std::move(state), *history.before(), history.undo_steps() - 1, history.redo_steps() + 1);
+}
+
+Outcome redo(const CommandReader&, PreviewState state, const Surroundings& around) {
+  const EditHistory& history = around.history;
+  if (!history.after()) throw RequestError("redo: nothing was undone");
+  return restored(std::move(state), *history.after(), history.undo_steps() + 1, history.redo_steps() - 1);
+}
+
+Outcome end_step(const CommandReader&, PreviewState state, const Surroundings&) { return {std::move(state)}; }
+
+Outcome quit(const CommandReader&, PreviewState state, const Surroundings&) {
+  state.ended = true;
+  return {std::move(state)};
+}
+
+KeyMeaning press(const CommandReader& command, const Surroundings& around) {
+  return key_meaning(command.text("key"), tell_state(command, around));
+}
+
+}  // namespace meniscus

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The table of all commands of a preview: their words, their keys, what becomes of undo, and what carries them out.
+#pragma once
+
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "app/preview/command_reader.h"
+#include "app/preview/exporter.h"
+#include "app/preview/key_table.h"
+#include "app/preview/preview_state.h"
+#include "app/preview/shown_molecule.h"
+#include "app/preview/view_cache.h"
+
+namespace meniscus {
+
+/// What a command may look at.
+struct Surroundings {
+  const PreviewState& state;
+  const PreviewState& first;  ///< as the preview began
+  const EditHistory& history;
+  const ShownMolecule& molecule;  ///< of the state
+  ViewCache& pictures;
+  Exporter& exporter;
+};
+
+/// The state that a command makes.
+struct Outcome {
+  PreviewState state;
+  Renewal renewal = Renewal::nothing;
+  nlohmann::json reply = nlohmann::json::object();
+  bool frames_all = false;          ///< where all is in view, it comes into view again
+  bool is_own_step = false;         ///< for undo, whatever the command before it was
+  bool passes_over_damage = false;  ///< if its frame cannot be read, the command is carried out again from there
+};
+
+/// Makes another state of one. Like those below it throws RequestError or InputError for a bad command.
+using Reducer = Outcome(const CommandReader& command, PreviewState state, const Surroundings& around);
+/// Answers or exports; the state stays.
+using Service = nlohmann::json(const CommandReader& command, const Surroundings& around);
+/// Means another command, or nothing.
+using Translator = KeyMeaning(const CommandReader& command, const Surroundings& around);
+
+/// A row of the table.
+struct Command {
+  /// What it does to the picture and to undo.
+  enum class Effect {
+    none,      ///< the picture stays
+    picture,   ///< there is another; not to be undone
+    edit,      ///< and this is a step by itself
+    slide,     ///< the same command again makes one step of both
+    motion,    ///< and so do all movements of the camera
+    back,      ///< a step is undone
+    forward,   ///< or done again
+    ends_step  ///< the next step is one by itself
+  };
+  std::string_view word;
+  std::vector<std::string_view> keys;
+  Effect effect;
+  std::variant<Reducer*, Service*, Translator*> run;
+  bool is_recorded = true;  ///< unless it is a question
+
+  bool is_step() const { return effect == Effect::edit || effect == Effect::slide || effect == Effect::motion; }
+  bool makes_picture() const { return effect != Effect::none && effect != Effect::ends_step; }
+  /// Steps of one kind that follow each other are one; empty: this is a step by itself.
+  std::string_view kind_of_step() const {
+    if (effect == Effect::edit) return {};
+    return effect == Effect::motion ? "motion" : word;
+  }
+};
+
+/// The row of a command. Throws RequestError for an unknown word or key.
+const Command& row_of(const CommandReader& command);
+
+/// The pixel of the picture at rest that "x" and "y" name.
+glm::ivec2 pixel_of(const CommandReader& command, const PreviewState& state);
+
+/// What the command "state" answers.
+Service tell_state;
+
+// What the rows name, by file.
+Reducer orbit, pan, zoom, roll, zoom_to, center, reset_view, set_camera, set_projection, save_view, recall_view,
+    forget_view;                                                                             // camera_commands.cpp
+Reducer show_frame, next_frame, set_key, follow_keys, play, pause, resize, set_samples;      // camera_commands.cpp
+Reducer set_surface, set_probe, show, hide, represent, put_object, hide_surface, set_radii,  // figure_commands.cpp
+    set_cut, set_cap, remove_entry;
+Reducer set_color, paint, set_patch_kinds, set_opacity, set_film_opacity, set_look, set_preset,  // look_commands.cpp
+    set_legend;
+Reducer undo, redo, end_step, quit;                                            // commands.cpp
+Translator press;                                                              // commands.cpp
+Service tell_stats, tell_choices, pick;                                        // question_commands.cpp
+Service export_view, export_state, cancel_export, save_scene, render_command;  // export_commands.cpp
+Reducer open_scene;                                                            // export_commands.cpp
+
+}  // namespace meniscus

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The commands that write and read files of the output folder: exports, scenes, the command line of a picture.
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "app/options/scene_words.h"
+#include "app/preview/commands.h"
+#include "app/preview/rendered_scene.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/color/color_scale.h"
+#include "core/properties/properties.h"
+#include "core/render/image_output.h"
+#include "core/scene/scene_json.h"
+
+namespace meniscus {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int kLongestExportedSide = 16384;  // pixels
+
+/// What is asked of an exported picture beside the view.
+struct PictureWishes {
+  glm::ivec2 size;
+  int samples;
+  bool transparent;
+};
+
+PictureWishes wishes_of(const CommandReader& command, const PreviewState& state) {
+  const glm::ivec2 size = state.wishes.size.value_or(state.size);
+  return {{command.integer_or(size.x, "width", 16, kLongestExportedSide),
+           command.integer_or(size.y, "height", 16, kLongestExportedSide)},
+          command.has("samples") ? command.integer("samples", property_of("image.samples"))
+                                 : state.wishes.samples.value_or(state.samples),
+          command.flag_or(state.wishes.transparent, "transparent")};
+}
+
+/// Throws RequestError for a name that is none, or of a file that is there and may not be replaced.
+ExportTarget target_of(const CommandReader& command, const std::filesystem::path& folder) {
+  ExportTarget target{export_path(folder, command.text("path")),
+                      command.flag_or(false, "force") ? Existing::replace : Existing::refuse};
+  if (target.existing == Existing::refuse && std::filesystem::exists(target.path))
+    throw RequestError(target.path.string() + " exists already; let it be replaced, or give another name");
+  return target;
+}
+
+enum class Format { png, povray, blender, camera, camera_path };  // the last two are written at once
+
+/// A scene is a folder; so no file of another kind is replaced.
+void check_ending(const std::string& name, Format format) {
+  constexpr std::string_view kEndings[] = {"", "", ".mns", ".json", ".json"};
+  if (format == Format::povray ? name.find('.') != std::string::npos
+                               : !name.ends_with(kEndings[static_cast<std::size_t>(format)]))
+    throw RequestError(fmt::format(
+        "export: \"path\" is {}; {}", in_quotes(name),
+        format == Format::povray ? "a scene is a folder, whose name has no dot"
+                                 : fmt::format("its name must end in {}", kEndings[static_cast<std::size_t>(format)])));
+}
+
+/// The work of an export of what takes long.
+Json written(const ExportedView& view, Format format, const MakePictureDevice& make_device, const ExportTarget& target,
+             const ExportWatch& watch) {
+  Json reply{{"path", target.path.string()}};
+  if (format == Format::blender && !view.figure.figure.plain())
+    reply["note"] = "without cuts and what stands beside the surface; meniscus export has options for these";
+  if (format == Format::png) export_picture(view, make_device, target, watch);
+  if (format == Format::povray) reply["render_with"] = export_povray(view, target, watch);
+  if (format == Format::blender) export_blender(view, target, watch);
+  return reply;
+}
+
+/// The scene of the picture that a command wishes.
+Scene shown_scene(const CommandReader& command, const Surroundings& around) {
+  const PreviewState& state = around.state;
+  const ShownMolecule& molecule = around.molecule;
+  const PictureWishes wishes = wishes_of(command, state);
+  RenderedView view{state, wishes.size, wishes.samples, wishes.transparent, {}, {}, {}, state.wishes.dots_per_inch};
+  if (molecule.has_trajectory()) view.frame = molecule.number_of(state.frame);
+  if (molecule.has_models()) {
+    using By = ColorScheme::By;
+    if (!state.patch_kinds && (state.color.by == By::index || state.color.by == By::radial))
+      throw RequestError(
+          fmt::format("{}: {} counts the atoms of all models here, and those of one in a picture by "
+                      "render; choose another scheme",
+                      command.word(), in_quotes(scheme_word(state.color))));
+    view.model = molecule.structure().atoms[molecule.atoms().front()].model;
+    // A model alone would have a scale of its own.
+    if (state.color.has_scale()) view.range = color_scale(molecule.structure(), state.color).range;
+  }
+  return rendered_scene(around.exporter.context.scene.value_or(Scene{}), view);
+}
+
+/// The same as the text that pictures carry; empty where there is none.
+std::string scene_of(const CommandReader& command, const Surroundings& around) {
+  if (!around.exporter.context.scene || around.molecule.has_trajectory()) return {};  // frames of a run carry none
+  try {
+    return scene_text(shown_scene(command, around), "");
+  } catch (const RequestError&) {
+    return {};  // render cannot make this view
+  }
+}
+
+}  // namespace
+
+Json export_view(const CommandReader& command, const Surroundings& around) {
+  const PreviewState& state = around.state;
+  const ShownMolecule& molecule = around.molecule;
+  Exporter& exporter = around.exporter;
+  const auto format =
+      static_cast<Format>(command.choice("format", {"png", "povray", "blender", "camera", "camera_path"}));
+  check_ending(command.text("path"), format);
+  const bool waits = command.flag_or(true, "wait");
+  if (exporter.job && exporter.job->running())
+    throw RequestError("export: " + exporter.job->told()["path"].get<std::string>() +
+                       " is being written; wait for it, or cancel it");
+  const ExportTarget target = target_of(command, exporter.folder);
+  const PictureWishes wishes = wishes_of(command, state);
+  if (format == Format::png) check_image_path(target.path);
+  if (format == Format::camera) export_camera(state.camera, target);
+  if (format == Format::camera_path) export_camera_path(molecule.camera_keys(state), target);
+  if (format >= Format::camera) return {{"path", target.path.string()}};
+  const MakePictureDevice& make_device = exporter.context.make_device;
+  Annotations annotations;
+  if (exporter.context.annotations) annotations = exporter.context.annotations(molecule.annotated_structure());
+  auto view = std::make_shared<const ExportedView>(ExportedView{
+      molecule.structure(), molecule.atoms(), molecule.balls(), molecule.coloring(state), state.told_scheme(), state,
+      molecule.beside(), std::move(annotations), wishes.size, wishes.samples, wishes.transparent,
+      format == Format::png ? scene_of(command, around) : "", state.wishes.dots_per_inch});
+  exporter.job.reset();  // the one before, which is done
+  exporter.job =
+      std::make_unique<ExportJob>(target.path.string(), [view, target, format, make_device](const ExportWatch& watch) {
+        return written(*view, format, make_device, target, watch);
+      });
+  return waits ? exporter.job->result() : Json{{"path", target.path.string()}, {"running", true}};
+}
+
+Json export_state(const CommandReader&, const Surroundings& around) {
+  return around.exporter.job ? around.exporter.job->told() : Json{{"running", false}};
+}
+
+Json cancel_export(const CommandReader&, const Surroundings& around) {
+  const std::unique_ptr<ExportJob>& job = around.exporter.job;
+  if (!job || !job->running()) throw RequestError("cancel_export: nothing is being written");
+  job->cancel();
+  return Json::object();
+}
+
+Json render_command(const CommandReader& command, const Surroundings& around) {
+  const std::vector<std::string> words = render_words(shown_scene(command, around));
+  return {{"words", words}, {"text", shell_line(words)}};
+}
+
+Json save_scene(const CommandReader& command, const Surroundings& around) {
+  const Exporter& exporter = around.exporter;
+  if (!exporter.context.scene) throw RequestError("save: this preview writes no scenes");
+  const std::string name = command.text("path");
+  if (!name.ends_with(".json"))
+    throw RequestError(fmt::format("save: \"path\" is {}; a scene's name must end in .json", in_quotes(name)));
+  const ExportTarget target = target_of(command, exporter.folder);
+  OutputFile file(target.path, target.existing);
+  file.write(scene_text(shown_scene(command, around), target.path.parent_path().string()));
+  file.commit();
+  return {{"path", target.path.string()}};
+}
+
+Outcome open_scene(const CommandReader& command, PreviewState state, const Surroundings& around) {
+  const ShownMolecule& molecule = around.molecule;
+  const Exporter& exporter = around.exporter;
+  if (!exporter.context.open_scene) throw RequestError("open: this preview reads no scenes");
+  const std::string name = command.text("path");
+  if (!name.ends_with(".json") && !name.ends_with(".png"))
+    throw RequestError(
+        fmt::format("open: \"path\" is {}; a scene ends in .json, a picture that holds one in .png", in_quotes(name)));
+  OpenedScene opened = exporter.context.open_scene(export_path(exporter.folder, name));
+  const ColorScheme& first = around.first.color;
+  ColorScheme& color = opened.figure.color;
+  if (color.by == ColorScheme::By::rmsf && color.by == first.by) color.file = first.file;
+  require_previewed(color);
+  static_cast<PreviewFigure&>(state) = std::move(opened.figure);
+  state.wishes = opened.wishes;
+  require_copies_apart(molecule.structure(), state, around.state.probe_reach());
+  if (molecule.has_models()) state.frame = static_cast<std::size_t>(opened.frame);
+  if (state.frame >= molecule.frame_count())
+    throw RequestError(fmt::format("open: {} is of a model that is not there", name));
+  const Renewal renewal = state.frame == around.state.frame ? Renewal::shapes : Renewal::frame;
+  return {std::move(state), renewal, {{"path", (exporter.folder / name).string()}}, true};
+}
+
+}  // namespace meniscus

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The commands that ask: what is under the cursor, how fast it is, what the state is.
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+
+#include "core/scene/object_json.h"
+#include "app/preview/command_json.h"
+#include "app/preview/commands.h"
+#include "app/preview/look_json.h"
+#include "core/base/text.h"
+#include "core/camera/camera_json.h"
+#include "core/color/color_scale.h"
+#include "core/color/css_colors.h"
+#include "core/properties/properties.h"
+#include "core/scene/copied_atoms.h"
+#include "core/structure/radii.h"
+
+namespace meniscus {
+namespace {
+
+using Json = nlohmann::json;
+
+const char* kind_word(PatchKind kind) {
+  constexpr const char* kWords[] = {"convex", "toroidal", "concave"};
+  return kWords[static_cast<std::size_t>(kind)];
+}
+
+Json atom_json(const Atom& atom) {
+  return {{"index", atom.index},
+          {"name", escaped(atom.name)},
+          {"element", atom.element ? element_symbol(atom.element) : ""},
+          {"residue", escaped(atom.residue_name)},
+          {"residue_number", atom.residue_number},
+          {"insertion_code", atom.insertion_code == ' ' ? "" : std::string(1, atom.insertion_code)},
+          {"chain", escaped(atom.chain)},
+          {"model", atom.model},
+          {"place", escaped(atom_place(atom))}};
+}
+
+/// Rules as --color has them: expressions of a user, not of a file.
+Json rule_json(const ColorRule& rule) { return escaped(rule.atoms.text()) + "=" + scheme_word(rule.paint); }
+
+const char* word_of(RepresentationRequest::Kind kind) { return option_word(kind) + 2; }  // without the dashes
+
+Json or_null(const std::optional<int>& number) { return number ? Json(*number) : Json(nullptr); }
+
+Json color_json(const ColorScheme& scheme) {
+  Json color{{"scheme", scheme_word(scheme)}};
+  if (scheme.map) color["map"] = map_name(*scheme.map);
+  if (scheme.own_map) color["own_map"] = true;
+  if (scheme.range) color["range"] = fmt::format("{}:{}", (*scheme.range)[0], (*scheme.range)[1]);
+  if (scheme.missing) color["missing"] = hex_color(*scheme.missing);
+  for (const ColorRule& rule : scheme.rules) color["rules"].push_back(rule_json(rule));
+  return color;
+}
+
+/// What of the state belongs to its figure.
+void tell_figure(const PreviewState& state, Json& told) {
+  Json& representations = told["representations"] = Json::array();
+  for (const RepresentationRequest& request : state.figure.representations.requests)
+    representations.push_back({{"as", word_of(request.kind)}, {"selection", escaped(request.atoms.text())}});
+  Json& opacities = told["opacities"] = Json::array();
+  for (const OpacityRule& rule : state.color.opacities) {
+    opacities.push_back({{"opacity", std::stod(fmt::format("{}", rule.opacity))}});
+    if (rule.atoms) opacities.back()["selection"] = escaped(rule.atoms->text());
+  }
+  Json& cuts = told["cuts"] = Json::array();
+  for (const Cut& cut : state.figure.cuts) cuts.push_back(cut_text(cut));
+  const CapStyle& cap = state.figure.cap;
+  told["cap"] = {{"color", cap.color ? hex_color(*cap.color) : "atom"}, {"hatching", cap.hatching}};
+  told["film_opacity"] = state.figure.thickens;
+  Json& objects = told["objects"] = Json::array();
+  for (const FigureObjectRequest& object : state.figure.objects)
+    objects.push_back(Json::parse(json_line(figure_object_json(object))));
+  told["surface_hidden"] = state.figure.hides_surface;
+  told["show"] = state.show ? Json(escaped(state.show->text())) : Json(nullptr);
+  const LegendStyle& style = state.legend_style;
+  told["legend"] = {{"on", state.legend},
+                    {"title", style.title ? Json(escaped(*style.title)) : Json(nullptr)},
+                    {"letters", or_null(style.letters)},
+                    {"place", words_of(property_of("legend.place"))[static_cast<std::size_t>(style.place)]}};
+}
+
+}  // namespace
+
+Json tell_state(const CommandReader&, const Surroundings& around) {
+  const PreviewState& state = around.state;
+  const ShownMolecule& molecule = around.molecule;
+  const Structure& structure = molecule.structure();
+  std::size_t copies = 1;
+  for (const Instances& group : structure.instances) copies = std::max(copies, group.motions.size());
+  glm::dvec3 low(std::numeric_limits<double>::max()), high(-low);
+  for (const Ball& ball : molecule.balls()) {
+    low = glm::min(low, ball.center - ball.radius);
+    high = glm::max(high, ball.center + ball.radius);
+  }
+  const std::size_t atoms = molecule.balls().size();
+  const ExportWishes& wishes = state.wishes;
+  Json told{{"file", escaped(structure.file)},
+            {"atoms", atoms},
+            {"copies", copies},
+            {"placed_atoms", structure.instances.empty() ? atoms : placed_count(structure.instances)},
+            {"low", {low.x, low.y, low.z}},
+            {"high", {high.x, high.y, high.z}},
+            {"revision", state.revision},
+            {"frame", state.frame},
+            {"frame_number", molecule.number_of(state.frame)},
+            {"frames", molecule.frame_count()},
+            {"keys", Json(camera_path_object(molecule.camera_keys(state)))["keys"]},
+            {"follow_keys", state.follows_keys},
+            {"playing", state.playing},
+            {"fps", state.frames_per_second},
+            {"camera", Json(camera_object(state.camera))},
+            {"surface", kind_word(state.kind)},
+            {"probe_radius", state.probe_radius},
+            {"color", color_json(state.color)},
+            {"patch_kinds", state.patch_kinds},
+            {"preset", words_of(property_of("look.preset"))[static_cast<std::size_t>(state.look.preset)]},
+            {"look", look_json(state.full_look())},
+            {"width", state.size.x},
+            {"height", state.size.y},
+            {"samples", state.samples},
+            {"export",
+             {{"width", wishes.size ? Json(wishes.size->x) : Json(nullptr)},
+              {"height", wishes.size ? Json(wishes.size->y) : Json(nullptr)},
+              {"samples", or_null(wishes.samples)},
+              {"transparent", wishes.transparent}}},
+            {"views", Json::array()},
+            {"undo", around.history.undo_steps()},
+            {"redo", around.history.redo_steps()},
+            {"drawn_by", around.pictures.draws_on_cpu() ? "cpu" : "gl"}};
+  tell_figure(state, told);
+  if (!molecule.legend_fault().empty()) told["legend"]["fault"] = molecule.legend_fault();
+  for (const auto& [name, camera] : state.named_views) told["views"].push_back(escaped(name));
+  return told;
+}
+
+Json tell_stats(const CommandReader&, const Surroundings& around) {
+  const ViewCache& pictures = around.pictures;
+  const double milliseconds = pictures.milliseconds();
+  Json stages = Json::array();
+  for (const StageTime& stage : pictures.stages())
+    stages.push_back({{"name", stage.name}, {"milliseconds", stage.milliseconds}});
+  return {{"frame_milliseconds", milliseconds},
+          {"fps", milliseconds > 0.0 ? 1000.0 / milliseconds : 0.0},
+          {"width", pictures.molecule_size().x},
+          {"height", pictures.molecule_size().y},
+          {"stages", stages}};
+}
+
+Json tell_choices(const CommandReader&, const Surroundings& around) {
+  const ColorScheme& first = around.first.color;
+  const auto is_copy = [](const Atom& atom) { return atom.copy > 0; };
+  const bool has_copies = std::ranges::any_of(around.molecule.structure().atoms, is_copy);
+  Json schemes = Json::array(), maps = Json::array();
+  for (const ColorSchemeMetadata& scheme : color_schemes()) {
+    if (!is_previewed(scheme.by) && scheme.by != first.by) continue;
+    if (scheme.by == ColorScheme::By::file && first.file.empty()) continue;
+    if (scheme.by == ColorScheme::By::copy && !has_copies) continue;
+    ColorScheme color;
+    color.by = scheme.by;
+    schemes.push_back({{"word", scheme.word}, {"has_map", color.has_scale()}, {"description", scheme.description}});
+  }
+  for (const ColorMapMetadata& map : color_maps()) maps.push_back(map.name);
+  Json keys = Json::array();
+  for (const KeyHelp& row : key_help()) keys.push_back({{"keys", row.keys}, {"what", row.what}});
+  Json actions = Json::object();
+  for (const FaceKey& key : face_keys()) actions[std::string(key.key)] = face_action_word(key.action);
+  return {{"schemes", schemes},
+          {"maps", maps},
+          {"keys", keys},
+          {"actions", actions},
+          {"presets", words_of(property_of("look.preset"))},
+          {"sliders", look_sliders()},
+          {"representations", {"sticks", "balls", "spheres", "tube"}}};
+}
+
+glm::ivec2 pixel_of(const CommandReader& command, const PreviewState& state) {
+  return {command.integer("x", 0, state.size.x - 1), command.integer("y", 0, state.size.y - 1)};
+}
+
+Json pick(const CommandReader& command, const Surroundings& around) {
+  const PreviewState& state = around.state;
+  const ShownMolecule& molecule = around.molecule;
+  const bool waits = command.flag_or(true, "wait"), area_wanted = command.flag_or(true, "area");
+  const std::optional<PickedPoint> point = around.pictures.pick(state, molecule, pixel_of(command, state));
+  if (!point) return {{"hit", false}};
+  const bool has_copies = !molecule.structure().instances.empty();
+  const bool of_molecule = point->object == 0 || has_copies;
+  const bool of_surface =
+      of_molecule || (point->object > 1 && molecule.beside()->objects.at(point->object - 2).surface);
+  Json reply = atom_json(molecule.atom_in_view(point->atom));
+  reply["hit"] = true;
+  reply["kind"] = point->kind ? kind_word(*point->kind) : of_surface ? "cap" : "shape";
+  reply["position"] = {point->position.x, point->position.y, point->position.z};
+  if (has_copies) reply["copy"] = point->copy + 1;
+  reply["exposed_area"] = nullptr;
+  reply["area_follows"] = false;
+  // It has no part of the molecule's surface, or this is another one.
+  if (point->atom >= molecule.atoms().size() || (of_surface && !of_molecule)) return reply;
+  if (const std::optional<double> area = around.pictures.exposed_area(state, molecule, point->atom, waits, area_wanted))
+    reply["exposed_area"] = *area;
+  else
+    reply["area_follows"] = around.pictures.computes_areas();
+  return reply;
+}
+
+}  // namespace meniscus

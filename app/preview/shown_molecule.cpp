@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Makes anew what another state needs, and keeps the rest.
+#include "app/preview/shown_molecule.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "app/preview/camera_motion.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/color/color_atoms.h"
+#include "core/color/color_key.h"
+#include "core/color/named_colors.h"
+#include "core/scene/copied_atoms.h"
+#include "core/scene/hidden_atoms.h"
+#include "core/scene/molecule.h"
+#include "core/scene/surface_objects.h"
+
+namespace meniscus {
+namespace {
+
+/// The balls of frames all over a trajectory. atoms: of these frames, into structure.atoms.
+std::vector<Ball> sampled_balls(const TrajectoryPositions& trajectory, const Structure& structure,
+                                const std::vector<std::uint32_t>& atoms) {
+  constexpr std::size_t kSamples = 16;  // few enough to begin at once, enough to see where the molecule goes
+  const std::size_t frames = trajectory.numbers.size(), count = std::min(kSamples, frames);
+  std::vector<Ball> sampled;
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::size_t frame = count == 1 ? 0 : n * (frames - 1) / (count - 1);
+    try {
+      if (trajectory.structure) {
+        const std::vector<Ball> balls = balls_of(trajectory.structure(frame));
+        sampled.insert(sampled.end(), balls.begin(), balls.end());
+        continue;
+      }
+      const std::vector<glm::dvec3> positions = trajectory.positions(frame);
+      for (const std::uint32_t a : atoms) sampled.push_back({positions[a], structure.atoms[a].radius});
+    } catch (const InputError&) {
+      if (n == 0) throw;  // a later one is told when it is shown
+    }
+  }
+  return sampled;
+}
+
+/// before: beside the surface so far, of which only colours are changed where no shapes are to be made anew.
+std::shared_ptr<const BesideSurface> beside_of(const Structure& marked, const PreviewFigure& figure, bool only_colors,
+                                               const std::shared_ptr<const BesideSurface>& before) {
+  const ColorScheme scheme = figure.told_scheme();
+  if (!only_colors) return std::make_shared<const BesideSurface>(make_beside(marked, figure.figure, scheme));
+  auto beside = std::make_shared<BesideSurface>(*before);
+  color_beside(marked, figure.figure, scheme, *beside);
+  return beside;
+}
+
+std::size_t count_of(const std::vector<bool>& shown, const PreviewFigure& figure, const ShownMolecule& molecule) {
+  const auto count = static_cast<std::size_t>(std::ranges::count(shown, true));
+  if (count > 0) return count;
+  throw RequestError(fmt::format("of the surface of {} nothing would be left; {}", in_quotes(figure.show->text()),
+                                 figure.show->why_none(molecule.atoms_in_view())));
+}
+
+}  // namespace
+
+ShownMolecule::ShownMolecule(Structure structure, std::optional<TrajectoryPositions> trajectory, ReadShown read_shown,
+                             const PreviewState& state)
+    : structure_(std::move(structure)),
+      models_(group_atoms(structure_, Grouping::model)),
+      trajectory_(std::move(trajectory)),
+      read_shown_(std::move(read_shown)) {
+  if (state.copies_apart) require_apart(structure_, state.probe_reach());
+  if (trajectory_) sampled_ = sampled_balls(*trajectory_, structure_, atoms());
+  become(state, Renewal::frame);
+  if (state.show) hidden_atoms(*state.show, marked_ ? *marked_ : structure_);  // that some are shown
+}
+
+bool ShownMolecule::become(const PreviewState& state, Renewal renewal) {
+  Made next = renewal == Renewal::frame ? made_at(state) : made(state, renewal, frame_);
+  if (next.coloring) coloring_ = std::move(*next.coloring);
+  marked_ = std::move(next.marked);
+  beside_ = std::move(next.beside);
+  const bool moves = renewal == Renewal::frame || growth_ != growth_of(state.kind, state.probe_radius);
+  if (moves) place_balls(state);
+  if (renewal >= Renewal::legend) lay_out_legend(state);
+  return moves;
+}
+
+ShownMolecule::Made ShownMolecule::made_at(const PreviewState& state) {
+  // Read first: what cannot be read changes nothing.
+  std::vector<glm::dvec3> positions;
+  std::optional<Structure> other;
+  if (trajectory_ && trajectory_->structure)
+    other = trajectory_->structure(state.frame);
+  else if (trajectory_)
+    positions = trajectory_->positions(state.frame);
+  std::size_t frame = state.frame;
+  const auto exchange = [&] {
+    if (other) {
+      std::swap(structure_, *other);
+      models_ = group_atoms(structure_, Grouping::model);
+    }
+    for (std::size_t n = 0; n < positions.size(); ++n) std::swap(structure_.atoms[n].position, positions[n]);
+    std::swap(frame_, frame);
+  };
+  exchange();  // colours and selections may depend on where atoms are
+  try {
+    return made(state, Renewal::frame, state.frame);
+  } catch (...) {
+    exchange();
+    throw;
+  }
+}
+
+ShownMolecule::Made ShownMolecule::made(const PreviewFigure& figure, Renewal renewal, std::size_t frame) const {
+  Made made{{}, marked_, beside_};
+  if (renewal < Renewal::legend) return made;
+  if (!structure_.instances.empty() && !(figure.figure.plain() && figure.color.opacities.empty()))
+    throw RequestError("copies of one surface (--instances) are shown whole and opaque; leave --instances away");
+  require_colors_shared(structure_, figure.color);
+  if (renewal >= Renewal::colors) made.coloring = color_atoms(structure_, figure.color);
+  if (renewal >= Renewal::shapes) {
+    made.marked.reset();
+    if (!figure.figure.representations.empty() || !figure.figure.objects.empty()) {
+      if (!read_shown_)
+        throw RequestError("this molecule cannot be read again, so nothing can be drawn beside its surface");
+      made.marked = std::make_shared<const Structure>(read_shown_(figure.figure, frame));
+      if (made.marked->atoms.size() != atoms().size())
+        throw InputError(structure_.file, 0, "has other atoms than when the preview began; begin it anew");
+    }
+  }
+  if (!made.marked)
+    made.beside.reset();
+  else if (renewal >= Renewal::colors)
+    made.beside = beside_of(*made.marked, figure, renewal == Renewal::colors, beside_);
+  if (figure.figure.hides_surface && (!made.beside || made.beside->empty()))
+    throw RequestError("without the surface nothing would be shown; draw something beside it first");
+  if (renewal == Renewal::colors || renewal == Renewal::shapes)
+    count_of(part_shown(figure, made.marked.get()), figure, *this);
+  return made;
+}
+
+/// Of the atoms of the surface those that are shown, which may be told by what is beside them; nullptr: nothing.
+std::vector<bool> ShownMolecule::part_shown(const PreviewFigure& figure, const Structure* marked) const {
+  if (!figure.show) return std::vector<bool>(atoms().size(), true);
+  std::vector<bool> shown = figure.show->evaluate(marked ? shown_atoms(*marked) : frame_structure().atoms);
+  shown.resize(atoms().size());
+  return shown;
+}
+
+std::size_t ShownMolecule::count_shown(const PreviewFigure& figure) const {
+  return count_of(part_shown(figure, marked_.get()), figure, *this);
+}
+
+void ShownMolecule::place_balls(const PreviewFigure& figure) {
+  growth_ = growth_of(figure.kind, figure.probe_radius);
+  balls_.clear();
+  for (const std::uint32_t a : atoms()) balls_.push_back({structure_.atoms[a].position, structure_.atoms[a].radius});
+  balls_ = grown(balls_, growth_);
+  reach_.clear();
+  if (!structure_.instances.empty()) reach_ = reaching_balls(balls_, structure_.instances);
+}
+
+void ShownMolecule::lay_out_legend(const PreviewState& state) {
+  legend_.reset();
+  legend_fault_.clear();
+  const ColorScheme color = state.told_scheme();
+  if (!state.legend || (color.by == ColorScheme::By::fixed && color.rules.empty())) return;
+  const std::string names[] = {"surface"};
+  try {
+    legend_ = std::make_shared<const LegendStrip>(color_key(structure_, color, names), state.size, state.legend_style,
+                                                  state.background);
+  } catch (const RequestError& error) {  // no room for it in this size
+    legend_fault_ = error.what();
+  }
+}
+
+std::vector<CameraKey> ShownMolecule::camera_keys(const PreviewState& state) const {
+  std::vector<CameraKey> keys;
+  for (const auto& [frame, camera] : state.keys) keys.push_back({static_cast<double>(number_of(frame)), camera});
+  return keys;
+}
+
+Coloring ShownMolecule::coloring(const PreviewFigure& figure) const {
+  Coloring coloring = coloring_of(coloring_, atoms());
+  if (figure.patch_kinds) coloring.kind = kPatchKindColors;
+  if (figure.show) {
+    coloring.hidden = part_shown(figure, marked_.get());
+    coloring.hidden.flip();
+  }
+  return coloring;
+}
+
+Structure ShownMolecule::frame_structure() const {
+  Structure frame;
+  frame.file = structure_.file;
+  for (const std::uint32_t a : atoms()) frame.atoms.push_back(structure_.atoms[a]);
+  return frame;
+}
+
+const Atom& ShownMolecule::atom_in_view(std::uint32_t atom) const {
+  const std::size_t own = atoms().size();
+  return atom < own ? structure_.atoms[atoms()[atom]] : marked_->beside.at(atom - own);
+}
+
+std::vector<Atom> ShownMolecule::atoms_in_view() const {
+  std::vector<Atom> atoms = frame_structure().atoms;
+  if (marked_) atoms.insert(atoms.end(), marked_->beside.begin(), marked_->beside.end());
+  return atoms;
+}
+
+std::vector<Ball> ShownMolecule::balls_in_view() const {
+  std::vector<Ball> balls = reach();
+  if (!beside_) return balls;
+  const std::vector<Ball> beside = beside_->balls();
+  balls.insert(balls.end(), beside.begin(), beside.end());
+  return balls;
+}
+
+double ShownMolecule::aspect(const PreviewState& state) const {
+  const glm::ivec2 size = picture_size(state);
+  return static_cast<double>(size.x) / size.y;
+}
+
+Camera ShownMolecule::overview(const PreviewState& state) const {
+  const std::vector<Ball> all =
+      trajectory_ ? grown(sampled_, growth_of(state.kind, state.probe_radius)) : balls_in_view();
+  return meniscus::overview(all, aspect(state), state.camera.projection);
+}
+
+std::vector<std::string> ShownMolecule::idle_among(std::span<const Cut> cuts, const PreviewFigure& figure) const {
+  if (figure.figure.hides_surface) return {};
+  return idle_cuts(cuts, figure.camera, reach(), reach());  // with all copies, if there are any
+}
+
+void require_copies_apart(const Structure& structure, const PreviewState& state, double reach) {
+  if (state.copies_apart && state.probe_reach() > reach) require_apart(structure, state.probe_reach());
+}
+
+}  // namespace meniscus

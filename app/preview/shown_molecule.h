@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The molecule as a state of the preview shows it: the atoms of a frame, their colours, what stands beside them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "app/preview/legend_strip.h"
+#include "app/preview/preview_state.h"
+#include "core/camera/camera_path.h"
+#include "core/color/coloring.h"
+#include "core/scene/figure.h"
+#include "core/structure/atom_groups.h"
+#include "core/structure/structure.h"
+
+namespace meniscus {
+
+/// Where atoms are at the frames of a trajectory.
+struct TrajectoryPositions {
+  std::vector<std::uint64_t> numbers;  ///< of the frames in the trajectory; at least one
+  /// Å, one per atom of the structure. Throws InputError for a frame that cannot be read.
+  std::function<std::vector<glm::dvec3>(std::size_t frame)> positions;
+  /// Instead of positions, where frames have other atoms each; else empty. Likewise.
+  std::function<Structure(std::size_t frame)> structure{};
+};
+
+/// Reads the molecule again as it is at a frame, with the atoms that are drawn beside its surface
+/// (FigureRequest::ask_for); so they are those that `meniscus render` would draw. Throws InputError.
+using ReadShown = std::function<Structure(const FigureRequest& figure, std::size_t frame)>;
+
+/// What another state needs to have made anew, from the least to the most; each includes those before it.
+enum class Renewal {
+  nothing,  ///< only the camera, or what no picture shows
+  legend,
+  cuts,
+  colors,
+  shapes,  ///< what stands beside the surface
+  frame    ///< all of it, for other atoms
+};
+
+/// Each model of the structure, which has atoms, is a frame; with a trajectory these are the frames of its one model.
+class ShownMolecule {
+ public:
+  /// At the frame of the state. Throws InputError for a frame that cannot be read, and as color_atoms does.
+  ShownMolecule(Structure structure, std::optional<TrajectoryPositions> trajectory, ReadShown read_shown,
+                const PreviewState& state);
+
+  /// Becomes that of another state; true if the balls of the surface are others. If this throws, nothing has changed.
+  bool become(const PreviewState& state, Renewal renewal);
+
+  const Structure& structure() const { return structure_; }
+  bool has_trajectory() const { return trajectory_.has_value(); }
+  std::size_t frame_count() const { return trajectory_ ? trajectory_->numbers.size() : models_.size(); }
+  bool has_models() const { return models_.size() > 1; }
+  /// Of a frame, as its trajectory counts.
+  std::uint64_t number_of(std::size_t frame) const { return trajectory_ ? trajectory_->numbers[frame] : frame; }
+  /// Those of the state, by the numbers of their frames.
+  std::vector<CameraKey> camera_keys(const PreviewState& state) const;
+
+  /// Of the frame, into structure().atoms.
+  const std::vector<std::uint32_t>& atoms() const { return models_[trajectory_ ? 0 : frame_].atoms; }
+  /// Theirs, grown by growth_of() the kind of surface.
+  const std::vector<Ball>& balls() const { return balls_; }
+  /// The same, or what cameras see of all copies.
+  const std::vector<Ball>& reach() const { return reach_.empty() ? balls_ : reach_; }
+  /// Their colours, and which of them are hidden.
+  Coloring coloring(const PreviewFigure& figure) const;
+  /// The atoms of the frame alone.
+  Structure frame_structure() const;
+  /// What pictures of it are annotated by: the same with the atoms beside its surface, if there are any.
+  Structure annotated_structure() const { return marked_ ? *marked_ : frame_structure(); }
+
+  /// Beside the surface; nullptr: nothing.
+  const std::shared_ptr<const BesideSurface>& beside() const { return beside_; }
+  /// An atom of a picture, of which those beside the surface come last.
+  const Atom& atom_in_view(std::uint32_t atom) const;
+  std::vector<Atom> atoms_in_view() const;
+  /// Those of the surface's atoms, and around what is drawn beside them.
+  std::vector<Ball> balls_in_view() const;
+
+  /// nullptr: none.
+  const std::shared_ptr<const LegendStrip>& legend() const { return legend_; }
+  /// Why there is none though it is wanted; else empty.
+  const std::string& legend_fault() const { return legend_fault_; }
+  /// Pixels that the legend leaves for the molecule.
+  glm::ivec2 picture_size(const PreviewState& state) const { return legend_ ? legend_->molecule_size() : state.size; }
+  /// Width of these / their height.
+  double aspect(const PreviewState& state) const;
+
+  /// A camera that shows everything, all frames of a trajectory too.
+  Camera overview(const PreviewState& state) const;
+  /// How many atoms of the surface the figure shows. Throws RequestError if it is none.
+  std::size_t count_shown(const PreviewFigure& figure) const;
+  /// Of cuts of the surface: a sentence for each that cuts nothing or leaves nothing.
+  std::vector<std::string> idle_among(std::span<const Cut> cuts, const PreviewFigure& figure) const;
+
+ private:
+  /// What of a figure is made of its molecule.
+  struct Made {
+    std::optional<Coloring> coloring;         ///< of all atoms of the structure; nothing: as it is
+    std::shared_ptr<const Structure> marked;  ///< the frame with the atoms beside its surface; nullptr: none are drawn
+    std::shared_ptr<const BesideSurface> beside;
+  };
+
+  Made made_at(const PreviewState& state);
+  Made made(const PreviewFigure& figure, Renewal renewal, std::size_t frame) const;
+  std::vector<bool> part_shown(const PreviewFigure& figure, const Structure* marked) const;
+  void place_balls(const PreviewFigure& figure);
+  void lay_out_legend(const PreviewState& state);
+
+  Structure structure_;
+  std::vector<AtomGroup> models_;
+  std::optional<TrajectoryPositions> trajectory_;
+  ReadShown read_shown_;
+  std::vector<Ball> sampled_;  ///< of frames all over the trajectory, for a view of all
+  std::size_t frame_ = 0;
+  double growth_ = 0.0;  ///< of balls_, Å
+  std::vector<Ball> balls_, reach_;
+  Coloring coloring_;  ///< of all atoms of the structure
+  std::shared_ptr<const Structure> marked_;
+  std::shared_ptr<const BesideSurface> beside_;
+  std::shared_ptr<const LegendStrip> legend_;
+  std::string legend_fault_;
+};
+
+/// Throws InputError if a probe would touch two copies that are to be apart. reach: with which none does, Å.
+void require_copies_apart(const Structure& structure, const PreviewState& state, double reach);
+
+}  // namespace meniscus
