@@ -15,6 +15,7 @@
 #include "core/properties/properties.h"
 #include "core/render/look_presets.h"
 #include "core/text/parse_number.h"
+#include "core/render/look.h"
 
 namespace meniscus {
 namespace {
