@@ -23,6 +23,7 @@
 #include "core/base/text.h"
 #include "app/farm/read_bundle.h"
 #include "core/trajectory/frame_list.h"
+#include "app/options/property_options.h"
 
 namespace meniscus {
 namespace {

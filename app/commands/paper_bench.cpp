@@ -19,6 +19,7 @@
 #include "core/gpu/egl_context.h"
 #include "core/render/renderer.h"
 #include "core/visible_surface/view_pipeline.h"
+#include "core/color/coloring.h"
 
 namespace meniscus {
 namespace {

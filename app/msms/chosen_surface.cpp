@@ -13,6 +13,7 @@
 #include "core/mesh/tessellate.h"
 #include "core/surface/reduced_surface_engine.h"
 #include "core/surface/surface.h"
+#include "core/base/stage_clock.h"
 
 namespace meniscus::msms {
 namespace {

@@ -11,6 +11,7 @@
 #include "core/surface/atom_areas.h"
 #include "core/surface/reduced_components.h"
 #include "exporters/msms/numbered_mesh.h"
+#include "core/mesh/triangle_mesh.h"
 
 namespace meniscus::msms {
 

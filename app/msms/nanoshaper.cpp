@@ -22,6 +22,7 @@
 #include "core/surface/surface.h"
 #include "exporters/msms/msms_files.h"
 #include "exporters/msms/numbered_mesh.h"
+#include "core/mesh/triangle_mesh.h"
 
 namespace meniscus::msms {
 namespace {

@@ -17,6 +17,7 @@
 #include "core/render/look_presets.h"
 #include "core/scene/scene_values.h"
 #include "core/text/parse_number.h"
+#include "core/render/look.h"
 
 namespace meniscus {
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rotations and shifts of a camera, written so that distances do not creep however long one drags.
 #include "app/preview/camera_motion.h"
+#include "core/math/ball.h"
 
 #include <algorithm>
 #include <cmath>

@@ -14,6 +14,7 @@
 #include "core/base/text.h"
 #include "core/color/css_colors.h"
 #include "core/properties/properties.h"
+#include "core/render/look.h"
 
 namespace meniscus {
 namespace {

@@ -9,9 +9,9 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "core/math/ball.h"
-
 namespace meniscus {
+
+struct Ball;
 
 enum class Projection { perspective, orthographic };
 

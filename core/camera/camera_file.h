@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include "core/camera/camera.h"
-
 namespace meniscus {
+
+struct Camera;
 
 /// A camera in the words of this program (parse_camera), of PyMOL (the 18 numbers of get_view, with or without
 /// set_view(...) around them) or of ChimeraX (`view matrix`: camera and 12 numbers, with or without models behind

@@ -13,6 +13,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "core/camera/camera.h"
+#include "core/math/ball.h"
 
 namespace meniscus {
 namespace {

@@ -12,6 +12,7 @@
 #include <glm/matrix.hpp>
 
 #include "core/text/parse_number.h"
+#include "core/math/rigid_motion.h"
 
 namespace meniscus {
 namespace {

@@ -12,9 +12,10 @@
 #include <glm/vec3.hpp>
 
 #include "core/camera/camera.h"
-#include "core/math/rigid_motion.h"
 
 namespace meniscus {
+
+struct RigidMotion;
 
 /// The side of a molecule that is turned to the viewer.
 struct ViewDirection {

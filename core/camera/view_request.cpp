@@ -9,6 +9,7 @@
 
 #include "core/camera/camera_json.h"
 #include "core/camera/camera_file.h"
+#include "core/math/ball.h"
 
 namespace meniscus {
 namespace {

@@ -14,6 +14,8 @@
 #include "core/color/color_key.h"
 #include "core/color/named_colors.h"
 #include "core/color/volume_paint.h"
+#include "core/structure/structure.h"
+#include "core/color/coloring.h"
 
 namespace meniscus {
 namespace {

@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <span>
 
-#include "core/color/color_schemes.h"
-#include "core/color/coloring.h"
-#include "core/structure/structure.h"
-
 namespace meniscus {
+
+struct ColorScheme;
+struct Coloring;
+struct Structure;
 
 /// One colour an atom of the structure, for a surface that is one object; rules over the scheme, but where that
 /// colours by kind of patch.

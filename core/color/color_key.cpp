@@ -16,6 +16,7 @@
 #include "core/color/volume_paint.h"
 #include "core/structure/hydropathy.h"
 #include "core/structure/radii.h"
+#include "core/structure/structure.h"
 
 namespace meniscus {
 namespace {

@@ -19,6 +19,7 @@
 #include "core/color/css_colors.h"
 #include "core/color/named_colors.h"
 #include "core/text/parse_number.h"
+#include "core/structure/structure.h"
 
 namespace meniscus {
 namespace {

@@ -18,9 +18,11 @@
 #include "core/color/color_ramp.h"
 #include "core/color/css_colors.h"
 #include "core/structure/selection/selection.h"
-#include "core/structure/structure.h"
 
 namespace meniscus {
+
+struct Atom;
+struct Structure;
 
 /// How much of what lies behind them some atoms cover.
 struct OpacityRule {

@@ -2,9 +2,9 @@
 // An independent look at the areas and volumes of a surface: those of its triangles.
 #pragma once
 
-#include "core/surface/primitives.h"
-
 namespace meniscus {
+
+struct Surface;
 
 /// Meshes the surface, more finely where a face is thinner than its borders bend, and compares areas and volumes face
 /// by face and component by component. Throws OpenSurfaceError with every difference.

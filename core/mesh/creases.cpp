@@ -10,6 +10,7 @@
 
 #include "core/mesh/remesh_tuning.h"
 #include "core/surface/walks.h"
+#include "core/mesh/triangle_mesh.h"
 
 namespace meniscus {
 namespace {

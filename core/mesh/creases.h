@@ -12,10 +12,11 @@
 #include "core/base/index.h"
 #include "core/mesh/half_edges.h"
 #include "core/mesh/surface_walk.h"
-#include "core/mesh/triangle_mesh.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
+
+struct TriangleMesh;
 
 /// The unit normals at a point of a border on both sides of it: of a cusp between spheres of two probes, and, where the
 /// probe has no size, of two balls. Twice the same (0) for other borders: tangent planes agree there.

@@ -11,6 +11,7 @@
 
 #include "core/math/box_tree.h"
 #include "core/mesh/remesh_tuning.h"
+#include "core/math/ball.h"
 
 namespace meniscus {
 namespace {

@@ -9,12 +9,13 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/math/ball.h"
 #include "core/mesh/box_grid.h"
 #include "core/mesh/half_edges.h"
 #include "core/mesh/mesh_crossings.h"
 
 namespace meniscus {
+
+struct Ball;
 
 /// Knows which vertices are watched, and the triangles at them, in a grid. Triangles that changed or are gone may still
 /// be listed; they are looked at as they are now.

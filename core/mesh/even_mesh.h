@@ -3,9 +3,10 @@
 #pragma once
 
 #include "core/mesh/even_sizes.h"
-#include "core/mesh/triangle_mesh.h"
 
 namespace meniscus {
+
+struct FineMesh;
 
 /// Remeshes the fewest triangles that have the surface's topology (coarse_mesh()), for long edges with contact faces as
 /// points (contracted_mesh()), for short ones those of tessellate(): edges are split, collapsed and flipped, vertices

@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 
 #include "core/color/volume_paint.h"
+#include "core/mesh/triangle_mesh.h"
 
 namespace meniscus {
 

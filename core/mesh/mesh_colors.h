@@ -7,9 +7,10 @@
 #include <glm/vec3.hpp>
 
 #include "core/color/coloring.h"
-#include "core/mesh/triangle_mesh.h"
 
 namespace meniscus {
+
+struct TriangleMesh;
 
 /// sRGB of a triangle: that of its patch kind or of its atom.
 glm::vec3 triangle_color(const TriangleMesh& mesh, const Coloring& coloring, std::size_t triangle);

@@ -12,6 +12,7 @@
 #include "core/mesh/even_mesh.h"
 #include "core/mesh/mesh_colors.h"
 #include "core/mesh/tessellate.h"
+#include "core/camera/camera.h"
 
 namespace meniscus {
 namespace {

@@ -11,12 +11,13 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "core/camera/camera.h"
 #include "core/math/ball.h"
 #include "core/mesh/mesh_objects.h"
-#include "core/mesh/triangle_mesh.h"
 
 namespace meniscus {
+
+struct Camera;
+struct FineMesh;
 
 /// What a mesh is to be like.
 struct MeshFineness {

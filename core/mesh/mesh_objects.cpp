@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/mesh/tessellate.h"
+#include "core/camera/camera.h"
 
 namespace meniscus {
 

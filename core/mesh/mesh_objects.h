@@ -8,11 +8,12 @@
 
 #include <glm/vec2.hpp>
 
-#include "core/camera/camera.h"
-#include "core/mesh/triangle_mesh.h"
 #include "core/queries/surface_object.h"
 
 namespace meniscus {
+
+struct Camera;
+struct TriangleMesh;
 
 /// What a mesh may be asked for. With a smaller tolerance one of a protein no longer fits into memory, and float
 /// coordinates could not hold it.

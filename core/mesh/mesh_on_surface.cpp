@@ -10,6 +10,7 @@
 
 #include "core/mesh/creases.h"
 #include "core/mesh/remesh_tuning.h"
+#include "core/mesh/triangle_mesh.h"
 
 namespace meniscus {
 

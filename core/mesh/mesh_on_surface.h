@@ -14,10 +14,11 @@
 #include "core/mesh/crossing_guard.h"
 #include "core/mesh/half_edges.h"
 #include "core/mesh/surface_walk.h"
-#include "core/mesh/triangle_mesh.h"
 #include "core/mesh/triangle_quality.h"
 
 namespace meniscus {
+
+struct TriangleMesh;
 
 /// The edge length (Å) wanted at a place of a face.
 using EdgeLength = std::function<double(const SurfacePoint&)>;

@@ -2,10 +2,11 @@
 // Pockets as solids: one closed mesh for each.
 #pragma once
 
-#include "core/mesh/triangle_mesh.h"
 #include "core/pockets/pockets.h"
 
 namespace meniscus {
+
+struct TriangleMesh;
 
 /// All of them in one mesh. Normals point out of the pockets, whose volumes are positive; `component` is the place in
 /// Pockets::pockets, `atom` says nothing. tolerance: Å. Throws what tessellate throws, CapacityError, RequestError if

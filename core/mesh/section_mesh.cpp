@@ -13,6 +13,7 @@
 #include "core/mesh/cut_solid.h"
 #include "core/mesh/tessellate.h"
 #include "core/queries/combine.h"
+#include "core/queries/surface_object.h"
 
 namespace meniscus {
 namespace {

@@ -11,10 +11,11 @@
 
 #include "core/mesh/cap_atoms.h"
 #include "core/mesh/triangle_mesh.h"
-#include "core/queries/surface_object.h"
 #include "core/render/picture_object.h"
 
 namespace meniscus {
+
+struct SurfaceObject;
 
 /// Plain arrays of flat triangles.
 struct CapMesh {

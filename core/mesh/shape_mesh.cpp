@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Makes meshes of shapes beside a surface: spheres by circles of latitude, cylinders by prisms.
 #include "core/mesh/shape_mesh.h"
+#include "core/shapes/shapes.h"
+#include "core/queries/colored_shapes.h"
 
 #include <algorithm>
 #include <array>

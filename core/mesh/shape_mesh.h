@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "core/mesh/triangle_mesh.h"
-#include "core/queries/colored_shapes.h"
 #include "core/queries/surface_object.h"
-#include "core/structure/structure.h"
 
 namespace meniscus {
+
+struct Atom;
+struct ColoredShapes;
 
 /// An object without patches: its atoms are those that shapes have, their colours in `object.coloring`; one outer
 /// component with the measures of the mesh, which consists of closed bodies. Triangles have `atom`; kind, face and

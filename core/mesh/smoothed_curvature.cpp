@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Measures the curvature of a mesh at each vertex, and averages it over the vertices around.
 #include "core/mesh/smoothed_curvature.h"
+#include "core/mesh/triangle_mesh.h"
 
 #include <array>
 #include <cmath>

@@ -4,10 +4,11 @@
 
 #include <vector>
 
-#include "core/mesh/triangle_mesh.h"
 #include "core/queries/curvature.h"
 
 namespace meniscus {
+
+struct TriangleMesh;
 
 /// Å: how far around a vertex is averaged.
 inline constexpr double kSmoothingRadius = 2.0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Counts edges, areas and volumes of a triangle mesh, and leaves triangles out.
 #include "core/mesh/triangle_mesh.h"
+#include "core/color/coloring.h"
 
 #include <algorithm>
 #include <numeric>

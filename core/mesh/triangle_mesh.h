@@ -8,10 +8,11 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/color/coloring.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
+
+struct Coloring;
 
 struct MeshOptions {
   double tolerance = 0.01;   ///< Å: no point of the mesh is farther from the exact surface

@@ -14,6 +14,8 @@
 #include <glm/matrix.hpp>
 
 #include "core/base/error.h"
+#include "core/surface/primitives.h"
+#include "core/mesh/triangle_mesh.h"
 
 namespace meniscus {
 namespace {

@@ -8,10 +8,12 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/mesh/triangle_mesh.h"
-#include "core/surface/primitives.h"
-
 namespace meniscus {
+
+enum class PatchKind : std::uint8_t;
+struct Surface;
+struct ToroidalPatch;
+struct TriangleMesh;
 
 /// Velocities of the points of one surface, in the unit of those of its atoms (Å per frame).
 ///

@@ -13,6 +13,7 @@
 #include "core/base/index.h"
 #include "core/mesh/corner_lists.h"
 #include "core/mesh/half_edges.h"
+#include "core/mesh/triangle_mesh.h"
 
 namespace meniscus {
 namespace {

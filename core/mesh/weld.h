@@ -10,9 +10,9 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/mesh/triangle_mesh.h"
-
 namespace meniscus {
+
+struct TriangleMesh;
 
 /// What became of vertices and triangles.
 struct Welding {

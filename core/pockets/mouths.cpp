@@ -7,6 +7,7 @@
 
 #include "core/math/union_find.h"
 #include "core/surface/atom_areas.h"
+#include "core/surface/primitives.h"
 
 namespace meniscus {
 namespace {

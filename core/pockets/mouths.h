@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/surface/primitives.h"
-
 namespace meniscus {
+
+struct Surface;
 
 /// The areas of a pocket's mouths, Å², the largest first.
 /// pocket: its closed surface; is_probe: one per Surface::atoms, whether it is a large probe. A mouth is a set of large

@@ -11,6 +11,7 @@
 
 #include "core/math/ball_grid.h"
 #include "core/math/spiral.h"
+#include "core/surface/primitives.h"
 
 namespace meniscus {
 namespace {

@@ -8,9 +8,10 @@
 #include <glm/vec3.hpp>
 
 #include "core/math/box_tree.h"
-#include "core/surface/primitives.h"
 
 namespace meniscus {
+
+struct Surface;
 
 /// Whether places of the probe's centre may be wanted that are no farther than `reach` (Å) from a point.
 using NearWanted = std::function<bool(const glm::dvec3& point, double reach)>;

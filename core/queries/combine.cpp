@@ -14,6 +14,8 @@
 
 #include "core/base/error.h"
 #include "core/queries/moved.h"
+#include "core/color/coloring.h"
+#include "core/queries/surface_object.h"
 
 namespace meniscus {
 namespace {

@@ -9,9 +9,10 @@
 
 #include "core/surface/primitives.h"
 #include "core/math/rigid_motion.h"
-#include "core/queries/surface_object.h"
 
 namespace meniscus {
+
+struct SurfaceObject;
 
 /// Adds a copy of `part`, moved, to `whole`: its tables follow those of `whole`, areas and volumes add up. Surfaces
 /// stay closed and their own; where they overlap nothing is cut away. Both need the same probe radius, unless `whole`

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/surface/primitives.h"
-
 namespace meniscus {
+
+struct Surface;
 
 /// Every difference in one sentence each: patches that only one of them has, other contacts, cuts, borders, faces or
 /// components, positions further apart than 1e-9 Å, areas and volumes by more than 1e-9 of their size. Empty: equal.

@@ -12,6 +12,7 @@
 #include <tbb/parallel_reduce.h>
 
 #include "core/math/ball_grid.h"
+#include "core/math/rigid_motion.h"
 
 namespace meniscus {
 namespace {

@@ -8,9 +8,10 @@
 #include <span>
 
 #include "core/surface/primitives.h"
-#include "core/math/rigid_motion.h"
 
 namespace meniscus {
+
+struct RigidMotion;
 
 /// Balls that stand at several places.
 struct CopiedBalls {

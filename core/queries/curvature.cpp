@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A formula a kind of patch.
 #include "core/queries/curvature.h"
+#include "core/surface/primitives.h"
 
 #include <algorithm>
 

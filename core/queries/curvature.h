@@ -6,9 +6,9 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/surface/primitives.h"
-
 namespace meniscus {
+
+struct Surface;
 
 /// Of principal curvatures k1, k2 with the normal towards the solvent, positive where the solid bulges.
 struct Curvature {

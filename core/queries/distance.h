@@ -7,9 +7,9 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/surface/primitives.h"
-
 namespace meniscus {
+
+struct Surface;
 
 /// The surface as seen from some point.
 struct NearestPoint {

@@ -10,9 +10,10 @@
 #include <vector>
 
 #include "core/base/index.h"
-#include "core/math/ball.h"
 
 namespace meniscus {
+
+struct Ball;
 
 /// An exposed arc of the SAS circle of atoms i < j (an RS edge), counter-clockwise about the axis from i to j.
 /// It begins where it leaves the SAS ball of atom `begin_by` and ends where it enters that of `end_by`;

@@ -6,10 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "core/math/ball.h"
 #include "core/reduced_surface/reduced_surface.h"
 
 namespace meniscus {
+
+struct Ball;
 
 /// Sets lone_atoms and lost_atoms of a reduced surface. Its arcs must have been found already.
 ///

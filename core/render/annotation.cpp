@@ -16,6 +16,7 @@
 #include "core/image/color_space.h"
 #include "core/render/ink.h"
 #include "core/render/text_raster.h"
+#include "core/camera/camera.h"
 
 namespace meniscus {
 namespace {

@@ -10,10 +10,11 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "core/camera/camera.h"
 #include "core/render/framebuffer.h"
 
 namespace meniscus {
+
+struct Camera;
 
 /// A name, beside the place that a line leads to.
 struct PlaceLabel {

@@ -6,9 +6,12 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/surface/primitives.h"
-
 namespace meniscus {
+
+enum class PatchKind : std::uint8_t;
+struct Border;
+struct Face;
+struct Surface;
 
 /// Looks at a surface that must outlive it. One patch may have faces in several components (an atom between the outside
 /// and a cavity); then the face whose border arcs are nearest to the point decides.

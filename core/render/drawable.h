@@ -4,13 +4,14 @@
 
 #include <span>
 
-#include "core/base/stage_clock.h"
 #include "core/gpu/readback.h"
 #include "core/render/gpu_scene.h"
 #include "core/render/ray_cast_scene.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
+
+class StageClock;
 
 /// A complete surface (SurfaceDrawable), or atoms whose surface the GPU finds for each view (ViewPipeline).
 class Drawable {

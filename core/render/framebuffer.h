@@ -9,8 +9,6 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "core/surface/primitives.h"
-
 namespace meniscus {
 
 /// Rows from the top, pixels from the left. All AOV arrays are empty unless they were asked for.

@@ -3,6 +3,7 @@
 #include "core/render/gpu_scene.h"
 
 #include "core/render/linear_colors.h"
+#include "core/color/coloring.h"
 
 namespace meniscus {
 

@@ -9,9 +9,10 @@
 
 #include "core/gpu/append_list.h"
 #include "core/gpu/buffer.h"
-#include "core/color/coloring.h"
 
 namespace meniscus {
+
+struct Coloring;
 
 /// Records shared with the shaders.
 namespace ray_cast {

@@ -27,6 +27,7 @@
 #include "core/image/display_color.h"
 #include "core/image/memory_file.h"
 #include "core/image/srgb_profile.h"
+#include "core/base/index.h"
 
 namespace meniscus {
 namespace {

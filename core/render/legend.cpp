@@ -12,6 +12,7 @@
 
 #include "core/image/color_space.h"
 #include "core/render/ink.h"
+#include "core/base/index.h"
 
 namespace meniscus {
 namespace {

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/image/color_space.h"
+#include "core/color/coloring.h"
 
 namespace meniscus {
 

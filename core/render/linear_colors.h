@@ -6,9 +6,9 @@
 
 #include <glm/vec4.hpp>
 
-#include "core/color/coloring.h"
-
 namespace meniscus {
+
+struct Coloring;
 
 /// One an atom, linear, alpha: opacity (0: hidden); then, if by kind, three for these: GpuScene::colors.
 std::vector<glm::vec4> linear_colors(const Coloring& coloring);

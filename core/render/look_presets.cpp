@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What each preset is made of.
 #include "core/render/look_presets.h"
+#include "core/render/look.h"
+#include "core/color/color_schemes.h"
 
 #include <algorithm>
 

@@ -10,10 +10,10 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "core/color/color_schemes.h"
-#include "core/render/look.h"
-
 namespace meniscus {
+
+struct ColorScheme;
+struct Look;
 
 enum class LookPreset {
   publication,  ///< shade, thin lines, some air, colours as given

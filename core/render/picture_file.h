@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <optional>
 
-#include "core/camera/camera.h"
 #include "core/render/annotation.h"
 #include "core/render/framebuffer.h"
 #include "core/render/image_output.h"
@@ -13,6 +12,8 @@
 #include "core/render/render_settings.h"
 
 namespace meniscus {
+
+struct Camera;
 
 /// What a picture shows beside the molecule; both must stay.
 struct PictureMargins {

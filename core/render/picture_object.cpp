@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Looks through colours and tables.
 #include "core/render/picture_object.h"
+#include "core/color/coloring.h"
+#include "core/surface/primitives.h"
+#include "core/shapes/shapes.h"
 
 #include <algorithm>
 #include <cmath>

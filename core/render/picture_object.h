@@ -9,13 +9,14 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/color/coloring.h"
 #include "core/math/ball.h"
 #include "core/render/material.h"
-#include "core/shapes/shapes.h"
-#include "core/surface/primitives.h"
 
 namespace meniscus {
+
+struct Coloring;
+struct Shapes;
+struct Surface;
 
 /// What lies behind this plane is cut away: points with dot(normal, x) >= offset.
 struct ClipPlane {

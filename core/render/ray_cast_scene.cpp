@@ -17,6 +17,7 @@
 
 #include "core/queries/moved.h"
 #include "core/render/ray_geometry.h"
+#include "core/color/coloring.h"
 
 namespace meniscus {
 namespace {

@@ -14,11 +14,12 @@
 
 #include "core/camera/camera.h"
 #include "core/render/gpu_scene.h"
-#include "core/color/coloring.h"
-#include "core/math/rigid_motion.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
+
+struct Coloring;
+struct RigidMotion;
 
 /// The picture's geometry, in double. The pivot lies on the view axis, close to what the middle of the picture shows.
 struct PictureFrame {

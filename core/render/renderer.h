@@ -11,7 +11,6 @@
 
 #include "core/base/stage_clock.h"
 #include "core/camera/camera.h"
-#include "core/color/coloring.h"
 #include "core/render/drawable.h"
 #include "core/render/framebuffer.h"
 #include "core/render/hit_point.h"
@@ -24,6 +23,7 @@
 namespace meniscus {
 
 class PictureCollector;
+struct Coloring;
 
 /// Makes one picture after another. Needs a current GL context for its whole life.
 class Renderer {

@@ -9,6 +9,8 @@
 #include <glm/geometric.hpp>
 
 #include "core/render/ray_geometry.h"
+#include "core/shapes/shapes.h"
+#include "core/color/coloring.h"
 
 namespace meniscus {
 namespace {

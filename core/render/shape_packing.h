@@ -3,9 +3,10 @@
 #pragma once
 
 #include "core/render/ray_cast_scene.h"
-#include "core/shapes/shapes.h"
 
 namespace meniscus {
+
+struct Shapes;
 
 /// Spheres become convex patches without planes. Indices of atoms are those of the shapes; hidden ones are left out.
 /// slack: patch_slack() of the picture.

@@ -4,10 +4,11 @@
 
 #include <span>
 
-#include "core/color/coloring.h"
 #include "core/render/drawable.h"
 
 namespace meniscus {
+
+struct Coloring;
 
 /// Packs the surface for each picture. Keeps buffers from surface to surface. Needs a current GL context.
 class SurfaceDrawable final : public Drawable {

@@ -8,17 +8,17 @@
 #include <vector>
 
 #include "core/base/stage_clock.h"
-#include "core/camera/camera.h"
 #include "core/color/coloring.h"
 #include "core/render/framebuffer.h"
 #include "core/render/picture_object.h"
-#include "core/queries/surface_object.h"
 #include "core/render/render_settings.h"
-#include "core/surface/primitives.h"
 
 namespace meniscus {
 
 class EglContext;
+struct Camera;
+struct Surface;
+struct SurfaceObject;
 
 /// Makes one picture after another.
 class SurfaceRenderer {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bonds as cylinders, atoms as the spheres at their ends.
 #include "core/shapes/shapes.h"
+#include "core/math/ball.h"
 
 #include <algorithm>
 

@@ -9,10 +9,11 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/math/ball.h"
 #include "core/structure/structure.h"
 
 namespace meniscus {
+
+struct Ball;
 
 struct SphereShape {
   glm::dvec3 center;   ///< Å

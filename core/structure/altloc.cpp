@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compares the alternate locations of each residue by their means.
 #include "core/structure/altloc.h"
+#include "core/structure/structure.h"
 
 #include <algorithm>
 #include <cctype>

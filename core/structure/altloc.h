@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/structure/structure.h"
-
 namespace meniscus {
+
+struct Atom;
 
 /// One letter a residue is kept, and the atoms without a letter.
 struct AltlocChoice {

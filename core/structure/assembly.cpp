@@ -17,6 +17,8 @@
 #include "core/base/text.h"
 #include "core/text/parse_number.h"
 #include "core/text/text_lines.h"
+#include "core/structure/structure.h"
+#include "core/math/rigid_motion.h"
 
 namespace meniscus {
 namespace {

@@ -8,11 +8,14 @@
 #include <string_view>
 #include <vector>
 
-#include "core/structure/structure.h"
 #include "core/text/text_file.h"
-#include "core/math/rigid_motion.h"
 
 namespace meniscus {
+
+struct Assembly;
+struct Atom;
+struct RigidMotion;
+struct Structure;
 
 /// How the copies of an assembly are made.
 enum class CopyMode {

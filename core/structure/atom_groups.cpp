@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sorts atoms into groups by a key, keeping the order of the file.
 #include "core/structure/atom_groups.h"
+#include "core/structure/structure.h"
 
 #include <algorithm>
 #include <map>

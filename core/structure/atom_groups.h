@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "core/structure/structure.h"
-
 namespace meniscus {
+
+struct Atom;
+struct Structure;
 
 enum class Grouping : std::uint8_t {
   chain,       ///< same model and chain

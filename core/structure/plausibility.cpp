@@ -12,6 +12,8 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/text.h"
+#include "core/math/ball.h"
+#include "core/structure/structure.h"
 
 namespace meniscus {
 namespace {

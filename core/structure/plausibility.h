@@ -2,9 +2,9 @@
 // Doubts about a file that is well-formed: atoms at one place, coordinates in another unit.
 #pragma once
 
-#include "core/structure/structure.h"
-
 namespace meniscus {
+
+struct Structure;
 
 /// Warns of atoms at exactly the place of another, each with both names.
 void warn_of_coincident_atoms(Structure& structure);

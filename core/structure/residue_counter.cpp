@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Residues by their names and numbers, with a look back where those come again.
 #include "core/structure/residue_counter.h"
+#include "core/structure/structure.h"
 
 #include <algorithm>
 

@@ -7,9 +7,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/structure/structure.h"
-
 namespace meniscus {
+
+struct Atom;
 
 /// Numbers residues in the order of the file. Neighbouring atoms of one model, chain, segment, number, insertion code
 /// and name are one residue (of several names only where all are alternate locations). Where such a combination comes

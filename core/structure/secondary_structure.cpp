@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/math/ball_grid.h"
+#include "core/structure/structure.h"
 
 namespace meniscus {
 namespace {

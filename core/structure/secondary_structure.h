@@ -8,9 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/structure/structure.h"
-
 namespace meniscus {
+
+enum class SecondaryStructure : std::uint8_t;
+struct Atom;
 
 /// A stretch of residues that a file calls helix or strand; both ends belong to it.
 struct SecondaryRange {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/text.h"
+#include "core/math/ball.h"
 
 namespace meniscus {
 namespace {

@@ -15,10 +15,12 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/math/ball.h"
 #include "core/math/rigid_motion.h"
 
 namespace meniscus {
+
+struct Ball;
+struct RigidMotion;
 
 /// What an atom belongs to. `unclassified`: the format does not say (XYZ, XYZR).
 enum class AtomClass : std::uint8_t { polymer, ligand, water, ion, unclassified };

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/structure/structure.h"
-
 namespace meniscus {
+
+struct Warning;
 
 class WarningCollector {
  public:

@@ -14,6 +14,7 @@
 #include "core/reduced_surface/reduced_surface.h"
 #include "core/surface/surface.h"
 #include "core/surface/trim.h"
+#include "core/base/stage_clock.h"
 
 namespace meniscus {
 Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs, StageClock* clock,

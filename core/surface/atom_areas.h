@@ -7,9 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "core/surface/primitives.h"
-
 namespace meniscus {
+
+struct ConcavePatch;
+struct Surface;
 
 /// Å², one per Surface::atoms; 0 for buried atoms.
 struct AtomAreas {

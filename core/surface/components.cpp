@@ -12,6 +12,7 @@
 
 #include "core/math/union_find.h"
 #include "core/surface/numbering.h"
+#include "core/surface/primitives.h"
 
 namespace meniscus {
 namespace {

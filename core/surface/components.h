@@ -2,9 +2,9 @@
 // The connected components of a surface and their Euler characteristics, from its faces and borders.
 #pragma once
 
-#include "core/surface/primitives.h"
-
 namespace meniscus {
+
+struct Surface;
 
 /// Fills in Face::component, Component::euler and as many components as there are, in the order of their first faces.
 /// Two faces are connected where they share a border; a border with one face or none connects nothing. Returns whether

@@ -3,6 +3,7 @@
 #include "core/surface/reduced_surface_engine.h"
 #include "core/surface/surface.h"
 #include "core/surface/tie_ladder.h"
+#include "core/base/stage_clock.h"
 
 namespace meniscus {
 

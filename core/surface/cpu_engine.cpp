@@ -5,6 +5,7 @@
 
 #include "core/reduced_surface/cpu/exhaustive.h"
 #include "core/surface/reduced_surface_engine.h"
+#include "core/base/stage_clock.h"
 
 namespace meniscus {
 namespace {

@@ -8,9 +8,9 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/surface/primitives.h"
-
 namespace meniscus {
+
+struct Surface;
 
 /// A derivative by the position of each of Surface::atoms; zero for buried atoms.
 using Gradient = std::vector<glm::dvec3>;

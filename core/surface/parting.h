@@ -7,9 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "core/surface/primitives.h"
-
 namespace meniscus {
+
+struct Plane;
+struct Surface;
 
 /// Some faces of one patch, and the planes inside of which they lie and the patch's other faces do not.
 struct PartedFaces {

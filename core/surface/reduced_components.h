@@ -13,12 +13,12 @@
 #include <span>
 #include <vector>
 
-#include "core/base/stage_clock.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
 
 class ReducedSurfaceEngine;
+class StageClock;
 
 /// Which component each part of a surface belongs to. Outer components come first, then cavities, each by falling area.
 struct ReducedComponents {

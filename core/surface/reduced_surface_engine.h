@@ -7,11 +7,12 @@
 #include <span>
 #include <string>
 
-#include "core/base/stage_clock.h"
 #include "core/reduced_surface/reduced_surface.h"
 #include "core/surface/cusp_tracer.h"
 
 namespace meniscus {
+
+class StageClock;
 
 /// Finds reduced surfaces on one device, frame after frame; all engines find the same. Used by one thread at a time.
 class ReducedSurfaceEngine {

@@ -4,13 +4,13 @@
 
 #include <span>
 
-#include "core/base/stage_clock.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
 
 class CuspTracer;
 class ReducedSurfaceEngine;
+class StageClock;
 struct ReducedComponents;
 struct ReducedSurface;
 

@@ -6,10 +6,12 @@
 #include <span>
 #include <string>
 
-#include "core/structure/structure.h"
 #include "core/trajectory/frame.h"
 
 namespace meniscus {
+
+struct Atom;
+struct Topology;
 
 /// Which frame of which files is compared.
 struct ComparedFrame {

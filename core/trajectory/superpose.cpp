@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Asks gemmi's quaternion method for the motion.
 #include "core/trajectory/superpose.h"
+#include "core/math/rigid_motion.h"
 
 #include <vector>
 

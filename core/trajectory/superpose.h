@@ -7,9 +7,9 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/math/rigid_motion.h"
-
 namespace meniscus {
+
+struct RigidMotion;
 
 /// The rotation and translation of `positions` that makes the sum of squared distances of its `atoms` to those of
 /// `reference` least (D. L. Theobald, Acta Cryst. A 61, 478, 2005). No mirror image. At least three atoms not in a

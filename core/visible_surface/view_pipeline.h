@@ -8,7 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "core/base/stage_clock.h"
 #include "core/gpu/append_list.h"
 #include "core/gpu/buffer.h"
 #include "core/gpu/kernel_parameters.h"
@@ -28,6 +27,8 @@
 #include "core/visible_surface/visible_atoms.h"
 
 namespace meniscus {
+
+class StageClock;
 
 /// What one view took.
 struct ViewStats {

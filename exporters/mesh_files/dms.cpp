@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "exporters/mesh_files/text_rows.h"
 #include "exporters/mesh_files/writers.h"
+#include "core/surface/primitives.h"
 
 namespace meniscus {
 namespace {

@@ -12,6 +12,7 @@
 #include "core/mesh/mesh_colors.h"
 #include "core/queries/combine.h"
 #include "exporters/mesh_files/inner_points.h"
+#include "core/structure/structure.h"
 
 namespace meniscus {
 namespace {

@@ -11,11 +11,12 @@
 #include "core/mesh/shape_mesh.h"
 #include "core/mesh/weld.h"
 #include "core/queries/surface_object.h"
-#include "core/structure/structure.h"
 #include "exporters/mesh_files/mesh_file.h"
 #include "exporters/mesh_files/vertex_numbers.h"
 
 namespace meniscus {
+
+struct Atom;
 
 /// Files hold floats, programs print three decimals: what is nearer together than this (Å) is welded.
 inline constexpr double kFileStep = 0.001;

@@ -14,6 +14,7 @@
 
 #include "core/base/error.h"
 #include "core/queries/distance.h"
+#include "core/mesh/triangle_mesh.h"
 
 namespace meniscus {
 namespace {

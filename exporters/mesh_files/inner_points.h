@@ -6,10 +6,10 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/mesh/triangle_mesh.h"
-#include "core/surface/primitives.h"
-
 namespace meniscus {
+
+struct Surface;
+struct TriangleMesh;
 
 /// One per component: on its inner side, in a cavity in the solvent and else in the solid, with a ball around it that
 /// touches this component of the surface and holds nothing of it; and on the inner side of its triangles. Where these

@@ -9,9 +9,9 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/surface/primitives.h"
-
 namespace meniscus {
+
+enum class PatchKind : std::uint8_t;
 
 /// A number of each vertex. The name is a word of letters, digits and underscores.
 struct VertexNumbers {

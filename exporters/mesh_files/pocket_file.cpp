@@ -9,6 +9,7 @@
 
 #include "core/base/index.h"
 #include "core/color/named_colors.h"
+#include "core/mesh/triangle_mesh.h"
 
 namespace meniscus {
 namespace {

@@ -2,10 +2,11 @@
 // Pockets as objects of a mesh file, each in its colour.
 #pragma once
 
-#include "core/mesh/triangle_mesh.h"
 #include "exporters/mesh_files/mesh_file.h"
 
 namespace meniscus {
+
+struct TriangleMesh;
 
 /// mesh: as pocket_mesh() makes it. Objects are named "pocket 1", ... by rank and have the rank as vertex number
 /// "pocket"; colours are those of categorical_color(). Lengths are in Å. No atoms, no inner points: for formats that

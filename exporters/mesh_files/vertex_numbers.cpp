@@ -16,6 +16,8 @@
 #include "core/queries/curvature.h"
 #include "core/structure/hydropathy.h"
 #include "core/surface/atom_areas.h"
+#include "core/mesh/triangle_mesh.h"
+#include "core/structure/structure.h"
 
 namespace meniscus {
 namespace {

@@ -9,11 +9,12 @@
 
 #include "core/color/coloring.h"
 #include "core/mesh/mesh_fineness.h"
-#include "core/structure/structure.h"
 #include "core/surface/primitives.h"
 #include "exporters/mesh_files/mesh_file.h"
 
 namespace meniscus {
+
+struct Atom;
 
 /// One of them.
 struct VertexNumberKind {

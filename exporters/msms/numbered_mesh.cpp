@@ -14,6 +14,7 @@
 #include "core/base/index.h"
 #include "core/math/ball_grid.h"
 #include "core/mesh/weld.h"
+#include "core/mesh/triangle_mesh.h"
 
 namespace meniscus {
 namespace {

@@ -5,11 +5,12 @@
 #include <cstdint>
 #include <memory>
 
-#include "core/mesh/triangle_mesh.h"
 #include "core/surface/reduced_components.h"
 #include "exporters/msms/msms_mesh.h"
 
 namespace meniscus {
+
+struct TriangleMesh;
 
 /// Coordinates in files have three decimals: what lies nearer together would coincide there.
 inline constexpr double kMsmsStep = 0.001;

@@ -19,6 +19,7 @@
 #include "tests/fuzz/target.h"
 #include "tests/support/sanitized.h"
 #include "tests/trajectory/byte_writer.h"
+#include "core/trajectory/trajectory.h"
 
 namespace meniscus::fuzz {
 namespace {

@@ -11,6 +11,7 @@
 #include "core/text/parse_number.h"
 #include "core/base/error.h"
 #include "core/structure/periodic_cell.h"
+#include "core/trajectory/trajectory.h"
 
 namespace meniscus::fuzz {
 namespace {

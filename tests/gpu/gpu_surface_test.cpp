@@ -12,6 +12,7 @@
 #include "core/surface/gpu/gpu_engine.h"
 #include "core/surface/surface.h"
 #include "tests/support/molecules.h"
+#include "core/base/stage_clock.h"
 
 namespace meniscus::testing {
 namespace {

@@ -13,6 +13,7 @@
 #include "core/surface/surface.h"
 #include "tests/gpu/inexact_shaders.h"
 #include "tests/support/molecules.h"
+#include "core/base/stage_clock.h"
 
 namespace meniscus::testing {
 namespace {

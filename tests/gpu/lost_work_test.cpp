@@ -20,6 +20,7 @@
 #include "core/visible_surface/view_pipeline.h"
 #include "tests/gpu/gl_faults.h"
 #include "tests/support/molecules.h"
+#include "core/color/coloring.h"
 
 namespace meniscus::testing {
 namespace {

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/camera/camera.h"
 
 namespace meniscus {
 namespace {

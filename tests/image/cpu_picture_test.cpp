@@ -14,6 +14,7 @@
 #include "core/render/surface_renderer.h"
 #include "core/surface/surface.h"
 #include "tests/support/molecules.h"
+#include "core/camera/camera.h"
 
 namespace meniscus {
 namespace {

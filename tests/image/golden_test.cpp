@@ -12,6 +12,7 @@
 #include "core/render/renderer.h"
 #include "core/surface/surface.h"
 #include "tests/support/molecules.h"
+#include "core/color/coloring.h"
 
 namespace meniscus {
 namespace {

@@ -22,6 +22,7 @@
 #include "core/image/display_color.h"
 #include "core/image/image_codec.h"
 #include "core/image/png_encoder.h"
+#include "core/base/index.h"
 
 namespace meniscus {
 namespace {

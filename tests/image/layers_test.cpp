@@ -13,6 +13,7 @@
 #include "core/scene/cut.h"
 #include "core/surface/surface.h"
 #include "tests/support/molecules.h"
+#include "core/shapes/shapes.h"
 
 namespace meniscus {
 namespace {

@@ -11,8 +11,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+
 #include "core/base/error.h"
 #include "core/image/color_space.h"
+#include "core/base/index.h"
 
 namespace meniscus {
 namespace {

@@ -18,6 +18,7 @@
 #include "core/queries/part.h"
 #include "core/surface/surface.h"
 #include "tests/support/molecules.h"
+#include "core/queries/surface_object.h"
 
 namespace meniscus {
 namespace {

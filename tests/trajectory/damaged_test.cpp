@@ -13,6 +13,7 @@
 #include "tests/support/run_program.h"
 #include "tests/support/sanitized.h"
 #include "tests/trajectory/samples.h"
+#include "core/trajectory/trajectory.h"
 
 namespace meniscus {
 namespace {

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "core/trajectory/formats/formats.h"
+#include "core/camera/camera.h"
+#include "core/trajectory/trajectory.h"
 
 namespace {
 

@@ -9,6 +9,7 @@
 #include "core/trajectory/formats/frame_index.h"
 #include "tests/support/run_program.h"
 #include "tests/trajectory/samples.h"
+#include "core/trajectory/trajectory.h"
 
 namespace meniscus {
 namespace {

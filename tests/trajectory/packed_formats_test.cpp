@@ -9,6 +9,7 @@
 #include "tests/support/run_program.h"
 #include "tests/trajectory/byte_writer.h"
 #include "tests/trajectory/samples.h"
+#include "core/trajectory/trajectory.h"
 
 namespace meniscus {
 namespace {

@@ -11,6 +11,7 @@
 #include "core/surface/surface.h"
 #include "core/visible_surface/view_pipeline.h"
 #include "tests/support/molecules.h"
+#include "core/color/coloring.h"
 
 namespace meniscus {
 namespace {

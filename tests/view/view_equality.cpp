@@ -18,6 +18,7 @@
 #include "core/render/renderer.h"
 #include "core/visible_surface/view_pipeline.h"
 #include "tests/view/view_cameras.h"
+#include "core/color/coloring.h"
 
 namespace meniscus {
 namespace {

@@ -17,6 +17,7 @@
 #include "core/surface/surface.h"
 #include "tests/support/molecules.h"
 #include "tests/view/view_cameras.h"
+#include "core/color/coloring.h"
 
 namespace meniscus {
 namespace {

@@ -5,12 +5,13 @@
 #include <span>
 #include <vector>
 
-#include "core/base/stage_clock.h"
 #include "core/gpu/program.h"
 #include "core/reduced_surface/gpu/gpu_circles.h"
 #include "core/reduced_surface/gpu/gpu_neighbors.h"
 
 namespace meniscus {
+
+class StageClock;
 
 /// Grid, neighbours, circles and arcs, batch by batch. Keeps kernels and buffers from frame to frame. Needs a current
 /// GL context.

@@ -11,7 +11,6 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
-#include "core/base/stage_clock.h"
 #include "core/gpu/append_list.h"
 #include "core/gpu/buffer.h"
 #include "core/gpu/program.h"
@@ -21,6 +20,8 @@
 #include "core/reduced_surface/reduced_surface.h"
 
 namespace meniscus {
+
+class StageClock;
 
 /// Kernel "circles" and its buffers. Needs a current GL context.
 class GpuCircles {

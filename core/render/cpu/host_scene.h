@@ -10,6 +10,7 @@
 #include "core/render/cpu/lane_kernels.h"
 #include "core/render/picture_block.h"
 #include "core/render/ray_cast_scene.h"
+#include "core/color/coloring.h"
 
 namespace meniscus {
 

@@ -11,6 +11,8 @@
 #include "core/structure/assembly.h"
 #include "core/structure/formats/cif_document.h"
 #include "core/text/parse_number.h"
+#include "core/math/rigid_motion.h"
+#include "core/structure/structure.h"
 
 namespace meniscus {
 namespace {

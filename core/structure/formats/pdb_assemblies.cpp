@@ -10,6 +10,9 @@
 #include "core/structure/assembly.h"
 #include "core/text/parse_number.h"
 #include "core/text/text_lines.h"
+#include "core/math/ball.h"
+#include "core/structure/structure.h"
+#include "core/math/rigid_motion.h"
 
 namespace meniscus {
 namespace {

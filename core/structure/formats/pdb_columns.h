@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/structure/structure.h"
-
 namespace meniscus {
+
+struct Atom;
 
 /// True if the line is this record; letters of either case. Names shorter than six letters must be followed by a blank.
 bool is_pdb_record(std::string_view line, std::string_view record);

@@ -9,6 +9,7 @@
 #include "core/structure/formats/pdb_columns.h"
 #include "core/text/parse_number.h"
 #include "core/text/text_lines.h"
+#include "core/structure/structure.h"
 
 namespace meniscus {
 namespace {

@@ -13,6 +13,7 @@
 #include "core/base/text.h"
 #include "core/text/parse_number.h"
 #include "core/structure/radii.h"
+#include "core/structure/structure.h"
 
 namespace meniscus {
 namespace {

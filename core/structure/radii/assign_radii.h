@@ -8,9 +8,12 @@
 #include "core/structure/radii/radii_file.h"
 #include "core/structure/radii/radii_set.h"
 #include "core/structure/selection/selection.h"
-#include "core/structure/structure.h"
 
 namespace meniscus {
+
+enum class FileRadii : std::uint8_t;
+struct Atom;
+struct Structure;
 
 /// The radius of some atoms, whatever else says.
 struct RadiusOverride {

@@ -2,6 +2,7 @@
 // Radii by element alone, as the set that is taken unless another is asked for.
 #include "core/structure/radii.h"
 #include "core/structure/radii/radii_set.h"
+#include "core/structure/structure.h"
 
 namespace meniscus {
 

@@ -4,6 +4,7 @@
 
 #include "core/structure/bonding_classes.h"
 #include "core/structure/radii/radii_set.h"
+#include "core/structure/structure.h"
 
 namespace meniscus {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <string_view>
 
-#include "core/structure/structure.h"
-
 namespace meniscus {
+
+struct Atom;
 
 /// A radius and why an atom has it. The texts live as long as what gave them.
 struct FoundRadius {

@@ -5,6 +5,7 @@
 
 #include "core/structure/canonical_names.h"
 #include "core/structure/radii/radii_file.h"
+#include "core/structure/structure.h"
 
 namespace meniscus {
 namespace {

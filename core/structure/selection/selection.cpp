@@ -16,6 +16,7 @@
 #include "core/structure/point_tree.h"
 #include "core/structure/selection/selection_classes.h"
 #include "core/structure/selection/selection_steps.h"
+#include "core/structure/structure.h"
 
 namespace meniscus {
 namespace {

@@ -8,10 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/structure/structure.h"
-
 namespace meniscus {
 
+struct Atom;
 struct SelectionSteps;
 
 /// An expression that has been understood. Copies share it.

@@ -8,6 +8,7 @@
 
 #include "core/structure/residue_names.h"
 #include "core/structure/secondary_structure.h"
+#include "core/structure/structure.h"
 
 namespace meniscus {
 namespace {

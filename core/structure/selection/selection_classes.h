@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "core/structure/selection/selection_steps.h"
-#include "core/structure/structure.h"
 
 namespace meniscus {
+
+struct Atom;
 
 /// One truth value an atom. Protein and nucleic are residues with a known name; other residues of polymers count by
 /// their atoms: N, CA and C make an amino acid, C4' or C4* a nucleotide.

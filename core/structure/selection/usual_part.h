@@ -6,9 +6,9 @@
 #include <span>
 #include <string>
 
-#include "core/structure/structure.h"
-
 namespace meniscus {
+
+struct Atom;
 
 /// What the atoms of a frame can be if they are not all of the file: "as many as it has without water: choose
 /// --trajectory-atoms 'not water'", or that the two do not belong together.

@@ -12,6 +12,7 @@
 #include "core/structure/formats/formats.h"
 #include "core/text/text_lines.h"
 #include "core/trajectory/formats/binary_file.h"
+#include "core/trajectory/trajectory.h"
 
 namespace meniscus {
 namespace {

@@ -8,9 +8,11 @@
 #include <string_view>
 
 #include "core/structure/formats/reader.h"
-#include "core/trajectory/trajectory.h"
 
 namespace meniscus {
+
+class Trajectory;
+struct TrajectoryOptions;
 
 /// One format. `recognizes` looks at the first kTrajectoryStart bytes of a file, and `open` throws as open_trajectory
 /// does.

@@ -4,6 +4,7 @@
 #include "core/base/module_file.h"
 #include "core/trajectory/formats/formats.h"
 #include "core/trajectory/formats/read_h5md.h"
+#include "core/trajectory/trajectory.h"
 
 namespace meniscus {
 namespace {

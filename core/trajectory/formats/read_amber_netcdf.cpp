@@ -11,6 +11,7 @@
 #include "core/trajectory/formats/cell.h"
 #include "core/trajectory/formats/formats.h"
 #include "core/trajectory/formats/netcdf_layout.h"
+#include "core/trajectory/trajectory.h"
 
 namespace meniscus {
 namespace {

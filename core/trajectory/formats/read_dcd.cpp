@@ -13,6 +13,7 @@
 #include "core/trajectory/formats/byte_order.h"
 #include "core/trajectory/formats/cell.h"
 #include "core/trajectory/formats/formats.h"
+#include "core/trajectory/trajectory.h"
 
 namespace meniscus {
 namespace {

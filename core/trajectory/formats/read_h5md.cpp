@@ -15,6 +15,8 @@
 #include "core/base/units.h"
 #include "core/trajectory/formats/binary_file.h"
 #include "core/trajectory/formats/cell.h"
+#include "core/structure/structure.h"
+#include "core/trajectory/trajectory.h"
 
 namespace meniscus {
 namespace {

@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
-#include "core/trajectory/trajectory.h"
-
 namespace meniscus {
+
+class Trajectory;
 
 /// Opens a file. Throws InputError.
 using OpenH5md = std::unique_ptr<Trajectory>(const std::string& path);

@@ -22,6 +22,7 @@
 #include "core/trajectory/formats/file_lines.h"
 #include "core/trajectory/formats/formats.h"
 #include "core/trajectory/formats/frame_index.h"
+#include "core/trajectory/trajectory.h"
 
 namespace meniscus {
 namespace {

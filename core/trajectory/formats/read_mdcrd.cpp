@@ -17,6 +17,7 @@
 #include "core/trajectory/formats/cell.h"
 #include "core/trajectory/formats/file_lines.h"
 #include "core/trajectory/formats/formats.h"
+#include "core/trajectory/trajectory.h"
 
 namespace meniscus {
 namespace {

@@ -10,6 +10,7 @@
 #include "core/structure/formats/formats.h"
 #include "core/trajectory/formats/formats.h"
 #include "core/trajectory/formats/text_frames.h"
+#include "core/trajectory/trajectory.h"
 
 namespace meniscus {
 namespace {

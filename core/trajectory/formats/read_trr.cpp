@@ -14,6 +14,7 @@
 #include "core/trajectory/formats/cell.h"
 #include "core/trajectory/formats/formats.h"
 #include "core/trajectory/formats/frame_index.h"
+#include "core/trajectory/trajectory.h"
 
 namespace meniscus {
 namespace {

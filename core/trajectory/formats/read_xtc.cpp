@@ -15,6 +15,7 @@
 #include "core/trajectory/formats/formats.h"
 #include "core/trajectory/formats/frame_index.h"
 #include "core/trajectory/formats/packed_coordinates.h"
+#include "core/trajectory/trajectory.h"
 
 namespace meniscus {
 namespace {

@@ -14,6 +14,7 @@
 #include "exporters/bindings/c/sized_struct.h"
 #include "exporters/mesh_files/file_object.h"
 #include "exporters/mesh_files/mesh_formats.h"
+#include "core/structure/structure.h"
 
 namespace meniscus::c_api {
 namespace {

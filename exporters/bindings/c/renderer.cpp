@@ -18,6 +18,7 @@
 #include "exporters/bindings/c/gl_thread.h"
 #include "exporters/bindings/c/sized_struct.h"
 #include "exporters/bindings/c/surface.h"
+#include "core/camera/camera.h"
 
 namespace meniscus::c_api {
 namespace {

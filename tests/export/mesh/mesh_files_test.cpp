@@ -21,6 +21,7 @@
 #include "exporters/mesh_files/mesh_formats.h"
 #include "tests/support/molecules.h"
 #include "tests/support/run_program.h"
+#include "core/structure/structure.h"
 
 namespace meniscus::testing {
 namespace {

@@ -6,6 +6,7 @@
 #include "core/color/color_schemes.h"
 #include "core/color/color_atoms.h"
 #include "tests/fuzz/reader_checks.h"
+#include "core/color/coloring.h"
 
 namespace meniscus::fuzz {
 namespace {

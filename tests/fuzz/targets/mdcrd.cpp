@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Formatted trajectories of Amber, of structures of few atoms.
 #include "tests/fuzz/trajectory_checks.h"
+#include "core/trajectory/trajectory.h"
 
 namespace meniscus::fuzz {
 namespace {

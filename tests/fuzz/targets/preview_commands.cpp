@@ -11,6 +11,7 @@
 #include "core/camera/camera.h"
 #include "core/camera/camera_json.h"
 #include "tests/fuzz/target.h"
+#include "core/render/look.h"
 
 namespace meniscus::fuzz {
 namespace {

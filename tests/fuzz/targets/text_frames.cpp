@@ -5,6 +5,7 @@
 #include "core/base/error.h"
 #include "core/structure/formats/formats.h"
 #include "tests/fuzz/trajectory_checks.h"
+#include "core/trajectory/trajectory.h"
 
 namespace meniscus::fuzz {
 namespace {

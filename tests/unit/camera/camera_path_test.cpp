@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/math/ball.h"
 
 namespace meniscus {
 namespace {

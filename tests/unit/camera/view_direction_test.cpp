@@ -10,6 +10,8 @@
 #include "core/base/error.h"
 #include "core/camera/camera_file.h"
 #include "core/camera/view_request.h"
+#include "core/math/ball.h"
+#include "core/math/rigid_motion.h"
 
 namespace meniscus {
 namespace {

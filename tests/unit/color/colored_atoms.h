@@ -9,6 +9,8 @@
 #include "core/base/error.h"
 #include "core/color/color_atoms.h"
 #include "core/color/color_schemes.h"
+#include "core/structure/structure.h"
+#include "core/color/coloring.h"
 
 namespace meniscus {
 

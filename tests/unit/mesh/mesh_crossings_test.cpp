@@ -13,6 +13,7 @@
 
 #include "core/mesh/crossing_guard.h"
 #include "core/mesh/half_edges.h"
+#include "core/math/ball.h"
 
 namespace meniscus::testing {
 namespace {

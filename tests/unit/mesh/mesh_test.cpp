@@ -20,6 +20,7 @@
 #include "tests/support/distance_to_mesh.h"
 #include "tests/support/molecules.h"
 #include "tests/support/sphere_tracer.h"
+#include "core/color/coloring.h"
 
 namespace meniscus::testing {
 namespace {

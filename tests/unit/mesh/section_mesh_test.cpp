@@ -16,6 +16,7 @@
 #include "core/queries/solvent.h"
 #include "core/surface/surface.h"
 #include "tests/support/molecules.h"
+#include "core/queries/surface_object.h"
 
 namespace meniscus::testing {
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Welding: short edges and flat triangles go where the mesh stays a closed surface of the same genus, and nowhere else.
 #include "core/mesh/weld.h"
+#include "core/mesh/triangle_mesh.h"
 
 #include <algorithm>
 #include <array>

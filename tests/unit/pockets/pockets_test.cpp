@@ -20,6 +20,7 @@
 #include "core/surface/surface.h"
 #include "tests/support/molecules.h"
 #include "tests/support/sphere_tracer.h"
+#include "core/mesh/triangle_mesh.h"
 
 namespace meniscus::testing {
 namespace {

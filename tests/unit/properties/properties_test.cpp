@@ -13,6 +13,7 @@
 #include "core/render/look_presets.h"
 #include "exporters/mesh_files/mesh_formats.h"
 #include "core/mesh/mesh_objects.h"
+#include "core/render/look.h"
 
 namespace meniscus {
 namespace {

@@ -15,6 +15,7 @@
 #include "tests/support/molecules.h"
 #include "tests/support/patch_samples.h"
 #include "tests/support/topology.h"
+#include "core/queries/surface_object.h"
 
 namespace meniscus::testing {
 namespace {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/reduced_surface/reduced_surface.h"
+#include "core/math/ball.h"
 
 namespace meniscus {
 namespace {

@@ -18,6 +18,7 @@
 #include "core/structure/molecule_bonds.h"
 #include "tests/support/run_program.h"
 #include "tests/support/pdb_line.h"
+#include "core/queries/colored_shapes.h"
 
 namespace meniscus {
 namespace {

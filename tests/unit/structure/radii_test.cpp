@@ -4,6 +4,7 @@
 
 #include "core/structure/radii/assign_radii.h"
 #include "core/structure/radii.h"
+#include "core/structure/structure.h"
 
 namespace meniscus {
 namespace {

@@ -13,6 +13,7 @@
 #include "core/structure/selection/selection.h"
 #include "core/structure/selection/selection_steps.h"
 #include "core/structure/selection/selection_words.h"
+#include "core/structure/structure.h"
 
 namespace meniscus {
 namespace {
