@@ -62,6 +62,7 @@ rows=(
   "packages|the Debian packages in a bare Debian 12: installed, used, taken away|bash scripts/packaging/try_package.sh"
   "alone|the library alone, built and used in a bare Debian 12 with its three dependencies|bash scripts/packaging/try_library.sh"
   "image|the image of a farm node, built and at work on a film|bash scripts/packaging/try_image.sh"
+  "option|an option is added in three files, and works through every door|bash scripts/add_option.sh"
   "includes|every file without precompiled headers|bash scripts/includes.sh"
   "mutations|planted faults that the tests must find|/usr/bin/python3 scripts/mutate.py --jobs $jobs"
 )
