@@ -22,7 +22,7 @@
 #include "app/reports/assembly_table.h"
 #include "app/options/frame_options.h"
 #include "app/options/molecule_options.h"
-#include "core/trajectory/formats/formats.h"
+#include "core/trajectory/formats/trajectory_formats.h"
 
 namespace meniscus {
 namespace {

@@ -11,7 +11,7 @@
 #include "app/options/camera_file.h"
 #include "app/process/program_error.h"
 #include "app/reports/notes.h"
-#include "core/queries/combine.h"
+#include "core/queries/copies.h"
 #include "core/scene/copied_atoms.h"
 #include "core/scene/surface_kind.h"
 

@@ -14,7 +14,7 @@
 #include "app/process/program_error.h"
 #include "core/properties/properties.h"
 #include "core/render/look_presets.h"
-#include "core/text/parse_number.h"
+#include "core/base/parse_number.h"
 #include "core/render/look.h"
 
 namespace meniscus {

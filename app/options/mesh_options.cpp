@@ -10,6 +10,7 @@
 #include "app/process/program_error.h"
 #include "core/base/text.h"
 #include "core/mesh/mesh_fineness.h"
+#include "core/mesh/mesh_objects.h"
 #include "exporters/mesh_files/vertex_numbers.h"
 
 namespace meniscus {

@@ -10,7 +10,7 @@
 #include "app/process/program_error.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/structure/formats/formats.h"
+#include "core/structure/formats/structure_formats.h"
 
 namespace meniscus {
 namespace {

@@ -12,8 +12,8 @@
 
 #include "app/options/property_options.h"
 #include "core/base/text.h"
-#include "core/color/css_colors.h"
-#include "core/text/parse_number.h"
+#include "core/color/named_colors.h"
+#include "core/base/parse_number.h"
 
 namespace meniscus {
 namespace {

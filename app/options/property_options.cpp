@@ -9,7 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/text/parse_number.h"
+#include "core/base/parse_number.h"
 
 namespace meniscus {
 namespace {

@@ -17,11 +17,9 @@
 #include "app/options/usage_faults.h"
 #include "app/process/program_error.h"
 #include "core/base/error.h"
-#include "core/base/json_depth.h"
-#include "core/base/similar_words.h"
+#include "core/base/text_file.h"
 #include "core/base/text.h"
-#include "core/image/png_note.h"
-#include "core/text/text_file.h"
+#include "core/image/png_file.h"
 
 namespace meniscus {
 namespace {

@@ -13,9 +13,10 @@
 #include "app/options/molecule_options.h"
 #include "app/options/property_options.h"
 #include "core/base/error.h"
+#include "core/base/parse_number.h"
 #include "core/base/text.h"
 #include "core/mesh/check_by_mesh.h"
-#include "core/text/parse_number.h"
+#include "core/mesh/compare_mesh.h"
 
 namespace meniscus {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "app/preview/command_json.h"
 #include "core/base/error.h"
-#include "core/base/json_depth.h"
+#include "core/base/text_file.h"
 
 namespace meniscus {
 

@@ -10,7 +10,7 @@
 #include "app/options/object_option.h"
 #include "core/base/text.h"
 #include "core/color/color_maps.h"
-#include "core/color/css_colors.h"
+#include "core/color/named_colors.h"
 #include "core/properties/properties.h"
 
 namespace meniscus {

@@ -11,7 +11,7 @@
 #include "app/preview/session.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/color/css_colors.h"
+#include "core/color/named_colors.h"
 
 namespace meniscus {
 namespace {

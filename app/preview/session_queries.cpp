@@ -18,9 +18,9 @@
 #include "core/base/text.h"
 #include "core/scene/copied_atoms.h"
 #include "core/color/color_scale.h"
-#include "core/color/css_colors.h"
+#include "core/color/named_colors.h"
 #include "core/properties/properties.h"
-#include "core/structure/radii.h"
+#include "core/structure/element_tables.h"
 
 namespace meniscus {
 namespace {

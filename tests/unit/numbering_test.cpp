@@ -11,8 +11,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/math/union_find.h"
-#include "core/surface/large_tables.h"
-#include "core/surface/numbering.h"
+#include "core/surface/parallel_tables.h"
 
 namespace meniscus::testing {
 namespace {

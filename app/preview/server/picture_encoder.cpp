@@ -7,7 +7,7 @@
 #include <turbojpeg.h>
 
 #include "core/base/error.h"
-#include "core/image/png_encoder.h"
+#include "core/image/png_file.h"
 
 namespace meniscus {
 

@@ -13,7 +13,7 @@
 
 #include "app/preview/command_json.h"
 #include "app/preview/server/limits.h"
-#include "core/base/json_depth.h"
+#include "core/base/text_file.h"
 
 namespace meniscus {
 namespace {

@@ -18,7 +18,6 @@
 #include "core/base/text.h"
 #include "core/color/color_maps.h"
 #include "core/color/color_schemes.h"
-#include "core/color/css_colors.h"
 #include "core/color/named_colors.h"
 
 namespace meniscus {
