@@ -20,7 +20,6 @@
 #include "app/process/program_main.h"
 #include "app/process/standard_streams.h"
 #include "app/reports/version_report.h"
-#include "core/base/similar_words.h"
 #include "core/base/text.h"
 
 namespace meniscus {

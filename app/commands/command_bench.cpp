@@ -15,7 +15,7 @@
 #include "app/options/property_options.h"
 #include "app/process/program_error.h"
 #include "core/base/text.h"
-#include "core/structure/formats/formats.h"
+#include "core/structure/formats/structure_formats.h"
 #include "app/reports/notes.h"
 #include "app/options/scene_options.h"
 #include "core/reduced_surface/rolling_probe/rolling_probe.h"

@@ -30,7 +30,6 @@
 #include "app/process/program_error.h"
 #include "app/process/stop_signals.h"
 #include "app/farm/read_bundle.h"
-#include "core/base/text_template.h"
 #include "core/base/text.h"
 #include "core/trajectory/frame_list.h"
 

@@ -12,9 +12,9 @@
 #include "app/options/property_options.h"
 #include "app/commands/commands.h"
 #include "core/base/text.h"
-#include "core/structure/formats/formats.h"
-#include "core/text/text_lines.h"
-#include "core/trajectory/formats/formats.h"
+#include "core/structure/formats/structure_formats.h"
+#include "core/base/text_lines.h"
+#include "core/trajectory/formats/trajectory_formats.h"
 
 namespace meniscus {
 namespace {

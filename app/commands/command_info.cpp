@@ -21,7 +21,7 @@
 #include "app/reports/notes.h"
 #include "app/reports/assembly_table.h"
 #include "app/options/scene_options.h"
-#include "core/trajectory/formats/formats.h"
+#include "core/trajectory/formats/trajectory_formats.h"
 
 namespace meniscus {
 namespace {

@@ -20,10 +20,10 @@
 #include "core/base/output_file.h"
 #include "core/base/text.h"
 #include "core/mesh/mesh_objects.h"
-#include "core/mesh/pocket_mesh.h"
+#include "core/mesh/shape_mesh.h"
 #include "core/scene/molecule_pockets.h"
 #include "exporters/mesh_files/mesh_formats.h"
-#include "exporters/mesh_files/pocket_file.h"
+#include "exporters/mesh_files/file_object.h"
 
 namespace meniscus {
 namespace {

@@ -10,10 +10,10 @@
 #include "app/process/program_error.h"
 #include "app/reports/notes.h"
 #include "core/base/text.h"
-#include "core/queries/combine.h"
+#include "core/queries/copies.h"
 #include "core/scene/settled_selections.h"
-#include "exporters/blender/atom_attributes.h"
-#include "exporters/blender/atoms_file.h"
+#include "exporters/blender/atom_arrays.h"
+#include "exporters/blender/sequence_manifest.h"
 
 namespace meniscus {
 namespace {

@@ -22,7 +22,7 @@
 #include "core/base/text.h"
 #include "core/mesh/mesh_fineness.h"
 #include "core/mesh/mesh_objects.h"
-#include "core/queries/combine.h"
+#include "core/queries/copies.h"
 #include "exporters/blender/capped_mesh.h"
 #include "exporters/path_tracers/scene_folder.h"
 #include "exporters/path_tracers/scene_items.h"

@@ -22,7 +22,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/volume_paint.h"
-#include "core/queries/combine.h"
+#include "core/queries/copies.h"
 #include "exporters/povray/scene.h"
 #include "exporters/povray/sequence.h"
 

@@ -10,7 +10,7 @@
 #include "app/options/camera_file.h"
 #include "app/process/program_error.h"
 #include "app/reports/notes.h"
-#include "core/queries/combine.h"
+#include "core/queries/copies.h"
 #include "core/scene/copied_atoms.h"
 #include "core/scene/scene_values.h"
 #include "core/scene/settled_selections.h"

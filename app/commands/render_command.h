@@ -7,10 +7,9 @@
 
 #include "app/options/scene_options.h"
 #include "core/color/color_key.h"
-#include "core/render/framebuffer.h"
+#include "core/render/picture.h"
 #include "core/render/image_output.h"
 #include "core/render/legend.h"
-#include "core/render/render_settings.h"
 
 namespace meniscus {
 

@@ -10,7 +10,7 @@
 
 #include "app/farm/checksum.h"
 #include "core/base/error.h"
-#include "core/base/json_depth.h"
+#include "core/base/text_file.h"
 #include "core/base/text.h"
 #include "core/trajectory/frame_list.h"
 

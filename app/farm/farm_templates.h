@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "core/base/text_template.h"
+#include "core/base/text.h"
 
 namespace meniscus {
 

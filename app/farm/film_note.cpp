@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/farm/inner_path.h"
-#include "core/base/json_depth.h"
+#include "core/base/text_file.h"
 #include "core/base/output_file.h"
 
 namespace meniscus::farm {

@@ -10,7 +10,7 @@
 
 #include "app/farm/checksum.h"
 #include "core/base/error.h"
-#include "core/base/json_depth.h"
+#include "core/base/text_file.h"
 #include "core/base/output_file.h"
 
 namespace meniscus::farm {

@@ -12,7 +12,7 @@
 #include "core/base/error.h"
 #include "core/mesh/tessellate.h"
 #include "core/surface/reduced_surface_engine.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "core/base/stage_clock.h"
 
 namespace meniscus::msms {

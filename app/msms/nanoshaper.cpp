@@ -19,7 +19,7 @@
 #include "core/base/output_file.h"
 #include "core/base/text.h"
 #include "core/mesh/even_mesh.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "exporters/msms/msms_files.h"
 #include "exporters/msms/numbered_mesh.h"
 #include "core/mesh/triangle_mesh.h"

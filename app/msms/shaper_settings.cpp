@@ -10,9 +10,9 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/text/parse_number.h"
-#include "core/text/text_file.h"
-#include "core/text/text_lines.h"
+#include "core/base/parse_number.h"
+#include "core/base/text_file.h"
+#include "core/base/text_lines.h"
 
 namespace meniscus::msms {
 namespace {

@@ -16,7 +16,7 @@
 #include "core/properties/properties.h"
 #include "core/render/look_presets.h"
 #include "core/scene/scene_values.h"
-#include "core/text/parse_number.h"
+#include "core/base/parse_number.h"
 #include "core/render/look.h"
 
 namespace meniscus {

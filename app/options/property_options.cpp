@@ -11,7 +11,7 @@
 #include "app/process/program_error.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/text/parse_number.h"
+#include "core/base/parse_number.h"
 
 namespace meniscus {
 namespace {

@@ -22,12 +22,11 @@
 #include "app/options/value_words.h"
 #include "app/process/program_error.h"
 #include "core/base/error.h"
-#include "core/base/similar_words.h"
 #include "core/base/text.h"
 #include "core/color/color_maps.h"
 #include "core/mesh/check_by_mesh.h"
 #include "core/scene/scene_values.h"
-#include "core/structure/formats/formats.h"
+#include "core/structure/formats/structure_formats.h"
 #include "exporters/mesh_files/mesh_formats.h"
 #include "exporters/mesh_files/vertex_numbers.h"
 

@@ -13,8 +13,8 @@
 #include "app/options/scene_options.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/image/png_note.h"
-#include "core/text/text_file.h"
+#include "core/image/png_file.h"
+#include "core/base/text_file.h"
 
 namespace meniscus {
 namespace {

@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "core/base/similar_words.h"
 #include "core/base/text.h"
 
 namespace meniscus {

@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "core/base/error.h"
-#include "core/base/json_depth.h"
+#include "core/base/text_file.h"
 
 namespace meniscus {
 namespace {

@@ -7,7 +7,7 @@
 #include "core/base/error.h"
 #include "core/reduced_surface/cpu/exhaustive.h"
 #include "core/surface/atom_areas.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 
 namespace meniscus {
 namespace {

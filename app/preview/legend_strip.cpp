@@ -7,7 +7,7 @@
 
 #include <glm/common.hpp>
 
-#include "core/image/display_color.h"
+#include "core/image/color_space.h"
 
 namespace meniscus {
 

@@ -12,7 +12,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/color/css_colors.h"
+#include "core/color/named_colors.h"
 #include "core/properties/properties.h"
 #include "core/render/look.h"
 

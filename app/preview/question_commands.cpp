@@ -14,10 +14,10 @@
 #include "core/base/text.h"
 #include "core/camera/camera_json.h"
 #include "core/color/color_scale.h"
-#include "core/color/css_colors.h"
+#include "core/color/named_colors.h"
 #include "core/properties/properties.h"
 #include "core/scene/copied_atoms.h"
-#include "core/structure/radii.h"
+#include "core/structure/element_tables.h"
 
 namespace meniscus {
 namespace {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/text.h"
-#include "core/structure/radii.h"
+#include "core/structure/element_tables.h"
 
 namespace meniscus {
 namespace {

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/color/css_colors.h"
 #include "core/color/named_colors.h"
 
 namespace meniscus {

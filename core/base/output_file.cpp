@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Atomic output: exclusive temporary file, fsync of file and folder, rename that refuses to replace unless asked.
+// Writes files beside their final names, syncs and renames them, and clears away those that were never finished.
 #include "core/base/output_file.h"
 
 #include <fcntl.h>
@@ -13,6 +13,8 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <mutex>
 #include <set>
@@ -304,6 +306,21 @@ void OutputFolder::commit() {
   }
   sync_folder(folder_);
   committed_ = true;
+}
+
+void write_shared_files(const std::filesystem::path& folder, Existing existing, std::span<const SharedFile> files) {
+  const auto is_there = [&](const SharedFile& shared) {
+    std::ifstream file(folder / shared.name, std::ios::binary);
+    return file && std::string(std::istreambuf_iterator<char>(file), {}) == shared.text;
+  };
+  try {
+    OutputFolder output(folder, existing);
+    for (const SharedFile& shared : files)
+      if (!is_there(shared)) output.file(shared.name).write(shared.text);
+    output.commit();
+  } catch (const OutputError&) {
+    if (!std::ranges::all_of(files, is_there)) throw;  // else another process was faster
+  }
 }
 
 }  // namespace meniscus

@@ -92,4 +92,13 @@ class OutputFolder {
 /// others a second at most.
 void remove_unfinished_outputs() noexcept;
 
+struct SharedFile {
+  std::string name;  ///< plain, in the folder
+  std::string text;
+};
+
+/// Files that are there with just this text stay; the others are written, all or none. Throws OutputError, with
+/// Existing::refuse also for a file of another text.
+void write_shared_files(const std::filesystem::path& folder, Existing existing, std::span<const SharedFile> files);
+
 }  // namespace meniscus

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Escaping, quoting, grouping of digits, and carets.
+// Escapes, shortens and wraps texts, spells options, finds the known word nearest to a wrong one, and fills templates.
 #include "core/base/text.h"
 
 #include <algorithm>
+#include <cassert>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -90,6 +92,68 @@ std::string pointed_at(std::string_view text, std::size_t position) {
       fmt::format("{}{}", escaped(text.substr(position, last - position)), last < text.size() ? "..." : "");
   const auto width = std::count_if(before.begin(), before.end(), [](char c) { return (c & 0xc0) != 0x80; });
   return fmt::format("{}{}\n{:{}}^", before, after, "", width);
+}
+
+namespace {
+
+std::string on_command_line(std::string_view name) { return "--" + std::string(name); }
+
+OptionSpelling spelling_of_door = on_command_line;
+
+}  // namespace
+
+std::string option_name(std::string_view name) { return spelling_of_door(name); }
+
+void spell_options(OptionSpelling spelling) { spelling_of_door = spelling; }
+
+std::size_t letters_apart(std::string_view from, std::string_view to) {
+  std::vector<std::size_t> row(to.size() + 1);
+  for (std::size_t j = 0; j <= to.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= from.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= to.size(); ++j) {
+      const std::size_t changed = diagonal + (from[i - 1] == to[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({changed, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[to.size()];
+}
+
+std::string_view nearest_word(std::string_view word, std::span<const std::string_view> known) {
+  constexpr std::size_t kLongestWord = 40;
+  if (word.size() > kLongestWord) return {};
+  std::size_t fewest = std::min<std::size_t>(3, (word.size() + 1) / 2);
+  std::string_view nearest;
+  for (const std::string_view other : known) {
+    const std::size_t apart = letters_apart(word, other);
+    if (other.size() <= 2 || apart >= fewest) continue;
+    fewest = apart;
+    nearest = other;
+  }
+  return nearest;
+}
+
+std::string_view template_text(std::span<const TemplateFile> files, std::string_view path) {
+  const auto found = std::ranges::find(files, path, &TemplateFile::path);
+  assert(found != files.end());
+  return found->text;
+}
+
+std::string filled(std::string_view text, const std::vector<Filling>& fillings) {
+  std::string result;
+  while (true) {
+    const std::size_t begin = text.find('@');
+    result.append(text.substr(0, begin));
+    if (begin == std::string_view::npos) return result;
+    text.remove_prefix(begin);
+    const auto filling =
+        std::ranges::find_if(fillings, [&](const Filling& f) { return text.starts_with("@" + f.name + "@"); });
+    const bool is_mark = filling != fillings.end();
+    result.append(is_mark ? filling->text : "@");
+    text.remove_prefix(is_mark ? filling->name.size() + 2 : 1);
+  }
 }
 
 }  // namespace meniscus

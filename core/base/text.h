@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small pieces of message text: escaped quotes from foreign files, and counts as people write them.
+// Texts of messages and files: escaped quotes, counts as people write them, options as each door spells them, the
+// nearest known word, templates.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace meniscus {
 
@@ -31,5 +35,36 @@ std::string shell_word(std::string_view text);
 /// Two lines: the text, and a caret under byte `position` of it (at most its size). Of a long text only a window around
 /// the place is shown; control characters are escaped, and UTF-8 counts by character.
 std::string pointed_at(std::string_view text, std::size_t position);
+
+/// How an option is written, "keep-water" by its name: "--keep-water", unless the door has another spelling.
+std::string option_name(std::string_view name);
+
+/// The spelling of this door, which is set before anything else is called.
+using OptionSpelling = std::string (*)(std::string_view name);
+void spell_options(OptionSpelling spelling);
+
+/// Letters (bytes) to change, insert or drop to get from one word to the other (Levenshtein 1966).
+std::size_t letters_apart(std::string_view from, std::string_view to);
+
+/// The first of the nearest known words of more than two letters, if at most two letters differ, and of short words at
+/// most half; else empty.
+std::string_view nearest_word(std::string_view word, std::span<const std::string_view> known);
+
+/// A file that the build has made part of the program.
+struct TemplateFile {
+  std::string_view path;
+  std::string_view text;
+};
+
+/// The text of the file of this path, which is there.
+std::string_view template_text(std::span<const TemplateFile> files, std::string_view path);
+
+/// What stands for "@NAME@".
+struct Filling {
+  std::string name, text;
+};
+
+/// A template with each "@NAME@" that has a filling replaced. Texts put in are not searched again.
+std::string filled(std::string_view text, const std::vector<Filling>& fillings);
 
 }  // namespace meniscus

@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
-#include "core/base/json_depth.h"
+#include "core/base/text_file.h"
 #include "core/base/text.h"
 
 namespace meniscus {

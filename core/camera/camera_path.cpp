@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Interpolation between key frames of a camera.
+// Interpolates a camera between its key frames.
 #include "core/camera/camera_path.h"
 
 #include <algorithm>

@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "core/text/parse_number.h"
+#include "core/base/parse_number.h"
 #include "core/math/rigid_motion.h"
 
 namespace meniscus {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the camera that a request means.
+// Places the camera that a request for a view describes.
 #include "core/camera/view_request.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/camera/camera_json.h"
-#include "core/camera/camera_file.h"
+#include "core/camera/foreign_cameras.h"
 #include "core/math/ball.h"
 
 namespace meniscus {

@@ -14,8 +14,7 @@
 #include "core/base/text.h"
 #include "core/color/named_colors.h"
 #include "core/color/volume_paint.h"
-#include "core/structure/hydropathy.h"
-#include "core/structure/radii.h"
+#include "core/structure/element_tables.h"
 #include "core/structure/structure.h"
 
 namespace meniscus {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lays a colour key out as a JSON object.
+// Writes what colours mean as a JSON object.
 #include "core/color/color_key_json.h"
 
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tables of the colour maps with their sources, and the way from a number to a colour.
+// Holds the built-in colour maps and interpolates in them and in maps of the user's own.
 #include "core/color/color_maps.h"
 
 #include <algorithm>
@@ -118,6 +118,15 @@ std::size_t map_steps(ColorMap map) { return map == ColorMap::consurf ? kConsurf
 glm::vec3 default_missing_color(ColorMap map) {
   // The middle of cividis is grey itself.
   return color_from_hex(map == ColorMap::cividis ? 0xcc79a7 : map == ColorMap::consurf ? 0xffff96 : 0x808080);
+}
+
+glm::vec3 ColorRamp::color(double t) const {
+  t = std::clamp(t, 0.0, 1.0);
+  const auto behind = std::ranges::upper_bound(places, t);
+  const std::size_t above =
+      std::clamp<std::size_t>(static_cast<std::size_t>(behind - places.begin()), 1, places.size() - 1);
+  const auto share = static_cast<float>((t - places[above - 1]) / (places[above] - places[above - 1]));
+  return (1.0f - share) * colors[above - 1] + share * colors[above];
 }
 
 }  // namespace meniscus

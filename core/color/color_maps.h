@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colour maps: from numbers to colours that people with any colour vision can put in order.
+// Colour maps: from numbers to colours that people with any colour vision can put in order, and maps of the user's own.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -50,5 +52,19 @@ std::size_t map_steps(ColorMap map);
 /// What atoms without a number get unless told otherwise: a grey #808080, which no map comes near, but #cc79a7 with
 /// cividis, which goes through grey, and ConSurf's own yellow for grades of too few data.
 glm::vec3 default_missing_color(ColorMap map);
+
+/// Colours at rising places, straight lines in sRGB between them.
+struct ColorRamp {
+  std::vector<double> places;     ///< from 0 to 1, rising
+  std::vector<glm::vec3> colors;  ///< as many, at least two; sRGB
+
+  /// At t in [0, 1] (clamped).
+  glm::vec3 color(double t) const;
+};
+
+/// Reads lines of a colour (#rrggbb, #rgb, a name of CSS), or of a place and a colour with blanks or commas between, #
+/// and a blank begin a comment; or a JSON list of colours or of pairs [place, colour]. Places are any rising numbers;
+/// they are stretched to [0, 1]. Throws InputError naming the line.
+ColorRamp read_color_ramp(const std::string& path);
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Looks a number's colour up.
+// Looks up the colour of a number on a scale.
 #include "core/color/color_scale.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the words of colour schemes.
+// Reads colour schemes from the words of users.
 #include "core/color/color_schemes.h"
 
 #include <algorithm>
@@ -16,9 +16,8 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/color/css_colors.h"
 #include "core/color/named_colors.h"
-#include "core/text/parse_number.h"
+#include "core/base/parse_number.h"
 #include "core/structure/structure.h"
 
 namespace meniscus {

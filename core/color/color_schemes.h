@@ -15,8 +15,7 @@
 
 #include "core/structure/atom_numbers.h"
 #include "core/color/color_maps.h"
-#include "core/color/color_ramp.h"
-#include "core/color/css_colors.h"
+#include "core/color/named_colors.h"
 #include "core/structure/selection/selection.h"
 
 namespace meniscus {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What colours say of all atoms together.
+// Tells whether a coloring hides some atoms or lets light through them.
 #include "core/color/coloring.h"
 
 #include <algorithm>

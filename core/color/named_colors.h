@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colours of things that have names: elements, residue types, patch kinds, and any list of classes.
+// Colours of things that have names, and colours by their names: elements, residue types, classes, those of CSS.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -44,5 +45,15 @@ const ResidueGroup& residue_group(const std::string& residue_name);
 /// Convex, toroidal, concave.
 inline constexpr std::array<glm::vec3, 3> kPatchKindColors{color_from_hex(0x009e73), color_from_hex(0x56b4e9),
                                                            color_from_hex(0xd55e00)};
+
+/// Reads "#rrggbb", or "#rgb" for the same with each digit twice; nothing for any other text. sRGB in [0, 1].
+std::optional<glm::vec3> parse_hex_color(std::string_view text);
+
+/// Reads these, and the 148 names in small letters of CSS Color Module Level 4 (W3C), section 6.1: "red", "slategrey",
+/// ...; nothing for any other text.
+std::optional<glm::vec3> parse_color(std::string_view text);
+
+/// "#rrggbb" of an sRGB colour in [0, 1].
+std::string hex_color(const glm::vec3& color);
 
 }  // namespace meniscus

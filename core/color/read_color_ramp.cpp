@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads colour maps from text and JSON.
-#include "core/color/color_ramp.h"
+#include "core/color/color_maps.h"
 
 #include <algorithm>
 #include <optional>
@@ -9,12 +9,11 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
-#include "core/base/json_depth.h"
+#include "core/base/text_file.h"
 #include "core/base/text.h"
-#include "core/color/css_colors.h"
-#include "core/text/parse_number.h"
-#include "core/text/text_file.h"
-#include "core/text/text_lines.h"
+#include "core/color/named_colors.h"
+#include "core/base/parse_number.h"
+#include "core/base/text_lines.h"
 
 namespace meniscus {
 namespace {

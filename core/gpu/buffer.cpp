@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Storage buffers by direct state access (GL 4.5).
+// Creates, fills, copies and reads buffers of GPU memory.
 #include "core/gpu/buffer.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/gpu/limits.h"
+#include "core/gpu/context_description.h"
 #include "core/gpu/work_proof.h"
 
 namespace meniscus {
@@ -111,5 +111,39 @@ void Buffer::bind(std::uint32_t binding) const {
                                     (byte_count_ + (1 << 20) - 1) >> 20, limit >> 20));
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name_);
 }
+
+TexelBuffer::~TexelBuffer() {
+  if (texture_) glDeleteTextures(1, &texture_);
+}
+
+void TexelBuffer::upload_bytes(std::span<const std::byte> bytes) {
+  buffer_.upload(bytes);
+  attach(buffer_);
+}
+
+void TexelBuffer::view(const Buffer& storage) {
+  attach(storage);
+  // Kernels wrote it as storage and now fetch it as texels.
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+void TexelBuffer::attach(const Buffer& storage) {
+  GLint limit = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
+  const std::size_t texels = storage.byte_count() / (format_ == TexelFormat::uint1 ? 4 : 16);
+  if (texels > static_cast<std::size_t>(limit))
+    throw CapacityError(fmt::format("{} texels are needed; this driver's limit is {}", texels, limit));
+  // It shows all of the buffer's memory, so nothing changes as long as that stays.
+  if (shown_ == storage.memory()) return;
+  if (!texture_) glCreateTextures(GL_TEXTURE_BUFFER, 1, &texture_);
+  glTextureBuffer(texture_, format_ == TexelFormat::uint1 ? GL_R32UI : GL_RGBA32UI, storage.gl_name());
+  shown_ = 0;
+  check_gl("making a buffer texture");
+  shown_ = storage.memory();
+}
+
+void TexelBuffer::bind(std::uint32_t unit) const { glBindTextureUnit(unit, texture_); }
+
+Counting suitable_counting() { return describe_current_context().software ? Counting::now : Counting::later; }
 
 }  // namespace meniscus

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// GPU memory that kernels read and write.
+// GPU memory: buffers that kernels read and write, or only fetch as texels, and words of several that come back in one
+// read.
 #pragma once
 
 #include <cstddef>
@@ -7,6 +8,8 @@
 #include <span>
 #include <type_traits>
 #include <vector>
+
+#include "core/gpu/work_proof.h"
 
 namespace meniscus {
 
@@ -76,6 +79,65 @@ class Buffer {
   std::uint64_t memory_ = 0;
   std::size_t byte_count_ = 0;  ///< what was asked for
   std::size_t capacity_ = 0;
+};
+
+/// What one texel is; both arrive in the kernel as a usamplerBuffer, so that no bit of a float is touched on its way.
+enum class TexelFormat { uint1, uint4 };
+
+/// A buffer texture. Needs a current context.
+class TexelBuffer {
+ public:
+  explicit TexelBuffer(TexelFormat format) : format_(format) {}
+  ~TexelBuffer();
+  TexelBuffer(const TexelBuffer&) = delete;
+  TexelBuffer& operator=(const TexelBuffer&) = delete;
+
+  /// Replaces the content. Throws CapacityError when there are more texels than the driver can address.
+  template <typename T>
+  void upload(const std::vector<T>& values) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    upload_bytes(std::as_bytes(std::span<const T>(values)));
+  }
+
+  /// Shows what kernels wrote to a storage buffer; to be called again whenever that buffer was resized. The buffer must
+  /// outlive this view's use. Throws CapacityError as above.
+  void view(const Buffer& storage);
+
+  /// `layout(binding = N) uniform usamplerBuffer` of the kernels.
+  void bind(std::uint32_t unit) const;
+
+ private:
+  void upload_bytes(std::span<const std::byte> bytes);
+  void attach(const Buffer& storage);
+
+  TexelFormat format_;
+  Buffer buffer_;
+  std::uint32_t texture_ = 0;
+  std::uint64_t shown_ = 0;  ///< Buffer::memory()
+};
+
+/// When the host learns what kernels have counted.
+enum class Counting {
+  now,   ///< behind the kernel that counts, so that everything gets the room that it needs
+  later  ///< at the end of a frame, which trusts in the sizes of the last one, and is made again if they were too small
+};
+
+/// What suits the device of the current context: a GPU should not wait between stages; software GL runs each kernel at
+/// once, waits for nothing, and is better off with exact sizes than with room.
+Counting suitable_counting();
+
+/// Counts of a frame, asked for by those who made them and read together. Needs a current EglContext.
+class Readback {
+ public:
+  /// `words` of `buffer` from `byte_offset` on; they must stay until read().
+  void ask(const Buffer& buffer, std::size_t byte_offset, std::span<std::uint32_t> words) {
+    pieces_.push_back({buffer.gl_name(), byte_offset, words});
+  }
+  /// Waits for the GPU, proves its work, and fills in what was asked for. Throws as WorkProof::verify().
+  void read() const { WorkProof::current().verify(pieces_); }
+
+ private:
+  std::vector<WorkProof::Piece> pieces_;
 };
 
 }  // namespace meniscus

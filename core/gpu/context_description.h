@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a GL context says about itself, whoever made it.
+// What a GL context says about itself, whoever made it: who draws, and the limits that decide whether a job fits.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 
 namespace meniscus {
@@ -20,5 +22,19 @@ ContextDescription describe_current_context();
 
 /// Throws GpuError if the driver has reset the context current on this thread: all it held is lost.
 void require_living_context();
+
+struct GpuLimits {
+  std::size_t storage_block_bytes = 0;  ///< largest buffer a kernel can see
+  std::uint32_t group_count = 0;        ///< largest group count along x and along y
+  std::uint32_t storage_blocks = 0;     ///< storage buffers per compute kernel
+  std::uint32_t shared_bytes = 0;       ///< shared memory per group
+  std::uint32_t group_size = 0;         ///< invocations per group
+};
+
+/// Asks the driver; needs a current context.
+GpuLimits query_gpu_limits();
+
+/// Throws GpuError naming `what` if GL has an error pending, CapacityError if it is out of memory.
+void check_gl(const char* what);
 
 }  // namespace meniscus

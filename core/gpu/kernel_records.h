@@ -1,13 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The records that kernels and the host hand to each other, and the numbers that both must say alike, as C++.
+// What the host and its kernels hand to each other, as C++: parameters, records, and numbers that both must say alike.
+//
+// Each stage of gpu_shaders/ declares them once, in its parameters.glsl; a kernel has them as `layout(std140, binding =
+// ...) uniform Parameters { ... params; }`, and Program::set() hands one over whole. So a name that is wrong does not
+// compile, and a block that was forgotten is an error. (With single uniforms both went unnoticed; and zink, which makes
+// variants of kernels for their values, started variants for earlier ones: Mesa 22.3.) Their members stand where std140
+// (OpenGL 4.5, section 7.6.2.2) wants them by order alone: vectors of doubles first, of three floats followed by one
+// more, then of two, then single ones. Tests ask the driver for their places.
 #pragma once
 
 #include <cstdint>
-
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 namespace meniscus::kernel {
+
+using uint = std::uint32_t;
+using glm::dvec3;
+using glm::ivec2;
+using glm::vec2;
+using glm::vec3;
+using glm::vec4;
+
+#include "gpu_shaders/look/parameters.glsl"
+#include "gpu_shaders/paper_selection/parameters.glsl"
+#include "gpu_shaders/parallel/parameters.glsl"
+#include "gpu_shaders/primitives/parameters.glsl"
+#include "gpu_shaders/ray_cast/parameters.glsl"
+#include "gpu_shaders/reduced_surface/parameters.glsl"
+#include "gpu_shaders/singularities/parameters.glsl"
+#include "gpu_shaders/test_support/parameters.glsl"
+#include "gpu_shaders/visibility/parameters.glsl"
 
 using uint = std::uint32_t;
 using glm::dvec3;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compiling, linking and dispatching compute kernels.
+// Compiles, keeps and starts compute kernels, and names their stages for the clock and for GL debuggers.
 #include "core/gpu/program.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/gpu/kernel_files.h"
-#include "core/gpu/limits.h"
+#include "core/gpu/context_description.h"
 #include "core/gpu/work_proof.h"
 
 namespace meniscus {
@@ -175,6 +175,18 @@ const Program& ProgramCache::get(const std::string& path, const ShaderDefines& d
   auto& program = programs_[{path, defines}];
   if (!program) program = std::make_unique<Program>(path, defines);
   return *program;
+}
+
+GpuStage::GpuStage(StageClock& clock, const std::string& name) : waits_(clock.is_exact()) {
+  glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, static_cast<GLsizei>(name.size()), name.data());
+  if (waits_) glFinish();
+  stage_.emplace(clock, name);
+}
+
+GpuStage::~GpuStage() {
+  if (waits_) glFinish();
+  stage_.reset();
+  glPopDebugGroup();
 }
 
 }  // namespace meniscus

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compute kernels: compiled from the embedded shaders, kept for reuse, started with any number of groups.
+// Compute kernels: compiled from the embedded shaders, kept for reuse, started with any number of groups, timed in
+// stages.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
 
+#include "core/base/stage_clock.h"
 #include "core/gpu/buffer.h"
 #include "core/gpu/shader_source.h"
 
@@ -74,6 +77,20 @@ class ProgramCache {
 
  private:
   std::map<std::pair<std::string, ShaderDefines>, std::unique_ptr<Program>> programs_;
+};
+
+/// Lasts as long as the stage. If the clock asks for exact times the GPU is idle at both ends, so that the host's clock
+/// is right: GL's own timer queries stay at zero for compute work on llvmpipe (Mesa 22.3). Needs a current context.
+class GpuStage {
+ public:
+  GpuStage(StageClock& clock, const std::string& name);
+  ~GpuStage();
+  GpuStage(const GpuStage&) = delete;
+  GpuStage& operator=(const GpuStage&) = delete;
+
+ private:
+  bool waits_;
+  std::optional<StageClock::Stage> stage_;
 };
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Include expansion and log translation for shaders, as plain string work.
+// Puts included shader files into one text, and translates the places of a compiler's log back.
 #include "core/gpu/shader_source.h"
 
 #include <algorithm>
@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/gpu/embedded_shaders.h"
 
 namespace meniscus {
 namespace {

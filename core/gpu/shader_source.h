@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a shader file with includes to the one text a GL compiler wants, and from its log back to file names.
+// From an embedded shader file with includes to the one text a GL compiler wants, and from its log back to file names.
 #pragma once
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -35,5 +36,13 @@ ShaderSource expand_embedded_shader(std::string_view path, const ShaderDefines& 
 /// Rewrites the positions in a compiler's log ("0:12(5):" of Mesa, "0(12) :" of NVIDIA, "ERROR: 0:12:" of the
 /// reference compiler) as "file:12:".
 std::string translate_shader_log(std::string_view log, const std::vector<std::string>& files);
+
+struct EmbeddedShader {
+  std::string_view path;  ///< from the repository root: "gpu_shaders/..."
+  std::string_view text;
+};
+
+/// All shaders, sorted by path.
+std::span<const EmbeddedShader> embedded_shaders();
 
 }  // namespace meniscus

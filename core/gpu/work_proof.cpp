@@ -11,7 +11,6 @@
 
 #include "core/base/error.h"
 #include "core/gpu/context_description.h"
-#include "core/gpu/limits.h"
 
 namespace meniscus {
 namespace {

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Between sRGB and linear light (IEC 61966-2-1).
+// Between sRGB and linear light (IEC 61966-2-1), and from gathered light to the colour of a pixel on a screen.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 namespace meniscus {
 
@@ -16,5 +22,25 @@ inline glm::vec3 linear_from_srgb(const glm::vec3& c) {
 inline glm::vec3 srgb_from_linear(const glm::vec3& c) {
   return {srgb_from_linear(c.x), srgb_from_linear(c.y), srgb_from_linear(c.z)};
 }
+
+/// A linear pixel with its alpha multiplied in, before an sRGB background if there is one (alpha 1 then).
+glm::vec4 over(const glm::vec4& front, const std::optional<glm::vec3>& background);
+
+/// The same in sRGB, alpha not multiplied in, as PNG has it.
+glm::vec4 display_color(const glm::vec4& pixel, const std::optional<glm::vec3>& background);
+
+/// What a transparent pixel is stored as so that programs that blend in sRGB, as nearly all do that lay out pages, get
+/// of it what display_color() has over white, and over black too if it is grey; on other backgrounds something between.
+glm::vec4 layout_color(const glm::vec4& pixel);
+
+/// A channel in [0, 1] as PNG files have it: 0 to 255, to the nearest.
+std::uint8_t display_byte(float channel);
+
+/// The bytes of display_color() of pixels, with or without the alpha: 3 or 4 channels. By a table instead of powers.
+void display_bytes(std::span<const glm::vec4> pixels, const std::optional<glm::vec3>& background, std::size_t channels,
+                   std::uint8_t* bytes);
+
+/// The four bytes of layout_color() of each pixel.
+void layout_bytes(std::span<const glm::vec4> pixels, std::uint8_t* bytes);
 
 }  // namespace meniscus

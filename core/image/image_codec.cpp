@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loads the module.
+// Loads the module of OpenImageIO that reads and writes pictures.
 #include "core/image/image_codec.h"
 
 #include <array>

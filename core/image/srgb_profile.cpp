@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Header, table of tags, tags: all numbers big-endian.
+// Writes the ICC profile of sRGB: header, table of tags, tags, in big-endian numbers.
 #include "core/image/srgb_profile.h"
 
 #include <cmath>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A uniform grid over ball centres that lists the balls near a point.
+// A uniform grid over ball centres that lists the balls near a point, and how wide its cells are.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -13,9 +14,21 @@
 #include <glm/vec3.hpp>
 
 #include "core/math/ball.h"
-#include "core/math/grid_spacing.h"
 
 namespace meniscus {
+
+/// The wanted edge of a cell, or a larger one where the extent would need more cells than a few per point: some atoms
+/// far apart must not cost memory. All in Å.
+inline double grid_spacing(const glm::dvec3& extent, std::size_t point_count, double wanted) {
+  const double limit = 4.0 * static_cast<double>(point_count) + 64.0;
+  double spacing = wanted;
+  const auto cells = [&] {
+    return (std::floor(extent.x / spacing) + 1) * (std::floor(extent.y / spacing) + 1) *
+           (std::floor(extent.z / spacing) + 1);
+  };
+  while (cells() > limit) spacing *= 1.25;
+  return spacing;
+}
 
 /// Cells are sized by grid_spacing().
 class BallGrid {

@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the closed mesh that an even one begins with, at finer tolerances where one does not close.
+// Makes the meshes that even ones begin with, and contracts a fine one to few triangles.
 #include "core/mesh/base_mesh.h"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
+#include <optional>
+#include <span>
 #include <utility>
 
+#include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
+
 #include "core/base/error.h"
+#include "core/mesh/half_edges.h"
 #include "core/mesh/tessellate.h"
 
 namespace meniscus {
@@ -36,6 +44,158 @@ BaseMesh base_mesh(const Surface& surface, const SurfaceWalk& walk, Beginning be
   base.mesh = beginning == Beginning::coarse ? coarse_mesh(surface, walk) : patches(surface, tolerance);
   base.vertex_face = vertex_faces(base.mesh);
   return base;
+}
+
+// Where the rest would be no manifold, faces stay as they were.
+
+namespace {
+
+/// Cosine of the angle at a ball's centre between the middle of a contact face and its farthest point: no wider one is
+/// drawn together.
+constexpr double kWidest = -0.2;
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+class Contraction {
+ public:
+  Contraction(const Surface& surface, const SurfaceWalk& walk, const TriangleMesh& coarse)
+      : surface_(surface), walk_(walk), coarse_(coarse), disc_of_(coarse.positions.size(), kNone) {}
+
+  BaseMesh run() {
+    find_discs();
+    do put_triangles();
+    while (repair());
+    if (!sound_) throw OpenSurfaceError("the contracted mesh has another topology");
+    return std::move(made_);
+  }
+
+ private:
+  /// Marks the vertices of contact faces that can be drawn together, and finds where to.
+  void find_discs() {
+    middle_.resize(surface_.faces.size());
+    std::vector<std::uint32_t> first(surface_.faces.size() + 1, 0);  // triangles of a face stand together
+    for (const std::uint32_t f : coarse_.face) ++first[f + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    tbb::parallel_for(std::size_t{0}, middle_.size(), [&](std::size_t f) {
+      if (first[f] < first[f + 1]) middle_[f] = middle_of(static_cast<std::uint32_t>(f), first[f], first[f + 1]);
+    });
+    for (std::uint32_t f = 0; f < middle_.size(); ++f) {
+      if (!middle_[f]) continue;
+      const std::span<const Triangle> own(coarse_.triangles.data() + first[f], first[f + 1] - first[f]);
+      const bool free = std::all_of(own.begin(), own.end(), [&](const Triangle& t) {
+        return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return disc_of_[v] == kNone; });
+      });
+      if (!free) continue;
+      for (const Triangle& t : own)
+        for (const std::uint32_t v : t) disc_of_[v] = f;
+    }
+  }
+
+  /// Of a contact face that is a disc seen from its middle: that point.
+  std::optional<glm::dvec3> middle_of(std::uint32_t f, std::uint32_t begin, std::uint32_t end) const {
+    const Face& face = surface_.faces[f];
+    if (face.kind != PatchKind::convex || face.loop_count != 1) return std::nullopt;
+    const Ball& ball = surface_.atoms[surface_.convex[face.patch].atom];
+    glm::dvec3 area(0.0);
+    for (std::uint32_t t = begin; t < end; ++t) {
+      const auto& [a, b, c] = coarse_.triangles[t];
+      area += glm::cross(coarse_.positions[b] - coarse_.positions[a], coarse_.positions[c] - coarse_.positions[a]);
+    }
+    const double size = glm::length(area);
+    if (!(size > 0.0)) return std::nullopt;
+    const glm::dvec3 out = area / size;
+    for (std::uint32_t t = begin; t < end; ++t)
+      for (const std::uint32_t v : coarse_.triangles[t])
+        if (glm::dot(out, coarse_.positions[v] - ball.center) < kWidest * ball.radius) return std::nullopt;
+    const auto at = walk_.below(ball.center + ball.radius * out, f);
+    if (!at || at->face != f) return std::nullopt;
+    return at->position;
+  }
+
+  /// Triangles with two corners in one disc vanish.
+  void put_triangles() {
+    made_ = {};
+    disc_.clear();
+    std::vector<std::uint32_t> number(disc_of_.size(), kNone), number_of_disc(surface_.faces.size(), kNone);
+    const auto number_of = [&](std::uint32_t v, std::uint32_t face) {
+      const std::uint32_t d = disc_of_[v];
+      std::uint32_t& n = d == kNone ? number[v] : number_of_disc[d];
+      if (n != kNone) return n;
+      n = static_cast<std::uint32_t>(disc_.size());
+      made_.mesh.positions.push_back(d == kNone ? coarse_.positions[v] : *middle_[d]);
+      made_.vertex_face.push_back(d == kNone ? face : d);
+      disc_.push_back(d);
+      return n;
+    };
+    const auto same = [&](std::uint32_t v, std::uint32_t w) {
+      return v == w || (disc_of_[v] != kNone && disc_of_[v] == disc_of_[w]);
+    };
+    for (std::size_t t = 0; t < coarse_.triangles.size(); ++t) {
+      const auto& [a, b, c] = coarse_.triangles[t];
+      if (same(a, b) || same(b, c) || same(c, a)) continue;
+      const std::uint32_t f = coarse_.face[t];
+      made_.mesh.triangles.push_back({number_of(a, f), number_of(b, f), number_of(c, f)});
+      made_.mesh.face.push_back(f);
+    }
+  }
+
+  /// Takes back discs where triangles do not go around a vertex once, or, where there is none of that, all discs of
+  /// components of another topology. Were there any?
+  bool repair() {
+    sound_ = true;
+    std::vector<std::uint8_t> restored(surface_.faces.size(), 0);
+    std::vector<std::uint8_t> broken(surface_.components.size(), 0);
+    const CornerLists corners(made_.mesh.triangles, static_cast<std::uint32_t>(disc_.size()));
+    for (std::uint32_t v = 0; v < disc_.size(); ++v) {
+      if (go_around_once(made_.mesh.triangles, corners.at(v))) continue;
+      sound_ = false;
+      std::vector<std::uint32_t> beside;  // discs
+      for (const std::uint32_t c : corners.at(v))
+        for (const std::uint32_t w : made_.mesh.triangles[c / 3])
+          if (w != v && disc_[w] != kNone) beside.push_back(disc_[w]);
+      if (std::any_of(beside.begin(), beside.end(), [&](std::uint32_t d) { return restored[d] > 0; })) continue;
+      if (disc_[v] != kNone) {
+        restored[disc_[v]] = 1;
+      } else if (beside.empty()) {
+        broken[component_of(v)] = 1;
+      } else {
+        for (const std::uint32_t d : beside) restored[d] = 1;
+      }
+    }
+    if (sound_) find_other_topology(broken);
+    bool any = false;
+    for (std::uint32_t& disc : disc_of_)
+      if (disc != kNone && (restored[disc] || broken[surface_.faces[disc].component])) disc = kNone, any = true;
+    return any;
+  }
+
+  std::uint32_t component_of(std::uint32_t vertex) const { return surface_.faces[made_.vertex_face[vertex]].component; }
+
+  /// By V - E + F, where E = 3 F / 2.
+  void find_other_topology(std::vector<std::uint8_t>& broken) {
+    std::vector<int> twice(broken.size(), 0);
+    for (std::uint32_t v = 0; v < disc_.size(); ++v) twice[component_of(v)] += 2;
+    for (const std::uint32_t f : made_.mesh.face) --twice[surface_.faces[f].component];
+    for (std::size_t c = 0; c < broken.size(); ++c) {
+      broken[c] = twice[c] != 2 * surface_.components[c].euler;
+      if (broken[c]) sound_ = false;
+    }
+  }
+
+  const Surface& surface_;
+  const SurfaceWalk& walk_;
+  const TriangleMesh& coarse_;
+  std::vector<std::optional<glm::dvec3>> middle_;  ///< per face
+  std::vector<std::uint32_t> disc_of_;  ///< per vertex of the coarse mesh: the face that it goes into, or kNone
+  std::vector<std::uint32_t> disc_;     ///< per vertex that is made: its disc or kNone
+  BaseMesh made_;
+  bool sound_ = false;
+};
+
+}  // namespace
+
+BaseMesh contracted_mesh(const Surface& surface, const SurfaceWalk& walk, const TriangleMesh& coarse) {
+  return Contraction(surface, walk, coarse).run();
 }
 
 }  // namespace meniscus

@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
-#include "core/mesh/contact_colors.h"
+#include "core/mesh/mesh_colors.h"
 #include "core/surface/walks.h"
 
 namespace meniscus {

@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A surface against a mesh of it: areas and volumes that come from triangles alone.
+// A mesh beside its surface: areas and volumes that come from triangles alone, and how far points are from its
+// triangles.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
+#include "core/math/box.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace meniscus {
@@ -14,5 +21,27 @@ namespace meniscus {
 /// component differs by no more than a layer 2 t thick. Both are far less than a sphere for t well below the probe.
 /// mesh: of all faces of `surface`, nothing hidden.
 std::vector<std::string> differences(const Surface& surface, const TriangleMesh& mesh);
+
+/// Of a point: the nearest triangle (the number of triangles if none is near enough) and how far it is, in Å.
+struct NearestTriangle {
+  std::uint32_t triangle;
+  double distance;
+};
+
+class MeshDistance {
+ public:
+  /// Positions in Å. Both have to live as long.
+  MeshDistance(std::span<const glm::dvec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles);
+
+  /// The nearest triangle of those nearer than `limit` Å. May be asked by several threads.
+  NearestTriangle operator()(const glm::dvec3& x, double limit) const;
+
+ private:
+  std::array<glm::dvec3, 3> corners(std::uint32_t triangle) const;
+
+  std::span<const glm::dvec3> positions_;
+  std::span<const std::array<std::uint32_t, 3>> triangles_;
+  BoxTree tree_;
+};
 
 }  // namespace meniscus

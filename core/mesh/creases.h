@@ -9,7 +9,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/base/index.h"
+#include "core/base/constants.h"
 #include "core/mesh/half_edges.h"
 #include "core/mesh/surface_walk.h"
 #include "core/surface/primitives.h"

@@ -8,7 +8,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/mesh/cap_atoms.h"
+#include "core/mesh/mesh_colors.h"
 #include "core/render/picture_object.h"
 #include "core/surface/primitives.h"
 

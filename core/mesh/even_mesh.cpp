@@ -19,7 +19,6 @@
 #include "core/mesh/mesh_mender.h"
 #include "core/mesh/mesh_nearness.h"
 #include "core/mesh/mesh_objects.h"
-#include "core/mesh/remesh_tuning.h"
 #include "core/mesh/remesher.h"
 
 namespace meniscus {

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Turns a density or a tolerance into lengths of edges: a triangle of edges h lies h²/(6 r) below a sphere of radius r.
+// Computes how long edges are to be, and how near triangles to the surface, at any place.
 #include "core/mesh/even_sizes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "core/mesh/remesh_tuning.h"
 
 namespace meniscus {
 namespace {

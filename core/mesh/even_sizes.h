@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long the edges of an even mesh are to be, and how near to the surface its triangles, at any place.
+// How long the edges of an even mesh are to be, how near its triangles to the surface, and the numbers this depends on.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 
 #include <glm/vec3.hpp>
@@ -45,6 +48,115 @@ class EvenSizes {
   const EvenMeshOptions& options_;
   double smallest_ball_;  ///< Å: of curvature where the probe has no size
   double edge_of_density_;
+};
+
+/// The quality of a triangle is 4 sqrt(3) area / sum of squared edges: 1 for an equilateral one, 0 for none.
+/// Edges are measured in lengths wanted at their ends.
+struct RemeshTuning {
+  // --- Which edges passes over the mesh change (remesher.h)
+  /// Longer ones are split, shorter ones collapsed: either makes edges nearer to it (Botsch & Kobbelt 2004).
+  static constexpr double longest_edge = 4.0 / 3.0, shortest_edge = 4.0 / 5.0;
+  /// Edges between triangles as good as that are not flipped: their smallest angles are some 35 degrees.
+  static constexpr double fine_quality = 0.82;
+  /// Collapses and moves of vertices make no worse triangles than that.
+  static constexpr double poor_quality = 0.3;
+  /// Scores that differ less are the same, or changes would be made back and forth for ever.
+  static constexpr double better = 1e-6;
+  /// No collapse of two vertices with more edges together, no flip to one with as many: stars of long triangles.
+  static constexpr std::uint32_t most_edges = 24;
+  /// While a coarse mesh is refined, a vertex that would come nearer than this share of the edge to one that is there
+  /// is not made.
+  static constexpr double nearest_new_vertex = 0.2;
+  /// A foot farther below the middle of an edge than this share of its length is on another sheet.
+  static constexpr double deepest_foot = 0.35;
+  /// Passes over a coarse mesh: at most so many, and none after one that changed fewer than one in so many triangles.
+  static constexpr int approaches = 12;
+  static constexpr std::uint32_t few_changes = 16;
+  /// How far a vertex goes towards the middle of its neighbours: all the way vertices would swing about it.
+  static constexpr double relaxation = 0.8;
+  /// Steps shorter than this change nothing worth the walk.
+  static constexpr double shortest_step = 0.01;
+  /// Edges that are asked to be shorter than this share of what they were at first would not help either.
+  static constexpr float finest_scale = 0.25f;
+
+  // --- How much triangles may lean (triangle_quality.h): cosines between their normal and the surface's at a vertex
+  /// The least and the most asked for. In between it is 1 - cosine_fall (edge / radius of curvature)²: short edges bend
+  /// little.
+  static constexpr double least_cosine = 0.05, most_cosine = 0.7, cosine_fall = 1.5;
+  /// A vertex is on a crease if it is no farther (Å) from its circle.
+  static constexpr double on_crease = 1e-6;
+
+  // --- Single changes where passes left bad triangles (mesh_mender.h)
+  /// Triangles are left as they are from that quality on: if isosceles, their smallest angles are 20 degrees or more.
+  static constexpr double good_quality = 0.55;
+  /// Of worse triangles all changes are tried, and those around them may lean.
+  static constexpr double sliver_quality = 0.25;
+  static constexpr int mending_rounds = 12;
+  /// Of the changes that make triangles better, so many are asked whether they are allowed, the best first.
+  static constexpr std::size_t tries = 8;
+  /// Vertices of more edges are not made; after a collapse a vertex may have 4 more less those that vanish.
+  static constexpr std::uint32_t most_mended_edges = 16;
+  /// Edges shorter than that are not made, and those where creases end may vanish; longer ones are not made.
+  static constexpr double too_short = 0.2, too_long = 2.0;
+  /// Where a vertex may go: steps along the surface in so many directions, and shares of the way to the middle of its
+  /// neighbours, on a crease of those along it.
+  static constexpr std::array steps{0.03, 0.1, 0.3};
+  static constexpr int directions = 6;
+  static constexpr std::array shares{1.0, 0.6, 0.3};
+  static constexpr std::array crease_shares{1.0, 0.5, 0.25, -0.25};
+  /// Triangles within this many of their longest edges may come to lie in the way.
+  static constexpr double mending_reach = 2.5;
+
+  // --- Which edges are wanted (even_sizes.h)
+  /// Vertices per Å², times edge length squared. Equilateral triangles have 2 / sqrt(3) = 1.155; splitting and
+  /// collapsing leave edges a little shorter.
+  static constexpr double vertices_per_square = 1.34;
+  /// The share of the tolerance that the middle of an equilateral triangle with the edges wanted may take up: edges up
+  /// to 4/3 of that length stay.
+  static constexpr double share_of_tolerance = 0.62;
+
+  // --- What begins (even_mesh.cpp)
+  /// Edges (Å) from which on the base has the fewest triangles that there are.
+  static constexpr double long_edge = 1.1;
+  /// Edges (Å) from which on contact faces begin as points: as long as those between such points.
+  static constexpr double long_contracted = 2.5;
+  /// The base's tolerance, in those of the result: it is remeshed. Where it is kept to, the second.
+  static constexpr double coarser_base = 2.0, kept_base = 0.9;
+  /// How often all begins again, with an eye on the places where triangles crossed, and from which attempt on these
+  /// keep to the base, which is as near as promised then; contact faces that are points are no base to keep to.
+  static constexpr int attempts = 6, first_frozen = 2, contracted_attempts = 2;
+  /// How these places grow with each attempt.
+  static constexpr double wider = 1.7;
+
+  // --- How long it is worked on (even_mesh.cpp)
+  /// Rounds of remeshing; after triangles were made smaller somewhere; and how often that is done.
+  static constexpr int rounds = 6, refined_rounds = 3, refinements = 12;
+  /// How often triangles are mended and, where that leaves them too far away, made smaller.
+  static constexpr int mendings = 5;
+  /// Refinements in a row that help nowhere are the last ones.
+  static constexpr int idle_refinements = 2;
+  /// So few triangles that are too far away are mended one by one.
+  static constexpr std::size_t few_far = 100;
+  /// Edges around those that are too far away become shorter by this factor.
+  static constexpr double finer = 0.7;
+  /// Refinements that make more triangles than these lead nowhere.
+  static constexpr std::uint32_t most_growth = 2, growth_allowed = 500;
+
+  // --- What is measured (mesh_nearness.h)
+  /// What is measured at places is less than what is between them.
+  static constexpr double margin = 0.97;
+  /// Tolerances between places along creases that the mesh has to be near.
+  static constexpr double crease_step = 0.4;
+  /// Of the tolerance, that of the mesh whose vertices are looked at in the end.
+  static constexpr double share_of_fine = 0.3;
+  /// Places in a triangle at which its distance is measured: its middle, those of its edges, and nearer to its corners.
+  static constexpr std::array<std::array<double, 3>, 7> places{{{1.0 / 3, 1.0 / 3, 1.0 / 3},
+                                                                {0.5, 0.5, 0.0},
+                                                                {0.0, 0.5, 0.5},
+                                                                {0.5, 0.0, 0.5},
+                                                                {0.6, 0.2, 0.2},
+                                                                {0.2, 0.6, 0.2},
+                                                                {0.2, 0.2, 0.6}}};
 };
 
 }  // namespace meniscus

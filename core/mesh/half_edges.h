@@ -7,10 +7,28 @@
 #include <span>
 #include <vector>
 
-#include "core/base/index.h"
-#include "core/mesh/corner_lists.h"
+#include "core/base/constants.h"
 
 namespace meniscus {
+
+/// Per vertex the corners (3 * triangle + 0..2) there, ascending. The triangles need not be a closed mesh, nor a
+/// manifold.
+class CornerLists {
+ public:
+  CornerLists(std::span<const std::array<std::uint32_t, 3>> triangles, std::uint32_t vertex_count);
+
+  std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(first_.size() - 1); }
+  std::span<const std::uint32_t> at(std::uint32_t vertex) const {
+    return {corners_.data() + first_[vertex], first_[vertex + 1] - first_[vertex]};
+  }
+
+ private:
+  std::vector<std::uint32_t> first_;  ///< per vertex, and one more: into corners_
+  std::vector<std::uint32_t> corners_;
+};
+
+/// Do the triangles at these corners of one vertex go around it once? Not if they are fewer than three.
+bool go_around_once(std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const std::uint32_t> corners);
 
 /// Half-edge 3 t + k of triangle t goes from its corner k to corner (k + 1) % 3. Triangles and vertices that were taken
 /// away keep their numbers until compact().

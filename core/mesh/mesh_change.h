@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A change of a few triangles of a mesh that has not been made: what it would make and take away.
+// A change of a few triangles of a mesh that has not been made: what it would make, take away, and where its vertex
+// goes.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
+
+#include <glm/vec3.hpp>
 
 #include "core/mesh/mesh_on_surface.h"
 
@@ -105,5 +109,17 @@ std::ptrdiff_t fewer_crossings(const MeshOnSurface& mesh, const Exchange& exchan
 
 /// Makes a change. A vertex of a crease that goes into one beside it pins that one there.
 void make(MeshOnSurface& mesh, const MeshChange& change);
+
+/// Below the middle of an edge, of a crease on it; nothing where the surface is another sheet there.
+std::optional<SurfacePoint> edge_middle(const MeshOnSurface& mesh, std::uint32_t half);
+
+/// Of a vertex on a crease, the middle of its neighbours along it; nothing unless there are two.
+std::optional<glm::dvec3> crease_middle(const MeshOnSurface& mesh, std::uint32_t vertex);
+
+/// Of the triangles around a vertex, the mean of their centroids by area: what Lloyd's algorithm moves to.
+glm::dvec3 centroid_around(const MeshOnSurface& mesh, std::uint32_t vertex);
+
+/// Where relaxation moves a vertex; nothing if it stays, as where its triangles would become poor.
+std::optional<SurfacePoint> relaxed(const MeshOnSurface& mesh, std::uint32_t vertex);
 
 }  // namespace meniscus

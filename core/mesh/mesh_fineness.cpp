@@ -8,11 +8,11 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/camera/camera.h"
 #include "core/mesh/border_samples.h"
 #include "core/mesh/even_mesh.h"
 #include "core/mesh/mesh_colors.h"
 #include "core/mesh/tessellate.h"
-#include "core/camera/camera.h"
 
 namespace meniscus {
 namespace {

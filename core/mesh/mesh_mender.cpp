@@ -11,8 +11,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/mesh/remesh_tuning.h"
-#include "core/mesh/vertex_places.h"
+#include "core/mesh/even_sizes.h"
+#include "core/mesh/mesh_change.h"
 
 namespace meniscus {
 

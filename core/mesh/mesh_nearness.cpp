@@ -9,9 +9,9 @@
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
+#include "core/mesh/compare_mesh.h"
 #include "core/mesh/creases.h"
-#include "core/mesh/mesh_distance.h"
-#include "core/mesh/remesh_tuning.h"
+#include "core/mesh/even_sizes.h"
 #include "core/mesh/tessellate.h"
 #include "core/surface/walks.h"
 

@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "core/base/error.h"
-#include "core/mesh/tessellate.h"
 #include "core/camera/camera.h"
+#include "core/mesh/tessellate.h"
 
 namespace meniscus {
 

@@ -9,7 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/mesh/creases.h"
-#include "core/mesh/remesh_tuning.h"
+#include "core/mesh/even_sizes.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace meniscus {

@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include "core/mesh/crossing_guard.h"
+#include "core/mesh/mesh_crossings.h"
 #include "core/mesh/half_edges.h"
 #include "core/mesh/surface_walk.h"
 #include "core/mesh/triangle_quality.h"

@@ -11,8 +11,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/mesh/mesh_change.h"
-#include "core/mesh/remesh_tuning.h"
-#include "core/mesh/vertex_places.h"
+#include "core/mesh/even_sizes.h"
 
 namespace meniscus {
 

@@ -12,7 +12,7 @@
 
 #include "core/mesh/cut_solid.h"
 #include "core/mesh/tessellate.h"
-#include "core/queries/combine.h"
+#include "core/queries/copies.h"
 #include "core/queries/surface_object.h"
 
 namespace meniscus {

@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes meshes of shapes beside a surface: spheres by circles of latitude, cylinders by prisms.
+// Makes triangles of spheres, cylinders and other shapes, and one closed mesh of each pocket.
 #include "core/mesh/shape_mesh.h"
-#include "core/shapes/shapes.h"
-#include "core/queries/colored_shapes.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
+
+#include "core/base/error.h"
+#include "core/mesh/tessellate.h"
+#include "core/queries/colored_shapes.h"
+#include "core/queries/copies.h"
+#include "core/shapes/shapes.h"
 
 namespace meniscus {
 namespace {
@@ -192,6 +199,44 @@ ShapeObject joined(const SurfaceObject& object, TriangleMesh mesh, const ShapeOb
   append(both.coloring.atom, second.object.coloring.atom);
   both.coloring.hidden.clear();  // what is hidden is not in the mesh
   return whole;
+}
+
+namespace {
+
+void turn_over(TriangleMesh& mesh) {
+  for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  for (glm::dvec3& normal : mesh.normals) normal = -normal;
+  // Corners are numbered along their triangles, and stay in ascending order.
+  for (std::size_t n = 0; n < mesh.sharp_corners.size(); ++n) {
+    mesh.sharp_corner_normals[n] = -mesh.sharp_corner_normals[n];
+    if (mesh.sharp_corners[n] % 3 == 0) continue;
+    const bool both = mesh.sharp_corners[n] % 3 == 1 && n + 1 < mesh.sharp_corners.size() &&
+                      mesh.sharp_corners[n + 1] == mesh.sharp_corners[n] + 1;
+    if (both) {
+      mesh.sharp_corner_normals[n + 1] = -mesh.sharp_corner_normals[n + 1];
+      std::swap(mesh.sharp_corner_normals[n], mesh.sharp_corner_normals[n + 1]);
+      ++n;
+    } else {
+      mesh.sharp_corners[n] += mesh.sharp_corners[n] % 3 == 1 ? 1 : -1;
+    }
+  }
+}
+
+}  // namespace
+
+TriangleMesh pocket_mesh(const Pockets& pockets, double tolerance) {
+  if (pockets.pockets.empty()) throw RequestError("there are no pockets, so there is no mesh to write");
+  Surface all;
+  std::vector<std::uint32_t> pocket_of_component;
+  for (std::uint32_t n = 0; n < pockets.pockets.size(); ++n) {
+    const Surface& surface = pockets.pockets[n].surface;
+    append(all, surface);
+    pocket_of_component.insert(pocket_of_component.end(), surface.components.size(), n);
+  }
+  TriangleMesh mesh = tessellate(all, {.tolerance = tolerance, .split_colors = false});
+  for (std::uint32_t& component : mesh.component) component = pocket_of_component[component];
+  turn_over(mesh);
+  return mesh;
 }
 
 }  // namespace meniscus

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/queries/curvature.h"
+#include "core/queries/surface_point.h"
 
 namespace meniscus {
 

@@ -7,9 +7,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/surface/walks.h"
-
 #include "core/mesh/face_mesh.h"
+#include "core/surface/walks.h"
 
 namespace meniscus {
 namespace {

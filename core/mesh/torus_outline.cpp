@@ -7,7 +7,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/mesh/contact_colors.h"
+#include "core/mesh/mesh_colors.h"
 #include "core/mesh/face_mesh.h"
 #include "core/surface/walks.h"
 

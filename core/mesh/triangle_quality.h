@@ -9,7 +9,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/base/index.h"
+#include "core/base/constants.h"
 #include "core/mesh/half_edges.h"
 
 namespace meniscus {

@@ -10,8 +10,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_precision.hpp>
 
-#include "core/base/index.h"
-#include "core/mesh/corner_lists.h"
+#include "core/base/constants.h"
 #include "core/mesh/half_edges.h"
 #include "core/mesh/triangle_mesh.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Closes the mouths by large probes, and reads the pockets off as cavities.
+// Finds the pockets of a molecule, measures them and their mouths, and tells which pocket a point lies in.
 #include "core/pockets/pockets.h"
 
 #include <algorithm>
@@ -13,12 +13,13 @@
 #include <tbb/parallel_for.h>
 
 #include "core/base/error.h"
+#include "core/math/union_find.h"
 #include "core/pockets/hull.h"
-#include "core/pockets/mouths.h"
 #include "core/pockets/probe_cells.h"
-#include "core/pockets/probe_places.h"
 #include "core/queries/part.h"
-#include "core/surface/surface.h"
+#include "core/surface/atom_areas.h"
+#include "core/surface/primitives.h"
+#include "core/surface/compute_surface.h"
 
 namespace meniscus {
 namespace {
@@ -136,7 +137,7 @@ class PocketFinder {
     }
   }
 
-  /// Those with a contact patch on the component. An outer one has some (component_side.h).
+  /// Those with a contact patch on the component. An outer one has some (components.h).
   std::vector<std::uint32_t> atoms_of(std::uint32_t component) const {
     std::vector<std::uint32_t> atoms;
     for (const ConvexPatch& patch : found_.surface.convex)
@@ -201,6 +202,76 @@ std::string pocket_fault(const PocketRequest& request) {
 Pockets find_pockets(std::span<const Ball> atoms, const PocketRequest& request, const ComputeSurface& compute) {
   if (const std::string fault = pocket_fault(request); !fault.empty()) throw RequestError(fault);
   return PocketFinder(atoms, request, compute).run();
+}
+
+namespace {
+
+/// Whether each face touches large probes only.
+std::vector<bool> faces_of_mouths(const Surface& s, const std::vector<bool>& is_probe) {
+  const auto probe = [&](std::uint32_t atom) -> bool { return is_probe[atom]; };
+  std::vector<bool> of_mouth(s.faces.size());
+  for (std::size_t f = 0; f < s.faces.size(); ++f) {
+    const std::uint32_t patch = s.faces[f].patch;
+    switch (s.faces[f].kind) {
+      case PatchKind::convex:
+        of_mouth[f] = probe(s.convex[patch].atom);
+        break;
+      case PatchKind::toroidal:
+        of_mouth[f] = std::ranges::all_of(s.toroidal[patch].atom, probe);
+        break;
+      case PatchKind::concave: {
+        const auto first = s.contacts.begin() + s.concave[patch].first_contact;
+        of_mouth[f] = std::all_of(first, first + s.concave[patch].contact_count, probe);
+        break;
+      }
+    }
+  }
+  return of_mouth;
+}
+
+}  // namespace
+
+std::vector<double> mouth_areas(const Surface& s, const std::vector<bool>& is_probe, double least) {
+  const std::vector<bool> of_mouth = faces_of_mouths(s, is_probe);
+  if (std::ranges::find(of_mouth, true) == of_mouth.end()) return {};
+  UnionFind mouths(s.faces.size());
+  for (const Border& border : s.borders)
+    if (of_mouth[border.face[0]] && of_mouth[border.face[1]]) mouths.unite(border.face[0], border.face[1]);
+  for (const ConvexPatch& patch : s.convex)
+    for (std::uint32_t n = 1; n < patch.face_count && is_probe[patch.atom]; ++n)
+      mouths.unite(patch.first_face, patch.first_face + n);
+
+  std::vector<double> of_probes_alone(s.faces.size(), 0.0), area(s.faces.size(), 0.0);
+  for (std::uint32_t f = 0; f < s.faces.size(); ++f)
+    if (of_mouth[f]) of_probes_alone[mouths.find(f)] += s.faces[f].area;
+  const std::vector<double> by_atom = atom_areas(s).surface;
+  for (const ConvexPatch& patch : s.convex)
+    if (is_probe[patch.atom]) area[mouths.find(patch.first_face)] += by_atom[patch.atom];
+  std::vector<double> areas;
+  for (std::size_t f = 0; f < s.faces.size(); ++f)
+    if (of_probes_alone[f] > least) areas.push_back(area[f]);
+  std::ranges::sort(areas, std::greater());
+  return areas;
+}
+
+PocketLocator::PocketLocator(const Pockets& pockets) : probe_radius_(pockets.request.probe_radius) {
+  if (pockets.pockets.empty()) return;
+  anywhere_.emplace(pockets.surface);
+  for (const Pocket& pocket : pockets.pockets) each_.emplace_back(pocket.surface);
+}
+
+// Where a probe may be, the nearest place where it touches something is one of its own pocket; elsewhere the point lies
+// in the pockets whose probes are near enough. Distances to places of a pocket are those to places of all pockets to
+// the last digit, as they come from the same numbers.
+std::optional<std::size_t> PocketLocator::operator()(const glm::dvec3& point) const {
+  if (!anywhere_) return std::nullopt;
+  const bool in_sas = anywhere_->in_sas(point);
+  const double nearest = anywhere_->to_probe(point);
+  if (in_sas && nearest >= probe_radius_) return std::nullopt;
+  for (std::size_t n = 0; n < each_.size(); ++n)
+    if (const double distance = each_[n].to_probe(point); in_sas ? distance < probe_radius_ : distance <= nearest)
+      return n;
+  return std::nullopt;
 }
 
 }  // namespace meniscus

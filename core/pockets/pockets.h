@@ -5,14 +5,20 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "core/queries/cavity_tracks.h"
+#include "core/queries/distance.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
+
+struct Surface;
 
 /// Which pockets are looked for. Lengths in Å, volumes in Å³.
 struct PocketRequest {
@@ -37,7 +43,7 @@ std::string pocket_fault(const PocketRequest& request);
 struct Pocket {
   /// Volume, area, the places of the small probe at rest, and the atoms that line it, of those given.
   Cavity cavity;
-  std::vector<double> mouth_areas;  ///< Å², the largest first (mouths.h). None: a cavity; two or more: a tunnel
+  std::vector<double> mouth_areas;  ///< Å², the largest first. None: a cavity; two or more: a tunnel
   double depth = 0.0;  ///< Å, of the deepest place of the small probe at rest below the large one's surface
   Surface surface;     ///< closed; normals point into the pocket
   std::vector<std::uint32_t> atom;  ///< per surface.atoms: of the atoms given; kNone: a large probe
@@ -71,7 +77,7 @@ using ComputeSurface = std::function<Surface(std::span<const Ball> atoms, double
 /// crevices, where it would reach out of H, are in no part. The two probes are those of Kawabata & Go (Proteins 68,
 /// 516, 2007) and of Voss & Gerstein (Nucleic Acids Res. 38, W555, 2010); the trimming is that of Oliveira et al. (BMC
 /// Bioinformatics 15, 197, 2014). H is closed by large probes standing where they touch the molecule, as dense as the
-/// tolerance asks (probe_places.h): then the parts are cavities of one solvent-excluded surface, that of the atoms and
+/// tolerance asks (hull.h): then the parts are cavities of one solvent-excluded surface, that of the atoms and
 /// of those probes, and so have what such cavities have in closed form.
 ///
 /// A mouth counts if it is more than the tolerance can make of none: 2 pi probe_radius tolerance, the cap of a probe
@@ -80,5 +86,27 @@ using ComputeSurface = std::function<Surface(std::span<const Ball> atoms, double
 /// atoms: Å. Throws RequestError for a request with a fault, what `compute` throws, OpenSurfaceError. Runs on all cores
 /// TBB may use; the result does not depend on their number.
 Pockets find_pockets(std::span<const Ball> atoms, const PocketRequest& request, const ComputeSurface& compute);
+
+/// The areas of a pocket's mouths, Å², the largest first.
+/// pocket: its closed surface; is_probe: one per Surface::atoms, whether it is a large probe. A mouth is a set of large
+/// probes whose patches share borders, each patch touching none but large probes; its area is what of the surface is
+/// nearer to a contact with them than with an atom (AtomAreas::surface). Left out are mouths in which patches that
+/// touch large probes alone have no more than `least` (Å²). Throws OpenSurfaceError.
+std::vector<double> mouth_areas(const Surface& pocket, const std::vector<bool>& is_probe, double least);
+
+/// Answers any number of questions about the same pockets, from any number of threads.
+class PocketLocator {
+ public:
+  /// They must stay and not change.
+  explicit PocketLocator(const Pockets& pockets);
+
+  /// The place in Pockets::pockets of the one that the point lies in: that has a probe which covers it.
+  std::optional<std::size_t> operator()(const glm::dvec3& point) const;
+
+ private:
+  double probe_radius_;
+  std::optional<SurfaceDistance> anywhere_;  ///< nothing: there are no pockets
+  std::vector<SurfaceDistance> each_;
+};
 
 }  // namespace meniscus

@@ -8,7 +8,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/math/box_tree.h"
+#include "core/math/box.h"
 #include "core/pockets/hull.h"
 
 namespace meniscus {

@@ -12,7 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/math/ball_grid.h"
-#include "core/math/box_tree.h"
+#include "core/math/box.h"
 #include "core/surface/measure.h"
 
 namespace meniscus {

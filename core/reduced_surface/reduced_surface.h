@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "core/base/index.h"
+#include "core/base/constants.h"
 
 namespace meniscus {
 

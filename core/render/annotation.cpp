@@ -14,7 +14,6 @@
 
 #include "core/base/error.h"
 #include "core/image/color_space.h"
-#include "core/render/ink.h"
 #include "core/render/text_raster.h"
 #include "core/camera/camera.h"
 

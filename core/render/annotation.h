@@ -10,7 +10,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "core/render/framebuffer.h"
+#include "core/render/picture.h"
 
 namespace meniscus {
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whatever a picture can be made of.
+// What a picture on the GPU is made of: a computed surface with its colours, or atoms whose surface is found for each
+// view.
 #pragma once
 
 #include <span>
 
-#include "core/gpu/readback.h"
+#include "core/gpu/buffer.h"
 #include "core/render/gpu_scene.h"
 #include "core/render/ray_cast_scene.h"
 #include "core/surface/primitives.h"
@@ -12,6 +13,7 @@
 namespace meniscus {
 
 class StageClock;
+struct Coloring;
 
 /// A complete surface (SurfaceDrawable), or atoms whose surface the GPU finds for each view (ViewPipeline).
 class Drawable {
@@ -34,5 +36,26 @@ class Drawable {
   /// The surface whose patches the primitives of the scene are, if the host has it; else nullptr.
   virtual const Surface* surface() const { return nullptr; }
 };
+
+/// Packs the surface for each picture. Keeps buffers from surface to surface. Needs a current GL context.
+class SurfaceDrawable final : public Drawable {
+ public:
+  /// coloring.atom has one colour per surface.atoms; both must stay until the last picture of them is made. Rays go on
+  /// through points of hidden atoms; what they meet from behind is shaded like its front, and its normal still points
+  /// towards the solvent.
+  void show(const Surface& surface, const Coloring& coloring);
+
+  std::span<const Ball> atoms() const override { return surface_->atoms; }
+  const GpuScene& prepare(const PictureFrame& frame, StageClock& clock) override;
+  const Surface* surface() const override { return surface_; }
+
+ private:
+  const Surface* surface_ = nullptr;
+  const Coloring* coloring_ = nullptr;
+  GpuScene scene_;
+};
+
+/// Everything of `scene` on the GPU but the colours.
+void upload_scene(const RayCastScene& packed, const Surface& surface, const PictureFrame& frame, GpuScene& scene);
 
 }  // namespace meniscus

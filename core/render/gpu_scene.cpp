@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colours on their way to the GPU.
+// Puts the colours of atoms into GPU memory for the ray caster.
 #include "core/render/gpu_scene.h"
 
-#include "core/render/linear_colors.h"
 #include "core/color/coloring.h"
+#include "core/render/linear_colors.h"
 
 namespace meniscus {
 

@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "core/gpu/append_list.h"
+#include "core/gpu/kernel_lists.h"
 #include "core/gpu/buffer.h"
 
 namespace meniscus {

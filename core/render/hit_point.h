@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where in the molecule the ray through a pixel's centre met something, in double precision.
+// Where in the molecule the ray through a pixel's centre met something, and to which closed part of the surface it
+// belongs.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +9,17 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "core/base/index.h"
+#include "core/base/constants.h"
 #include "core/gpu/kernel_records.h"
 #include "core/render/ray_cast_scene.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
+
+enum class PatchKind : std::uint8_t;
+struct Border;
+struct Face;
+struct Surface;
 
 /// A point on a ray.
 struct HitPoint {
@@ -32,5 +38,23 @@ struct PickedPoint {
   std::uint32_t object = 0;       ///< of those that are drawn; of copies: whose
   std::uint32_t copy = 0;         ///< which of them
 };
+
+/// Looks at a surface that must outlive it. One patch may have faces in several components (an atom between the outside
+/// and a cavity); then the face whose border arcs are nearest to the point decides.
+class ComponentLookup {
+ public:
+  explicit ComponentLookup(const Surface& surface) : surface_(surface) {}
+
+  /// Index into Surface::components; kNone for a patch without faces. point: Å, on the patch.
+  std::uint32_t at(PatchKind kind, std::uint32_t patch, const glm::dvec3& point) const;
+
+ private:
+  double squared_distance(const Face& face, const glm::dvec3& point) const;
+
+  const Surface& surface_;
+};
+
+/// Squared distance of a point to an arc, Å².
+double squared_distance(const Border& border, const glm::dvec3& point);
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures encoded row after row.
+// Writes pictures as files, row after row.
 #include "core/render/image_output.h"
 
 #include <algorithm>
@@ -23,11 +23,11 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/image/image_codec.h"
-#include "core/image/png_encoder.h"
-#include "core/image/display_color.h"
+#include "core/image/png_file.h"
+#include "core/image/color_space.h"
 #include "core/image/memory_file.h"
 #include "core/image/srgb_profile.h"
-#include "core/base/index.h"
+#include "core/base/constants.h"
 
 namespace meniscus {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/base/output_file.h"
-#include "core/render/framebuffer.h"
+#include "core/render/picture.h"
 
 namespace meniscus {
 

@@ -11,8 +11,8 @@
 #include <glm/geometric.hpp>
 
 #include "core/image/color_space.h"
-#include "core/render/ink.h"
-#include "core/base/index.h"
+#include "core/render/text_raster.h"
+#include "core/base/constants.h"
 
 namespace meniscus {
 namespace {

@@ -10,7 +10,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/color/color_key.h"
-#include "core/render/framebuffer.h"
+#include "core/render/picture.h"
 #include "core/render/text_raster.h"
 
 namespace meniscus {

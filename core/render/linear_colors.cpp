@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "core/image/color_space.h"
 #include "core/color/coloring.h"
+#include "core/image/color_space.h"
 
 namespace meniscus {
 

@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs depth, occlusion and finish kernels, one after the other.
+// Runs the kernels for occlusion, depth cueing and silhouettes, and the one that turns a picture into a texture.
 #include "core/render/look_pass.h"
+
+#include <epoxy/gl.h>
+
+#include "core/gpu/context_description.h"
+#include "core/gpu/kernel_records.h"
+#include "core/gpu/work_proof.h"
+#include "core/image/color_space.h"
 
 namespace meniscus {
 
@@ -66,6 +73,36 @@ std::vector<float> LookPass::depths(const Buffer& hits, const PictureFrame& fram
 void LookPass::set_shade_map(const std::vector<float>& depths) {
   shade_map_.upload(depths);
   map_texels_.view(shade_map_);
+}
+
+Presenter::~Presenter() {
+  if (texture_) glDeleteTextures(1, &texture_);
+}
+
+void Presenter::present(const Buffer& picture, glm::ivec2 size, int sample_count, const glm::vec3& background) {
+  if (size != size_) {
+    if (texture_) glDeleteTextures(1, &texture_);
+    texture_ = 0;
+    glCreateTextures(GL_TEXTURE_2D, 1, &texture_);
+    glTextureStorage2D(texture_, 1, GL_RGBA8, size.x, size.y);
+    check_gl("making the picture's texture");
+    size_ = size;
+  }
+  picture.bind(0);
+  glBindImageTexture(0, texture_, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA8);
+  program_.set(kernel::PresentParameters{
+      .background = linear_from_srgb(background), .per_sample = 1.0f / static_cast<float>(sample_count), .size = size});
+  program_.dispatch_2d((static_cast<std::uint32_t>(size.x) + 7) / 8, (static_cast<std::uint32_t>(size.y) + 7) / 8);
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
+}
+
+std::vector<std::uint8_t> Presenter::rgba() const {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size_.x) * size_.y * 4);
+  if (texture_)
+    glGetTextureImage(texture_, 0, GL_RGBA, GL_UNSIGNED_BYTE, static_cast<GLsizei>(bytes.size()), bytes.data());
+  check_gl("downloading the picture");
+  WorkProof::current().verify();
+  return bytes;
 }
 
 }  // namespace meniscus

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shade, air and ink: what a look makes of cast pixels and their neighbours, on the GPU.
+// What the GPU makes of cast pixels: shade, air and ink by their neighbours, then a texture for windows and encoders.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include "core/gpu/buffer.h"
 #include "core/gpu/program.h"
-#include "core/gpu/texel_buffer.h"
 #include "core/render/gpu_scene.h"
 #include "core/render/look.h"
-#include "core/render/ray_cast_scene.h"
 #include "core/render/picture_block.h"
+#include "core/render/ray_cast_scene.h"
 
 namespace meniscus {
 
@@ -46,6 +46,29 @@ class LookPass {
   TexelBuffer first_hit_texels_{TexelFormat::uint4}, hit_texels_{TexelFormat::uint4};  // of sample 0, of the others
   TexelBuffer depth_texels_{TexelFormat::uint1}, map_texels_{TexelFormat::uint1},
       visibility_texels_{TexelFormat::uint1}, part_texels_{TexelFormat::uint1}, atom_part_texels_{TexelFormat::uint1};
+};
+
+/// Owns the texture of the last picture presented. Needs a current GL context for its whole life.
+class Presenter {
+ public:
+  Presenter() = default;
+  ~Presenter();
+  Presenter(const Presenter&) = delete;
+  Presenter& operator=(const Presenter&) = delete;
+
+  /// picture: sums of `sample_count` samples, as RayCaster::picture(); background: sRGB. Others show the texture
+  /// without another look at it: the GPU's work has to be proven before they may. Throws GpuError.
+  void present(const Buffer& picture, glm::ivec2 size, int sample_count, const glm::vec3& background);
+
+  /// GL_RGBA8, sRGB values, alpha 255, first row on top; lives until a picture of another size is presented.
+  std::uint32_t texture() const { return texture_; }
+  /// The same on the host; waits for the GPU.
+  std::vector<std::uint8_t> rgba() const;
+
+ private:
+  Program program_{"gpu_shaders/look/present.comp"};
+  std::uint32_t texture_ = 0;
+  glm::ivec2 size_{0};
 };
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What each preset is made of.
+// Lists what each preset of a look is made of, and applies what is asked for instead of single parts.
 #include "core/render/look_presets.h"
 #include "core/render/look.h"
 #include "core/color/color_schemes.h"

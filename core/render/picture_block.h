@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A part of a picture, and what both ways of casting it are told.
+// A part of a picture, what both ways of casting it are told, and the picture put together from such parts.
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 
-#include "core/gpu/kernel_parameters.h"
+#include "core/base/constants.h"
 #include "core/gpu/kernel_records.h"
+#include "core/render/picture.h"
 #include "core/render/gpu_scene.h"
 #include "core/render/look.h"
 #include "core/render/ray_cast_scene.h"
-#include "core/render/render_settings.h"
 
 namespace meniscus {
 
@@ -54,5 +59,63 @@ kernel::RayCastParameters cast_parameters(const ScenePlacement& scene, const Loo
 kernel::OcclusionParameters occlusion_parameters(const Look& look, glm::ivec2 picture_size, int sample);
 kernel::FinishParameters finish_parameters(const Look& look, const ScenePlacement& scene, glm::ivec2 picture_size,
                                            int sample, bool has_parts);
+
+/// A picture in blocks of at most `edge` pixels, which are multiples of kTileEdge.
+std::vector<PictureBlock> picture_blocks(glm::ivec2 size, glm::ivec2 edge);
+
+/// `inner` and the neighbours that its colours depend on, as far as there are any.
+PictureBlock with_neighbors(const PictureBlock& inner, int reach, glm::ivec2 picture_size);
+
+/// What Hit::primitive counts.
+struct HitSource {
+  const Surface* surface = nullptr;  ///< whose patches they are; nullptr: shapes
+  std::span<const ray_cast::Primitive> primitives;
+};
+
+/// Indices of what a ray has met.
+struct HitNames {
+  std::uint32_t atom = kNone, component = kNone;  ///< into the tables of what Hit::object says
+  std::uint32_t kind = kNone;                     ///< as Framebuffer::kind
+};
+
+/// Tells them for a hit of some primitive, at a point, Å; on any thread.
+using NameHit = std::function<HitNames(const ray_cast::Hit& hit, const glm::dvec3& point)>;
+
+/// sources: one for each Hit::object; what they point to must stay.
+NameHit names_of(std::span<const HitSource> sources);
+
+/// Takes the inner parts of blocks, and hands over the bands of pictures that are taken so. What it is made of must
+/// stay until the picture is taken.
+class PictureCollector {
+ public:
+  /// names: for settings.aovs; else not asked. several: there is more than one Hit::object.
+  PictureCollector(const PictureFrame& frame, const RenderSettings& settings, NameHit names, bool several = false);
+
+  /// Of at most `edge` pixels, a multiple of kTileEdge: those to be cast, in this order. Of a picture that is taken in
+  /// bands they are as high as these, and lower the wider it is.
+  std::vector<PictureBlock> blocks(int edge);
+
+  /// sums: of the samples of each of the block's pixels, linear and premultiplied; hits: through their centres.
+  void add_colors(const PictureBlock& inner, const PictureBlock& block, std::span<const glm::vec4> sums);
+  void add_hits(const PictureBlock& inner, const PictureBlock& block, std::span<const ray_cast::Hit> hits);
+
+  /// Nothing more comes of one of blocks().
+  void end_block(const PictureBlock& block);
+
+  /// Without pixels if the bands have them.
+  Framebuffer take() { return std::move(picture_); }
+
+ private:
+  void begin_rows(int first, int count_of_rows);
+  void copy_hit(const ray_cast::Hit& hit, std::size_t at);
+
+  const PictureFrame& frame_;
+  const RenderSettings& settings_;
+  const float per_sample_;
+  const NameHit names_;
+  const bool several_;
+  int first_row_ = 0;    // of what picture_ holds
+  Framebuffer picture_;  // or the band at work
+};
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Goes through bands in slices.
+// Writes a picture to its file in slices of rows, with its annotation and its legend.
 #include "core/render/picture_file.h"
 
 #include <algorithm>

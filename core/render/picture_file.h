@@ -6,10 +6,9 @@
 #include <optional>
 
 #include "core/render/annotation.h"
-#include "core/render/framebuffer.h"
+#include "core/render/picture.h"
 #include "core/render/image_output.h"
 #include "core/render/legend.h"
-#include "core/render/render_settings.h"
 
 namespace meniscus {
 

@@ -10,7 +10,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/math/ball.h"
-#include "core/render/material.h"
+#include "core/render/look.h"
 
 namespace meniscus {
 

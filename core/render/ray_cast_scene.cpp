@@ -15,7 +15,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
-#include "core/queries/moved.h"
+#include "core/queries/copies.h"
 #include "core/render/ray_geometry.h"
 #include "core/color/coloring.h"
 

@@ -3,7 +3,7 @@
 #include "core/render/ray_caster.h"
 
 #include "core/base/error.h"
-#include "core/gpu/gpu_stage.h"
+#include "core/gpu/program.h"
 
 namespace meniscus {
 

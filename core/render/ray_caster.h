@@ -7,7 +7,7 @@
 
 #include "core/base/stage_clock.h"
 #include "core/gpu/program.h"
-#include "core/gpu/texel_buffer.h"
+#include "core/gpu/buffer.h"
 #include "core/render/gpu_scene.h"
 #include "core/render/look.h"
 #include "core/render/look_pass.h"

@@ -12,12 +12,10 @@
 #include "core/base/stage_clock.h"
 #include "core/camera/camera.h"
 #include "core/render/drawable.h"
-#include "core/render/framebuffer.h"
+#include "core/render/picture.h"
 #include "core/render/hit_point.h"
-#include "core/render/presenter.h"
+#include "core/render/look_pass.h"
 #include "core/render/ray_caster.h"
-#include "core/render/render_settings.h"
-#include "core/render/surface_drawable.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {

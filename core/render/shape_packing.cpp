@@ -8,9 +8,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/color/coloring.h"
 #include "core/render/ray_geometry.h"
 #include "core/shapes/shapes.h"
-#include "core/color/coloring.h"
 
 namespace meniscus {
 namespace {

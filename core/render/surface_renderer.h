@@ -9,9 +9,8 @@
 
 #include "core/base/stage_clock.h"
 #include "core/color/coloring.h"
-#include "core/render/framebuffer.h"
+#include "core/render/picture.h"
 #include "core/render/picture_object.h"
-#include "core/render/render_settings.h"
 
 namespace meniscus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds a font, measures text and draws it, letter by letter.
+// Sets text by FreeType and blends its letters into pixels.
 #include "core/render/text_raster.h"
 
 #include <ft2build.h>

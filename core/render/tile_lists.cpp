@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counts, places and fills the lists of tiles.
+// Lists, on the GPU, the primitives that may show in each tile of a picture.
 #include "core/render/tile_lists.h"
 
 #include <string>

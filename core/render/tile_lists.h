@@ -5,12 +5,9 @@
 #include <glm/vec2.hpp>
 
 #include "core/gpu/buffer.h"
-#include "core/gpu/kernel_parameters.h"
 #include "core/gpu/kernel_records.h"
-#include "core/gpu/prefix_sum.h"
+#include "core/gpu/kernel_lists.h"
 #include "core/gpu/program.h"
-#include "core/gpu/readback.h"
-#include "core/gpu/texel_buffer.h"
 #include "core/render/gpu_scene.h"
 #include "core/render/picture_block.h"
 #include "core/render/ray_cast_scene.h"

@@ -6,7 +6,7 @@
 #include "core/queries/surface_object.h"
 #include "core/scene/copied_atoms.h"
 #include "core/scene/cpu_view.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 
 namespace meniscus {
 namespace {

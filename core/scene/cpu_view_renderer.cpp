@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/scene/cpu_view.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 
 namespace meniscus {
 namespace {

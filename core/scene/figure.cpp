@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/queries/combine.h"
+#include "core/queries/copies.h"
 
 namespace meniscus {
 namespace {

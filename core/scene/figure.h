@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/camera/camera.h"
-#include "core/render/framebuffer.h"
+#include "core/render/picture.h"
 #include "core/render/picture_object.h"
 #include "core/render/surface_renderer.h"
 #include "core/scene/cut.h"

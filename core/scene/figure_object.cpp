@@ -9,7 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/color_atoms.h"
-#include "core/queries/combine.h"
+#include "core/queries/copies.h"
 #include "core/scene/hidden_atoms.h"
 #include "core/scene/surface_computer.h"
 #include "core/scene/surface_objects.h"

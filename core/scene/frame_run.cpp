@@ -16,12 +16,12 @@
 #include "core/structure/formats/read_structure.h"
 #include "core/scene/molecule.h"
 #include "core/base/text.h"
-#include "core/structure/selection/usual_part.h"
+#include "core/structure/selection/selection.h"
 #include "core/trajectory/atom_order.h"
-#include "core/structure/found_bonds.h"
+#include "core/structure/bonds.h"
 #include "core/trajectory/frame_list.h"
 #include "core/base/error.h"
-#include "core/trajectory/joined_frames.h"
+#include "core/trajectory/trajectory.h"
 
 namespace meniscus {
 namespace {

@@ -14,11 +14,11 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/math/box.h"
-#include "core/queries/combine.h"
+#include "core/queries/copies.h"
 #include "core/color/color_atoms.h"
 #include "core/color/volume_paint.h"
 #include "core/volume/read_volume.h"
-#include "core/trajectory/formats/formats.h"
+#include "core/trajectory/formats/trajectory_formats.h"
 
 namespace meniscus {
 namespace {

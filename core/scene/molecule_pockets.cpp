@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/pockets/pocket_locator.h"
+#include "core/pockets/pockets.h"
 
 namespace meniscus {
 namespace {

@@ -14,10 +14,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
-#include "core/base/json_depth.h"
+#include "core/base/text_file.h"
 #include "core/base/text.h"
 #include "core/color/color_maps.h"
-#include "core/color/css_colors.h"
+#include "core/color/named_colors.h"
 #include "core/properties/properties.h"
 
 namespace meniscus {

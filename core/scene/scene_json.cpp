@@ -12,8 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
-#include "core/base/json_depth.h"
-#include "core/base/similar_words.h"
+#include "core/base/text_file.h"
 #include "core/base/text.h"
 #include "core/scene/scene_values.h"
 

@@ -16,9 +16,9 @@
 
 #include "core/base/text.h"
 #include "core/color/color_maps.h"
-#include "core/color/css_colors.h"
+#include "core/color/named_colors.h"
 #include "core/scene/object_json.h"
-#include "core/text/parse_number.h"
+#include "core/base/parse_number.h"
 
 namespace meniscus {
 namespace {

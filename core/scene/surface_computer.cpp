@@ -11,7 +11,7 @@
 #include "core/queries/compare.h"
 #include "core/scene/surface_kind.h"
 #include "core/surface/gpu/gpu_engine.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 
 namespace meniscus {
 namespace {

@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/queries/copy_contact.h"
+#include "core/queries/copies.h"
 #include "core/queries/part.h"
 
 namespace meniscus {

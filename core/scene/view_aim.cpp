@@ -10,10 +10,10 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/queries/combine.h"
+#include "core/queries/copies.h"
 #include "core/scene/hidden_atoms.h"
 #include "core/scene/representations.h"
-#include "core/trajectory/superpose.h"
+#include "core/trajectory/prepared_frames.h"
 
 namespace meniscus {
 namespace {

@@ -14,7 +14,7 @@
 #include "core/camera/camera.h"
 #include "core/color/coloring.h"
 #include "core/render/hit_point.h"
-#include "core/render/render_settings.h"
+#include "core/render/picture.h"
 #include "core/structure/structure.h"
 #include "core/scene/figure.h"
 #include "core/surface/primitives.h"

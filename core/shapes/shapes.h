@@ -52,7 +52,7 @@ inline constexpr double kThinStickRadius = 0.15;
 inline constexpr double kBallShare = 0.25;
 
 /// In the following `selected` has one entry an atom of the structure, and `bonds` are places in Structure::atoms
-/// (molecule_bonds.h), drawn if both atoms are selected. Radii are in Å.
+/// (bonds.h), drawn if both atoms are selected. Radii are in Å.
 
 /// A cylinder for each bond, and a sphere of its radius for each atom; an atom without a bond that is drawn is a ball
 /// of kBallShare, but no thinner than a stick.

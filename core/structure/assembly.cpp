@@ -13,10 +13,9 @@
 #include <glm/matrix.hpp>
 
 #include "core/base/error.h"
-#include "core/base/option_name.h"
 #include "core/base/text.h"
-#include "core/text/parse_number.h"
-#include "core/text/text_lines.h"
+#include "core/base/parse_number.h"
+#include "core/base/text_lines.h"
 #include "core/structure/structure.h"
 #include "core/math/rigid_motion.h"
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Classes of atoms by the names and bonds of their residues, and elements, with gemmi's tables of both.
+// Classifies atoms as polymer, ligand, water or ion, and finds elements from names and masses.
 #include "core/structure/atom_classes.h"
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -15,10 +16,9 @@
 #include <gemmi/metadata.hpp>
 #include <gemmi/resinfo.hpp>
 
-#include "core/structure/canonical_names.h"
-#include "core/structure/chain_links.h"
-#include "core/structure/warning_collector.h"
 #include "core/structure/residue_names.h"
+#include "core/structure/chain_links.h"
+#include "core/structure/plausibility.h"
 
 namespace meniscus {
 namespace {
@@ -232,6 +232,39 @@ bool is_tabulated_residue(const std::string& residue_name) {
 void classify_atoms(std::vector<Atom>& atoms, std::vector<Warning>& warnings, std::span<const AtomHints> hints,
                     std::span<const Bond> bonds) {
   Classifier(atoms, hints, bonds).run(warnings);
+}
+
+namespace {
+
+constexpr std::string_view kOrganic = "HCNOPS";
+
+/// The element whose weight this is, within 0.1; 0 if there is none.
+int nearest_weight(double mass) {
+  int best = 0;
+  double least = 0.1;
+  for (int number = 1; number < 119; ++number) {
+    const double distance = std::abs(gemmi::Element(number).weight() - mass);
+    if (distance < least) {
+      least = distance;
+      best = number;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+std::uint8_t element_of_mass(const std::string& name, double mass) {
+  const int by_mass = nearest_weight(mass);
+  const std::size_t letter = std::min(name.find_first_not_of("0123456789"), name.size());
+  const char first =
+      letter < name.size() ? static_cast<char>(std::toupper(static_cast<unsigned char>(name[letter]))) : ' ';
+  const bool named_organic = kOrganic.find(first) != std::string_view::npos;
+  const gemmi::Element heavy_or_light(by_mass);
+  const bool moved_mass = named_organic &&
+                          (by_mass == 2 || kOrganic.find(heavy_or_light.name()) != std::string_view::npos) &&
+                          heavy_or_light.name()[0] != first;
+  return static_cast<std::uint8_t>(moved_mass ? 0 : by_mass);
 }
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parsing of number files.
+// Reads files of numbers by which atoms can be coloured.
 #include "core/structure/atom_numbers.h"
 
 #include <algorithm>
@@ -12,10 +12,9 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/text/csv_cells.h"
-#include "core/text/parse_number.h"
-#include "core/text/text_file.h"
-#include "core/text/text_lines.h"
+#include "core/base/text_lines.h"
+#include "core/base/parse_number.h"
+#include "core/base/text_file.h"
 
 namespace meniscus {
 namespace {

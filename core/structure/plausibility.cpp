@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Distances that no molecule has.
+// Looks for atoms at one place and for coordinates in other units, and sums up cases of one oddity.
 #include "core/structure/plausibility.h"
 
 #include <algorithm>
@@ -59,6 +59,18 @@ void warn_of_wrong_unit(Structure& structure) {
   if (*median >= kShortestUsual) return;
   structure.report.warnings.emplace_back(fmt::format(
       "atoms lie {:.2f} Å from their nearest neighbour (median); are the coordinates in nanometres?", *median));
+}
+
+void WarningCollector::add(std::size_t line, std::string_view text) {
+  cases_.push_back(fmt::format("line {}, {}", line, in_quotes(text)));
+}
+
+void WarningCollector::warn(std::vector<Warning>& warnings, const char* what) {
+  if (cases_.empty()) return;
+  std::string sentence = fmt::format("{} {} {} (first: {})", with_thousands(cases_.size()),
+                                     cases_.size() == 1 ? "atom has" : "atoms have", what, cases_.front());
+  warnings.emplace_back(std::move(sentence), std::move(cases_));
+  cases_.clear();
 }
 
 }  // namespace meniscus

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which residue names are amino acids, their caps, nucleotides or water.
+// What names of residues and their atoms say: what they are, their canonical spelling, how their heavy atoms are
+// bonded.
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace meniscus {
 
@@ -17,5 +19,18 @@ bool is_nucleotide_name(const std::string& residue_name);
 
 /// Water by the names of the wwPDB and of molecular dynamics programs.
 bool is_water_name(const std::string& residue_name);
+
+/// "HSD", "HIE" -> "HIS"; "CYX" -> "CYS"; "ADE", "RA5" -> "A"; "DA3" -> "DA"; any water -> "HOH"; others as they are.
+std::string canonical_residue(const std::string& residue_name);
+
+/// "O1P" -> "OP1", "C5*" -> "C5'", "HN" -> "H", "OT2" -> "OXT"; of ILE also "CD" -> "CD1"; others as they are. The
+/// residue is given by its canonical name.
+std::string canonical_atom(std::string_view residue, const std::string& atom_name);
+
+/// The class of an atom of an amino acid, nucleotide or water, in the notation of J. Tsai et al., J. Mol. Biol. 290,
+/// 253 (1999): element, bonded atoms, hydrogens among them. "C4H2" is a tetrahedral carbon with two hydrogens. Charge
+/// states are those of the wwPDB's chemical components (acids are protonated). Empty: not known. Other names of the
+/// same residues and atoms are understood.
+std::string_view bonding_class(const std::string& residue_name, const std::string& atom_name);
 
 }  // namespace meniscus

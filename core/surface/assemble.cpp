@@ -1,22 +1,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The second half of the pipeline as a list of its stages: place, cut, bound, trim, measure, certify.
+// Runs the stages from a reduced surface to the finished surface, and repeats them with grown radii where ties demand
+// it.
+#include "core/surface/compute_surface.h"
+
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 #include <optional>
 #include <string>
 
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
 #include "core/base/error.h"
+#include "core/base/stage_clock.h"
+#include "core/reduced_surface/cpu/exhaustive.h"
+#include "core/reduced_surface/reduced_surface.h"
 #include "core/surface/boundary.h"
 #include "core/surface/certificate.h"
 #include "core/surface/cusps.h"
 #include "core/surface/fixed_probes.h"
 #include "core/surface/measure.h"
-#include "core/reduced_surface/reduced_surface.h"
-#include "core/surface/surface.h"
+#include "core/surface/reduced_surface_engine.h"
 #include "core/surface/trim.h"
-#include "core/base/stage_clock.h"
 
 namespace meniscus {
+
+double tie_growth(int attempt) { return attempt == 0 ? 0.0 : 1e-8 * std::pow(3.0, attempt - 1); }
+
+std::vector<Ball> grown_balls(std::span<const Ball> balls, int attempt) {
+  std::vector<Ball> grown(balls.begin(), balls.end());
+  if (attempt == 0) return grown;
+  for (std::size_t n = 0; n < grown.size(); ++n)
+    grown[n].radius += 0.5 * tie_growth(attempt) * (1 + scattered(n + 0x10001u * static_cast<std::size_t>(attempt)));
+  return grown;
+}
+
 Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs, StageClock* clock,
                          CuspTracer* tracer, ClipPlanes planes, const ReducedComponents* cut_within) {
   StageClock unused;
@@ -89,5 +108,52 @@ SurfaceCounts Surface::counts() const {
   n.arcs = n.toroidal - n.free_edges;
   return n;
 }
+
+Surface attempt_surface(ReducedSurfaceEngine& engine, std::span<const Ball> atoms, double probe_radius,
+                        StageClock& clock, ClipPlanes planes) {
+  const ReducedSurface rs = engine.reduce(atoms, probe_radius, clock);
+  return assemble_surface(atoms, probe_radius, rs, &clock, &engine.cusp_tracer(), planes);
+}
+
+Surface compute_surface(ReducedSurfaceEngine& engine, std::span<const Ball> atoms, double probe_radius,
+                        StageClock& clock, ClipPlanes planes) {
+  return compute_through_ties(
+      atoms, [&](std::span<const Ball> balls) { return attempt_surface(engine, balls, probe_radius, clock, planes); });
+}
+
+Surface compute_surface_cpu(std::span<const Ball> atoms, double probe_radius) {
+  const auto engine = make_cpu_engine();
+  StageClock unused;
+  Surface surface = compute_surface(*engine, atoms, probe_radius, unused);
+  require_closed(surface);
+  return surface;
+}
+
+namespace {
+
+class CpuEngine final : public ReducedSurfaceEngine {
+ public:
+  ReducedSurface reduce(std::span<const Ball> atoms, double probe_radius, StageClock& clock) override {
+    const auto stage = clock.stage("reduced surface");
+    stats_ = {};
+    return enumerate_reduced_surface(atoms, probe_radius, &stats_);
+  }
+
+  CuspTracer& cusp_tracer() override { return *cusp_tracer_; }
+  const CircleStats& stats() const override { return stats_; }
+
+  std::string device() const override {
+    const auto threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    return fmt::format("cpu ({} {})", threads, threads == 1 ? "thread" : "threads");
+  }
+
+ private:
+  std::unique_ptr<CuspTracer> cusp_tracer_ = make_cpu_cusp_tracer();
+  CircleStats stats_;
+};
+
+}  // namespace
+
+std::unique_ptr<ReducedSurfaceEngine> make_cpu_engine() { return std::make_unique<CpuEngine>(); }
 
 }  // namespace meniscus

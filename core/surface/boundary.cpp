@@ -13,9 +13,8 @@
 #include <tbb/parallel_for.h>
 
 #include "core/surface/components.h"
-#include "core/surface/large_tables.h"
+#include "core/surface/parallel_tables.h"
 #include "core/surface/loops.h"
-#include "core/surface/numbering.h"
 #include "core/surface/placed_borders.h"
 #include "core/surface/walks.h"
 

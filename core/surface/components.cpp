@@ -1,18 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joins faces across borders by disjoint sets that all threads share, then counts vertices, borders and faces.
+// Joins faces to components, computes their Euler characteristics, and tells outer components from cavities.
 #include "core/surface/components.h"
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <memory>
+#include <span>
 
+#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include "core/math/union_find.h"
-#include "core/surface/numbering.h"
+#include "core/surface/parallel_tables.h"
 #include "core/surface/primitives.h"
+#include "core/surface/spherical.h"
+#include "core/surface/walks.h"
 
 namespace meniscus {
 namespace {
@@ -137,5 +144,154 @@ class ComponentFinder {
 }  // namespace
 
 bool connect_components(Surface& surface) { return ComponentFinder(surface).run(); }
+
+namespace {
+
+// No axis, diagonal or other direction that molecules are likely to be aligned with.
+const glm::dvec3 kDirection = glm::normalize(glm::dvec3(0.5377266, 0.3183099, 0.7788008));
+
+struct Farthest {
+  double border = -std::numeric_limits<double>::infinity();
+  double convex = border;
+  double concave = border;
+};
+
+double farthest_of(const Border& border) {
+  const glm::dvec3 across = kDirection - border.axis * glm::dot(border.axis, kDirection);
+  const double length = glm::length(across), middle = glm::dot(border.center, kDirection);
+  const glm::dvec3 side = glm::cross(border.axis, border.start);
+  const double at_start = middle + border.radius * glm::dot(border.start, kDirection);
+  if (!(length > 0)) return at_start;
+  double turn = std::atan2(glm::dot(side, across), glm::dot(border.start, across));
+  if (turn < 0) turn += 2 * std::acos(-1.0);
+  if (border.vertex[0] == kNone || turn <= border.sweep) return middle + border.radius * length;
+  const double at_end = middle + border.radius * glm::dot(arc_direction(border, border.sweep), kDirection);
+  return std::max(at_start, at_end);
+}
+
+class SideTest {
+ public:
+  SideTest(const Surface& surface, const ConvexPlanes& planes)
+      : s_(surface), planes_(planes), farthest_(surface.components.size()) {}
+
+  std::vector<ComponentKind> run() {
+    look_at_borders();
+    look_at_poles(
+        s_.convex, [&](const ConvexPatch& patch) { return s_.atoms[patch.atom]; },
+        [&](std::uint32_t c, PlaneChoice choice) { return planes_(c, choice); }, &Farthest::convex);
+    if (s_.probe_radius > 0)
+      look_at_poles(
+          s_.concave,
+          [&](const ConcavePatch& patch) {
+            return Ball{patch.center, s_.probe_radius};
+          },
+          [&](std::uint32_t n, PlaneChoice) {
+            return std::span(s_.planes).subspan(s_.concave[n].first_plane, s_.concave[n].plane_count());
+          },
+          &Farthest::concave);
+    std::vector<ComponentKind> kinds;
+    for (const Farthest& f : farthest_) {
+      const bool cavity = s_.probe_radius > 0 ? f.concave > std::max(f.convex, f.border) : !(f.convex > f.border);
+      kinds.push_back(cavity ? ComponentKind::cavity : ComponentKind::outer);
+    }
+    return kinds;
+  }
+
+ private:
+  // Each thread has its own list: of numbers that are only compared the largest is the same in any order.
+  void look_at_borders() {
+    tbb::enumerable_thread_specific<std::vector<double>> lists(
+        [&] { return std::vector<double>(farthest_.size(), -std::numeric_limits<double>::infinity()); });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, s_.borders.size(), 1024), [&](const auto& range) {
+      std::vector<double>& farthest = lists.local();
+      for (std::size_t n = range.begin(); n != range.end(); ++n) look_at(s_.borders[n], farthest);
+    });
+    for (const std::vector<double>& list : lists)
+      for (std::size_t c = 0; c < list.size(); ++c) farthest_[c].border = std::max(farthest_[c].border, list[c]);
+  }
+
+  void look_at(const Border& border, std::vector<double>& farthest) const {
+    const std::uint32_t face = border.face[0] != kNone ? border.face[0] : border.face[1];
+    if (face == kNone) return;
+    double& best = farthest[s_.faces[face].component];
+    if (glm::dot(border.center, kDirection) + border.radius > best) best = std::max(best, farthest_of(border));
+  }
+
+  // What a pole has to be beyond to change anything: a convex one beyond the borders, a concave one beyond those too.
+  static double threshold(const Farthest& farthest, double Farthest::*which) {
+    const double beside = which == &Farthest::concave ? std::max(farthest.convex, farthest.border) : farthest.border;
+    return std::max(farthest.*which, beside);
+  }
+
+  // Of the patches of one table; `ball_of` says on which sphere a patch lies, `planes_of` within which planes.
+  template <typename Patch, typename BallOf, typename PlanesOf>
+  void look_at_poles(const std::vector<Patch>& patches, const BallOf& ball_of, const PlanesOf& planes_of,
+                     double Farthest::*which) {
+    tbb::enumerable_thread_specific<std::vector<std::uint32_t>> lists;  // patches that hold their pole
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, patches.size(), 64), [&](const auto& range) {
+      for (std::size_t n = range.begin(); n != range.end(); ++n) {
+        const Ball ball = ball_of(patches[n]);
+        if (!may_be_farthest(patches[n], ball, which)) continue;
+        const auto patch = static_cast<std::uint32_t>(n);
+        if (holds_pole(ball, [&](PlaneChoice choice) { return planes_of(patch, choice); }))
+          lists.local().push_back(patch);
+      }
+    });
+    for (const std::vector<std::uint32_t>& list : lists)
+      for (const std::uint32_t patch : list) {
+        const Ball ball = ball_of(patches[patch]);
+        double& best = farthest_[s_.faces[face_at_pole(patches[patch], ball)].component].*which;
+        best = std::max(best, glm::dot(pole_of(ball), kDirection));
+      }
+  }
+
+  static glm::dvec3 pole_of(const Ball& ball) { return ball.center + ball.radius * kDirection; }
+
+  template <typename Patch>
+  bool may_be_farthest(const Patch& patch, const Ball& ball, double Farthest::*which) const {
+    const double reached = glm::dot(pole_of(ball), kDirection);
+    return std::ranges::any_of(faces_of(s_, patch),
+                               [&](const Face& face) { return reached > threshold(farthest_[face.component], which); });
+  }
+
+  // As a rule those that border the patch leave the pole out already, and they are found with less work.
+  template <typename Planes>
+  static bool holds_pole(const Ball& ball, const Planes& planes) {
+    const glm::dvec3 pole = pole_of(ball);
+    for (const PlaneChoice choice : {PlaneChoice::bordering, PlaneChoice::all})
+      for (const Plane& plane : planes(choice))
+        if (glm::dot(plane.normal, pole) > plane.offset) return false;
+    return true;
+  }
+
+  // The face of the patch that holds the pole: the one whose loops have it farthest on their left.
+  template <typename Patch>
+  std::uint32_t face_at_pole(const Patch& patch, const Ball& ball) {
+    std::uint32_t best = patch.first_face;
+    double clearest = -3;
+    for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count && patch.face_count > 1; ++f) {
+      double least = 3;
+      for (std::uint32_t l = s_.faces[f].first_loop; l < s_.faces[f].first_loop + s_.faces[f].loop_count; ++l) {
+        walk_loop(s_, s_.loops[l], ball.center, ball.radius, s_.faces[f].kind == PatchKind::concave, loop_);
+        least = std::min(least, distance_left_of(kDirection, loop_));
+      }
+      if (least <= clearest) continue;
+      clearest = least;
+      best = f;
+    }
+    return best;
+  }
+
+  const Surface& s_;
+  const ConvexPlanes& planes_;
+  std::vector<Farthest> farthest_;
+  std::vector<SphereArc> loop_;
+};
+
+}  // namespace
+
+std::vector<ComponentKind> side_of_components(const Surface& surface, const ConvexPlanes& planes) {
+  return SideTest(surface, planes).run();
+}
 
 }  // namespace meniscus

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The connected components of a surface and their Euler characteristics, from its faces and borders.
+// The connected components of a surface, their Euler characteristics, and on which side of each the solid lies.
 #pragma once
+
+#include <vector>
+
+#include "core/surface/primitives.h"
 
 namespace meniscus {
 
@@ -10,5 +14,13 @@ struct Surface;
 /// Two faces are connected where they share a border; a border with one face or none connects nothing. Returns whether
 /// each border has two.
 bool connect_components(Surface& surface);
+
+/// Outer component or cavity, by an argument that needs neither areas nor volumes. Let x be a component's farthest
+/// point in a direction that is not special. A cavity is a union of probes, so x is the pole of the farthest one and
+/// lies inside a concave patch. The solid within an outer component ends at x, while at the pole of a concave patch it
+/// begins; so x is the pole of a convex patch, or lies on a border. With a probe of radius 0 there are no concave
+/// patches, and x is the pole of a convex patch exactly where the component is an outer one.
+/// Returns one kind per component. Needs Face::component, the patches' planes and the borders.
+std::vector<ComponentKind> side_of_components(const Surface& surface, const ConvexPlanes& planes);
 
 }  // namespace meniscus

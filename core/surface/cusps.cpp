@@ -14,7 +14,7 @@
 
 #include "core/math/geometry.h"
 #include "core/reduced_surface/reduced_surface.h"
-#include "core/surface/large_tables.h"
+#include "core/surface/parallel_tables.h"
 #include "core/surface/reduced_components.h"
 #include "core/surface/walks.h"
 

@@ -19,8 +19,7 @@
 #include "core/math/geometry.h"
 #include "core/math/quad_geometry.h"
 #include "core/math/union_find.h"
-#include "core/surface/large_tables.h"
-#include "core/surface/numbering.h"
+#include "core/surface/parallel_tables.h"
 
 namespace meniscus {
 namespace {

@@ -14,7 +14,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "core/surface/component_side.h"
+#include "core/surface/components.h"
 #include "core/surface/spherical.h"
 
 namespace meniscus {

@@ -10,8 +10,7 @@
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
-#include "core/surface/large_tables.h"
-#include "core/surface/numbering.h"
+#include "core/surface/parallel_tables.h"
 
 namespace meniscus {
 namespace {

@@ -21,7 +21,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include "core/base/index.h"
+#include "core/base/constants.h"
 #include "core/math/ball.h"
 
 namespace meniscus {
@@ -149,7 +149,7 @@ struct Component {
 struct Certificate {
   bool closed = false;
   std::vector<std::uint32_t> open_atoms;  ///< atoms at which the surface is not closed; empty when closed
-  double grown_by = 0.0;      ///< Å by which radii were grown at most to tell ties apart (tie_ladder.h); 0 as a rule
+  double grown_by = 0.0;  ///< Å by which radii were grown at most to tell ties apart (compute_surface.h); 0 as a rule
   double exact_within = 0.0;  ///< the surface is exact for radii that differ from the given ones by so many Å at most;
                               ///< 0: for the given ones, whatever the order of the atoms
 };

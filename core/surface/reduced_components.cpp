@@ -9,8 +9,7 @@
 #include "core/math/union_find.h"
 #include "core/reduced_surface/reduced_surface.h"
 #include "core/surface/reduced_surface_engine.h"
-#include "core/surface/surface.h"
-#include "core/surface/tie_ladder.h"
+#include "core/surface/compute_surface.h"
 
 namespace meniscus {
 namespace {

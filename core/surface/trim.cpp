@@ -15,10 +15,10 @@
 #include <tbb/parallel_for.h>
 
 #include "core/math/ball_grid.h"
-#include "core/math/vector_clones.h"
+#include "core/math/vector_loops.h"
 #include "core/reduced_surface/contour/contour.h"
 #include "core/reduced_surface/reduced_surface.h"
-#include "core/surface/large_tables.h"
+#include "core/surface/parallel_tables.h"
 
 namespace meniscus {
 namespace {

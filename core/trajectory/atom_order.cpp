@@ -14,7 +14,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/structure/found_bonds.h"
+#include "core/structure/bonds.h"
 
 namespace meniscus {
 namespace {

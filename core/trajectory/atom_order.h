@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "core/trajectory/frame.h"
+#include "core/trajectory/trajectory.h"
 
 namespace meniscus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One reading thread and a short queue.
+// Reads frames on one thread into a short queue.
 #include "core/trajectory/read_ahead.h"
 
 #include <utility>

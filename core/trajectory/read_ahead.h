@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/trajectory/frame.h"
+#include "core/trajectory/trajectory.h"
 
 namespace meniscus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads tables of frames.
+// Reads tables with a number for each frame of a trajectory.
 #include "core/trajectory/series_table.h"
 
 #include <algorithm>
@@ -10,10 +10,9 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/text/csv_cells.h"
-#include "core/text/parse_number.h"
-#include "core/text/text_file.h"
-#include "core/text/text_lines.h"
+#include "core/base/text_lines.h"
+#include "core/base/parse_number.h"
+#include "core/base/text_file.h"
 
 namespace meniscus {
 

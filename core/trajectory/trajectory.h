@@ -1,18 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A trajectory file, open for reading its frames in any order.
+// A trajectory file, or several in a row, open for reading its frames in any order.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
 #include "core/structure/structure.h"
-#include "core/trajectory/frame.h"
 
 namespace meniscus {
+
+struct Frame {
+  std::vector<glm::dvec3> positions;  ///< Å, one per atom of the file, in its order
+  std::optional<glm::dmat3> cell;     ///< columns: the vectors a, b, c of the periodic box in Å; none: no box
+  std::optional<double> time;         ///< ps
+  std::optional<std::int64_t> step;   ///< of the simulation
+};
 
 /// What every format provides. Frames count from 0 in the order of the file. Memory does not grow with their number,
 /// but for the frame index. One thread at a time.
@@ -70,8 +80,22 @@ struct TrajectoryOptions {
   std::function<std::size_t()> atoms{};
 };
 
-/// Opens a file of any format in core/trajectory/formats/formats.h, told by its content. Throws InputError: missing, no
-/// trajectory, not one whole frame, broken header.
+/// Opens a file of any format in core/trajectory/formats/trajectory_formats.h, told by its content. Throws InputError:
+/// missing, no trajectory, not one whole frame, broken header.
 std::unique_ptr<Trajectory> open_trajectory(const std::string& path, const TrajectoryOptions& options = {});
+
+class JoinedFrames : public Trajectory {
+ public:
+  /// The frames of the first, then those of the second, and so on; all of them, also where one begins before the end of
+  /// the last (then there is a warning). `parts`: at least one. Throws InputError where their atoms differ in number.
+  explicit JoinedFrames(std::vector<std::unique_ptr<Trajectory>> parts);
+
+ private:
+  void read_unchecked(std::uint64_t number, Frame& frame) override;
+  void warn_of_overlap(std::size_t part);
+
+  std::vector<std::unique_ptr<Trajectory>> parts_;
+  std::vector<std::uint64_t> begin_;  ///< of each part its first frame in all
+};
 
 }  // namespace meniscus

@@ -6,7 +6,6 @@
 
 #include "core/gpu/buffer.h"
 #include "core/gpu/program.h"
-#include "core/gpu/texel_buffer.h"
 #include "core/render/ray_cast_scene.h"
 #include "core/visible_surface/visible_atoms.h"
 

@@ -12,9 +12,9 @@
 #include <glm/vec4.hpp>
 
 #include "core/base/error.h"
-#include "core/gpu/gpu_stage.h"
+#include "core/gpu/program.h"
 #include "core/gpu/kernel_records.h"
-#include "core/surface/tie_ladder.h"
+#include "core/surface/compute_surface.h"
 
 namespace meniscus {
 namespace {

@@ -8,13 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "core/gpu/append_list.h"
+#include "core/gpu/kernel_lists.h"
 #include "core/gpu/buffer.h"
-#include "core/gpu/kernel_parameters.h"
 #include "core/gpu/kernel_records.h"
-#include "core/gpu/prefix_sum.h"
 #include "core/gpu/program.h"
-#include "core/gpu/texel_buffer.h"
 #include "core/render/drawable.h"
 #include "core/render/gpu_scene.h"
 #include "core/render/ray_cast_scene.h"
@@ -63,7 +60,7 @@ class ViewPipeline final : public Drawable {
 
   std::span<const Ball> atoms() const override { return atoms_; }
 
-  /// Where the arcs around the view do not close for ties the radii grow by a hair (tie_ladder.h). Throws
+  /// Where the arcs around the view do not close for ties the radii grow by a hair (compute_surface.h). Throws
   /// OpenSurfaceError when that does not help, GpuError, CapacityError.
   const GpuScene& prepare(const PictureFrame& frame, StageClock& clock) override;
   void ask(Readback& readback) override;

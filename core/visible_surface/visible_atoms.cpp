@@ -11,7 +11,7 @@
 
 #include "core/gpu/kernel_records.h"
 #include "core/reduced_surface/gpu/gpu_neighbors.h"
-#include "core/queries/solvent.h"
+#include "core/queries/surface_point.h"
 
 namespace meniscus {
 namespace {

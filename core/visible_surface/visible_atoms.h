@@ -7,11 +7,9 @@
 #include <span>
 
 #include "core/gpu/buffer.h"
-#include "core/gpu/kernel_parameters.h"
-#include "core/gpu/prefix_sum.h"
+#include "core/gpu/kernel_records.h"
+#include "core/gpu/kernel_lists.h"
 #include "core/gpu/program.h"
-#include "core/gpu/readback.h"
-#include "core/gpu/texel_buffer.h"
 #include "core/render/ray_cast_scene.h"
 #include "core/surface/primitives.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tells the formats of volume maps apart.
+// Reads a volume map in the format that its content tells.
 #include "core/volume/read_volume.h"
 
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/text/text_lines.h"
+#include "core/base/text_lines.h"
 
 namespace meniscus {
 namespace {

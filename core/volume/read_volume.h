@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/text/text_file.h"
+#include "core/base/text_file.h"
 #include "core/volume/volume_grid.h"
 
 namespace meniscus {

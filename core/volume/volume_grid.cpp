@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks and samples grids.
+// Checks the size of volume grids, and samples them between their points.
 #include "core/volume/volume_grid.h"
 
 #include <algorithm>

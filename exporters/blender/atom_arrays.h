@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The arrays of the atoms of an object, as all files for Blender have them.
+// The arrays of the atoms of an object, as all files for Blender have them, and what Blender gets to know of each atom.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "core/queries/surface_object.h"
+#include "core/structure/structure.h"
 #include "exporters/blender/mns_file.h"
 
 namespace meniscus::blender {
@@ -37,5 +38,8 @@ void add_atoms(MnsWriter& file, const SurfaceObject& object, const AtomAttribute
 
 /// The lists of names that arrays of atoms point into, as the header of the object has them.
 void add_names(nlohmann::json& header, const AtomAttributes& atoms);
+
+/// Of these atoms of the structure, in this order.
+AtomAttributes atom_attributes(const Structure& structure, const std::vector<std::uint32_t>& atoms);
 
 }  // namespace meniscus::blender

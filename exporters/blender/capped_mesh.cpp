@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sews caps to what is left of a surface.
+// Joins caps to what planes leave of a surface, as one mesh.
 #include "exporters/blender/capped_mesh.h"
 
 #include <utility>

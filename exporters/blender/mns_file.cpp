@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lays out and writes .mns files.
+// Writes the header and the arrays of a .mns file, and describes a camera in JSON.
 #include "exporters/blender/mns_file.h"
+
+#include <zlib.h>
 
 #include <bit>
 #include <cassert>
 #include <cstring>
 
 #include <nlohmann/json.hpp>
-#include <zlib.h>
+
+#include "core/camera/camera_json.h"
 
 namespace meniscus::blender {
 namespace {
@@ -104,6 +107,12 @@ void MnsWriter::write(const std::string& path, Existing existing, nlohmann::json
   put(prologue, 24, static_cast<std::uint64_t>(kPrologue + text.size() + offset));
   file.rewrite_beginning(prologue);
   file.commit();
+}
+
+nlohmann::json shot_object(const Shot& shot) {
+  nlohmann::json camera = camera_object(shot.camera);
+  camera["size"] = {shot.width, shot.height};
+  return camera;
 }
 
 }  // namespace meniscus::blender

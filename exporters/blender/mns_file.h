@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The container of .mns files: a JSON header and aligned little-endian arrays (FORMAT.md).
+// The container of .mns files: a JSON header and aligned little-endian arrays (FORMAT.md), and the camera in them.
 #pragma once
 
 #include <cstddef>
@@ -13,6 +13,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "core/base/output_file.h"
+#include "core/camera/camera.h"
 
 namespace meniscus::blender {
 
@@ -87,5 +88,14 @@ class MnsWriter {
   std::string prefix_;
   std::vector<Array> arrays_;
 };
+
+/// A camera and the picture it is meant for.
+struct Shot {
+  Camera camera;
+  int width = 0, height = 0;  ///< pixels
+};
+
+/// The object of a camera file, and the size of the picture.
+nlohmann::json shot_object(const Shot& shot);
 
 }  // namespace meniscus::blender

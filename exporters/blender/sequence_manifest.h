@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The manifest of a run of .mns files: what all frames share, and which file is which frame.
+// What a run writes beside its .mns files: a manifest of its frames, and the atoms in each frame as one file of arrays.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,5 +41,22 @@ std::string run_name(const SequenceManifest& manifest);
 /// stays. Throws OutputError.
 std::filesystem::path write_manifest(const std::filesystem::path& folder, Existing existing,
                                      const SequenceManifest& manifest);
+
+/// Where atoms stand at one moment.
+struct AtomFrame {
+  std::vector<glm::dvec3> positions;  ///< Å, in the order of the atoms of the object
+  std::optional<double> time;         ///< ps
+};
+
+/// The frames of a run.
+struct AtomFrames {
+  std::vector<std::uint64_t> numbers;  ///< of the trajectory
+  std::function<AtomFrame()> next;     ///< called once for each of them, in order
+};
+
+/// Writes them as FORMAT.md describes. The object stands in one place: its copies are atoms of their own. Throws
+/// OutputError, and what AtomFrames::next throws.
+void write_atoms(const std::string& path, Existing existing, const SurfaceObject& object, const AtomAttributes& atoms,
+                 const Provenance& provenance, const AtomFrames& frames);
 
 }  // namespace meniscus::blender

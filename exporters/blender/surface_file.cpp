@@ -15,7 +15,6 @@
 #include "core/color/volume_paint.h"
 #include "core/mesh/mesh_colors.h"
 #include "exporters/blender/mns_file.h"
-#include "exporters/blender/shot.h"
 
 namespace meniscus::blender {
 namespace {

@@ -14,8 +14,9 @@
 #include "core/queries/surface_object.h"
 #include "core/render/picture_object.h"
 #include "exporters/blender/atom_arrays.h"
-#include "exporters/blender/shot.h"
+#include "exporters/blender/mns_file.h"
 #include "exporters/mesh_files/mesh_file.h"
+#include "exporters/mesh_files/mesh_formats.h"
 
 namespace meniscus::blender {
 

@@ -7,11 +7,12 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/queries/curvature.h"
+#include "core/mesh/mesh_fineness.h"
+#include "core/mesh/mesh_objects.h"
+#include "core/mesh/smoothed_curvature.h"
+#include "core/queries/surface_point.h"
 #include "core/surface/atom_areas.h"
 #include "exporters/mesh_files/vertex_numbers.h"
-#include "core/mesh/mesh_fineness.h"
-#include "core/mesh/smoothed_curvature.h"
 
 namespace meniscus::blender {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes an object of a mesh file of a surface: meshes, welds, numbers, hides, colours, in this order.
+// Makes objects of mesh files: surfaces with colours and numbers, and pockets each in its colour.
 #include "exporters/mesh_files/file_object.h"
 
 #include <algorithm>
@@ -8,11 +8,14 @@
 
 #include <fmt/format.h>
 
+#include "core/base/constants.h"
 #include "core/base/error.h"
+#include "core/color/named_colors.h"
 #include "core/mesh/mesh_colors.h"
-#include "core/queries/combine.h"
-#include "exporters/mesh_files/inner_points.h"
+#include "core/mesh/triangle_mesh.h"
+#include "core/queries/copies.h"
 #include "core/structure/structure.h"
+#include "exporters/mesh_files/inner_points.h"
 
 namespace meniscus {
 namespace {
@@ -119,6 +122,40 @@ void MeshFileMaker::put(const SurfaceView& object, FineMesh mesh) {
 MeshFile MeshFileMaker::take() {
   if (file_.objects.empty()) throw RequestError("nothing of the surface is shown, so there is no mesh to write");
   return std::move(file_);
+}
+
+MeshFile pocket_file(const TriangleMesh& mesh) {
+  MeshFile file;
+  file.about =
+      fmt::format("Meniscus " MENISCUS_VERSION ": pockets, tolerance {} Angstrom, in Angstrom", mesh.tolerance);
+  std::vector<std::uint32_t> vertex(mesh.positions.size(), kNone);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const std::uint32_t pocket = mesh.component[t];
+    while (file.objects.size() <= pocket) {
+      const std::size_t rank = file.objects.size() + 1;
+      file.objects.emplace_back();
+      file.objects.back().name = fmt::format("pocket {}", rank);
+      file.objects.back().numbers = {{"pocket", {}}};
+    }
+    FileObject& object = file.objects[pocket];
+    std::array<std::uint32_t, 3> triangle{};
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t v = mesh.triangles[t][k];
+      if (vertex[v] == kNone) {
+        vertex[v] = static_cast<std::uint32_t>(object.positions.size());
+        object.positions.emplace_back(mesh.positions[v]);
+        object.normals.emplace_back(mesh.normals[v]);
+        object.colors.push_back(bytes_of(categorical_color(pocket)));
+        object.numbers.front().values.push_back(static_cast<float>(pocket + 1));
+        object.atom.push_back(kNone);
+        object.kind.push_back(mesh.kind[t]);
+      }
+      triangle[k] = vertex[v];
+    }
+    object.triangles.push_back(triangle);
+    object.component.push_back(pocket);
+  }
+  return file;
 }
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a surface with its colours to an object of a mesh file.
+// From surfaces with their colours, and from pockets, to objects of a mesh file.
 #pragma once
 
 #include <span>
@@ -8,15 +8,18 @@
 #include <vector>
 
 #include "core/mesh/mesh_fineness.h"
+#include "core/mesh/mesh_objects.h"
 #include "core/mesh/shape_mesh.h"
 #include "core/mesh/weld.h"
 #include "core/queries/surface_object.h"
 #include "exporters/mesh_files/mesh_file.h"
+#include "exporters/mesh_files/mesh_formats.h"
 #include "exporters/mesh_files/vertex_numbers.h"
 
 namespace meniscus {
 
 struct Atom;
+struct TriangleMesh;
 
 /// Files hold floats, programs print three decimals: what is nearer together than this (Å) is welded.
 inline constexpr double kFileStep = 0.001;
@@ -65,5 +68,10 @@ class MeshFileMaker {
   std::uint32_t components_ = 0;
   std::size_t triangles_ = 0, joined_ = 0, fins_ = 0, flipped_ = 0, flat_ = 0;
 };
+
+/// mesh: as pocket_mesh() makes it. Objects are named "pocket 1", ... by rank and have the rank as vertex number
+/// "pocket"; colours are those of categorical_color(). Lengths are in Å. No atoms, no inner points: for formats that
+/// need neither.
+MeshFile pocket_file(const TriangleMesh& mesh);
 
 }  // namespace meniscus

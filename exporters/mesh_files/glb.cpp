@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
-#include "exporters/mesh_files/binary_rows.h"
 #include "exporters/mesh_files/writers.h"
 
 namespace meniscus {

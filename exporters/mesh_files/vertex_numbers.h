@@ -9,8 +9,10 @@
 
 #include "core/color/coloring.h"
 #include "core/mesh/mesh_fineness.h"
+#include "core/mesh/mesh_objects.h"
 #include "core/surface/primitives.h"
 #include "exporters/mesh_files/mesh_file.h"
+#include "exporters/mesh_files/mesh_formats.h"
 
 namespace meniscus {
 

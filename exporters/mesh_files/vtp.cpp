@@ -5,9 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "exporters/mesh_files/binary_rows.h"
 #include "exporters/mesh_files/writers.h"
-#include "exporters/mesh_files/xml_text.h"
 
 namespace meniscus {
 namespace {

@@ -1,6 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The writers of the table, one a file. Each writes all of its file but does not commit it.
+// The writers of the table, and what they share: rows of bytes, rows of text, text in XML. Each writes all of its file
+// but does not commit it.
+//
+// Each writes all of its file but does not commit it.
 #pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstring>
+#include <iterator>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include "core/base/output_file.h"
 #include "exporters/mesh_files/mesh_file.h"
@@ -27,5 +45,69 @@ void write_smesh(OutputFile& file, const MeshFile& mesh);
 void write_dms(OutputFile& file, const MeshFile& mesh);
 /// Binary little-endian PLY (G. Turk 1994).
 void write_ply(OutputFile& file, const MeshFile& mesh);
+
+static_assert(std::endian::native == std::endian::little);
+
+class BinaryRows {
+ public:
+  template <class T>
+  void put(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const std::size_t at = bytes_.size();
+    bytes_.resize(at + sizeof value);
+    std::memcpy(bytes_.data() + at, &value, sizeof value);
+  }
+  template <class T>
+  void put_all(std::span<const T> values) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const auto more = std::as_bytes(values);
+    bytes_.insert(bytes_.end(), more.begin(), more.end());
+  }
+  void put_text(std::string_view text) { put_all(std::span<const char>(text)); }
+  /// Up to a multiple of `size`.
+  void pad(std::size_t size, char with) {
+    while (bytes_.size() % size != 0) put(with);
+  }
+
+  std::size_t size() const { return bytes_.size(); }
+  std::span<const std::byte> bytes() const { return bytes_; }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+/// The beginning, and put_row(n, out) for each n behind it, in order.
+template <typename PutRow>
+std::string text_of_rows(std::string beginning, std::size_t count, const PutRow& put_row) {
+  constexpr std::size_t kChunk = 4096;
+  std::vector<fmt::memory_buffer> parts((count + kChunk - 1) / kChunk);
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t part) {
+    const std::size_t past = std::min(count, (part + 1) * kChunk);
+    for (std::size_t n = part * kChunk; n < past; ++n) put_row(n, std::back_inserter(parts[part]));
+  });
+  std::size_t size = beginning.size();
+  for (const auto& part : parts) size += part.size();
+  beginning.reserve(size);
+  for (const auto& part : parts) beginning.append(part.data(), part.size());
+  return beginning;
+}
+
+/// Letters of ASCII as they are, what XML takes for its own as entities, all else as '_'.
+inline std::string xml_text(std::string_view text) {
+  std::string safe;
+  for (const char c : text) {
+    if (c == '&')
+      safe += "&amp;";
+    else if (c == '<')
+      safe += "&lt;";
+    else if (c == '>')
+      safe += "&gt;";
+    else if (c == '"')
+      safe += "&quot;";
+    else
+      safe += c >= ' ' && c <= '~' ? c : '_';
+  }
+  return safe;
+}
 
 }  // namespace meniscus

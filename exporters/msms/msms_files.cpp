@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Columns of text, row by row.
+// Writes .vert, .face and .area files as columns of text.
 #include "exporters/msms/msms_files.h"
 
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
-#include "core/base/index.h"
-#include "exporters/mesh_files/text_rows.h"
+#include "core/base/constants.h"
+#include "exporters/mesh_files/writers.h"
 
 namespace meniscus {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Picks the triangles of a component, numbers what they are made of, and welds what files could not tell apart.
+// Numbers the vertices and triangles of a component as MSMS does.
 #include "exporters/msms/numbered_mesh.h"
 
 #include <algorithm>
@@ -11,10 +11,10 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "core/base/index.h"
+#include "core/base/constants.h"
 #include "core/math/ball_grid.h"
-#include "core/mesh/weld.h"
 #include "core/mesh/triangle_mesh.h"
+#include "core/mesh/weld.h"
 
 namespace meniscus {
 namespace {

@@ -1,16 +1,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which sphere, face and kind the vertices and triangles of a component are of, numbered as MSMS does.
+// The mesh of a component in the rows of MSMS's files: which sphere, face and kind its vertices and triangles are of.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <vector>
+
+#include <glm/vec3.hpp>
 
 #include "core/surface/reduced_components.h"
-#include "exporters/msms/msms_mesh.h"
 
 namespace meniscus {
 
 struct TriangleMesh;
+
+/// Kinds of faces as files of MSMS 2.6 have them; its manual page has 1 and 3 the other way round.
+enum class MsmsFaceKind : std::uint8_t { contact = 1, reentrant = 2, toric = 3 };
+
+struct MsmsVertex {
+  glm::dvec3 position{0.0}, normal{0.0};  ///< Å; unit, towards the solvent
+  std::int32_t face = 0;   ///< 0: a vertex of the analytic surface; -n: on an edge of face n; n: inside face n
+  std::uint32_t atom = 0;  ///< the touched atom whose sphere is closest, into Surface::atoms
+  std::uint8_t level = 2;  ///< 1: inside a contact face; 3: inside a spheric re-entrant one; 2: all others
+};
+
+struct MsmsTriangle {
+  std::array<std::uint32_t, 3> corner{};  ///< into the vertices, counter-clockwise seen from the solvent
+  MsmsFaceKind kind = MsmsFaceKind::contact;
+  std::uint32_t face = 0;  ///< from 1: toric and re-entrant faces first, contact faces last
+};
+
+/// Closed. Vertices of the analytic surface come first, then those on edges, then those inside faces.
+struct MsmsMesh {
+  std::vector<MsmsVertex> vertices;
+  std::vector<MsmsTriangle> triangles;  ///< in the order of their faces
+};
 
 /// Coordinates in files have three decimals: what lies nearer together would coincide there.
 inline constexpr double kMsmsStep = 0.001;

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A key light from the upper left behind the camera, a dim fill from the right, a little from above and from the
-// viewer.
+// Places the lights of a scene, and writes numbers as the shortest text that reads back the same.
 #include "exporters/path_tracers/lights.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/base/error.h"
 #include "core/math/box.h"
 
 namespace meniscus::path_tracers {
@@ -66,5 +68,25 @@ Lights lights_of(const Scene& scene) {
   add(view.forward, 1.2 * std::max(seen, 3.0 * extent.radius), 1.0f);
   return lights;
 }
+
+namespace {
+
+template <class T>
+std::string finite_text(T value) {
+  if (!std::isfinite(value)) throw Error("export of a scene: a number of the surface is not finite");
+  return fmt::format("{}", value == T(0) ? T(0) : value);  // no -0
+}
+
+template <class Vector>
+std::string joined(const Vector& v, std::string_view between) {
+  return fmt::format("{}{}{}{}{}", number_text(v.x), between, number_text(v.y), between, number_text(v.z));
+}
+
+}  // namespace
+
+std::string number_text(double value) { return finite_text(value); }
+std::string number_text(float value) { return finite_text(value); }
+std::string vector_text(const glm::dvec3& v, std::string_view between) { return joined(v, between); }
+std::string vector_text(const glm::vec3& v, std::string_view between) { return joined(v, between); }
 
 }  // namespace meniscus::path_tracers

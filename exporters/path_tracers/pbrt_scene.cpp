@@ -15,8 +15,6 @@
 #include <glm/geometric.hpp>
 
 #include "exporters/path_tracers/lights.h"
-#include "exporters/path_tracers/number_text.h"
-#include "exporters/path_tracers/optics.h"
 
 namespace meniscus::path_tracers {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes a scene into a folder: its text, and beside it a PLY file for each mesh.
+// Writes a scene into a folder: its text, and beside it a PLY file for each mesh, or one a colour.
 #pragma once
 
 #include <cstddef>
@@ -32,5 +32,12 @@ struct SceneReport {
 /// <name>.xml or <name>.pbrt, and <name>_1.ply and so on; all or none. Throws RequestError where the scene shows
 /// nothing, OutputError.
 SceneReport write_scene(const Scene& scene, const SceneTarget& target);
+
+/// Positions, normals and, where asked for, colours as floats r, g, b, which Mitsuba reads as "vertex_color".
+void write_mesh(OutputFile& file, const SceneMesh& mesh, bool with_colors);
+
+/// In the order in which colours occur; those that are alike in sRGB of 8 bits a channel are one, that which it is
+/// there. The colour of a triangle is that of its corners, which is one.
+std::vector<SceneMesh> split_colors(const SceneMesh& mesh);
 
 }  // namespace meniscus::path_tracers

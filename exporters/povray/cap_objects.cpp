@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One mesh for each plane and colour; hatching is a pattern of POV-Ray's, in the place of the picture's.
+// Cuts the objects of a scene by planes, and writes their caps as flat meshes.
 #include "exporters/povray/cap_objects.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "core/base/text_template.h"
+#include "core/base/text.h"
 #include "core/mesh/mesh_objects.h"
-#include "core/queries/combine.h"
+#include "core/queries/copies.h"
 #include "exporters/povray/scene_templates.h"
 #include "exporters/povray/scene_text.h"
 
@@ -110,6 +111,15 @@ void write_caps(OutputFile& file, const Caps& caps, const SurfaceCut& cut, const
     out.literal("\n}\n");
   }
   flush(0);
+}
+
+CutObjects::CutObjects(std::span<const SurfaceObject> objects, const SurfaceCut& cut, const Camera& camera,
+                       const SceneOptions& options)
+    : cuts_(!cut.planes.empty() && !objects.empty()), objects_(objects) {
+  if (!cuts_) return;
+  caps_ = make_caps(objects, cut, camera, options.width, options.height);
+  whole_ = merged({objects.begin(), objects.end()});
+  objects_ = {&whole_, 1};
 }
 
 }  // namespace meniscus::povray

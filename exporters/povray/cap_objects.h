@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The caps of a surface that planes cut, as flat meshes gathered by plane and colour.
+// The objects of a scene as planes cut them, and their caps as flat meshes gathered by plane and colour.
 #pragma once
 
 #include <cstdint>
@@ -35,5 +35,27 @@ Caps colored_caps(CapMesh mesh, std::span<const SurfaceObject> objects, const Ca
 /// Writes mesh2 objects with their textures, hatched as CapStyle says. origin: Å, of the scene's coordinates. Throws
 /// Error for a number that is not finite.
 void write_caps(OutputFile& file, const Caps& caps, const SurfaceCut& cut, const glm::dvec3& origin);
+
+/// Keeps what it makes; without planes it only looks at the objects given, which must outlive it.
+class CutObjects {
+ public:
+  /// camera and options: how fine caps have to be. Throws as section_caps() and merged() do.
+  CutObjects(std::span<const SurfaceObject> objects, const SurfaceCut& cut, const Camera& camera,
+             const SceneOptions& options);
+  CutObjects(const CutObjects&) = delete;
+  CutObjects& operator=(const CutObjects&) = delete;
+
+  /// All copies as one object where there are planes: each copy is cut elsewhere.
+  std::span<const SurfaceObject> objects() const { return objects_; }
+  bool has_caps() const { return cuts_; }
+  /// CapMesh::atom: into the atoms of the one object.
+  const CapMesh& caps() const { return caps_; }
+
+ private:
+  bool cuts_;
+  SurfaceObject whole_;
+  std::span<const SurfaceObject> objects_;
+  CapMesh caps_;
+};
 
 }  // namespace meniscus::povray

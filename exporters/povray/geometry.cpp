@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes unions of pieces, and places them.
+// Writes surfaces as unions of pieces, and places their copies in the scene.
 #include "exporters/povray/geometry.h"
 
 #include <algorithm>
@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/color/color_key_json.h"
-#include "core/color/volume_paint.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/color/color_key_json.h"
+#include "core/color/volume_paint.h"
 #include "exporters/povray/patch_objects.h"
 #include "exporters/povray/scene_names.h"
 

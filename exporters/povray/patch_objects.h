@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every patch as one POV-Ray primitive cut out by clipped_by: sphere, torus, or the sphere of a fixed probe.
+// Every patch as one POV-Ray primitive cut out by clipped_by, with the exact box around it.
 #pragma once
 
 #include <cstdint>
@@ -57,5 +57,15 @@ class PatchObjects {
   glm::dvec3 origin_;
   std::span<const ClipPlane> clip_;
 };
+
+/// The box of one border arc: its ends and the points where a coordinate turns.
+Box arc_extent(const Border& border);
+
+/// A saddle has no extreme point inside (its Gaussian curvature is negative), so its box is that of its borders and,
+/// for a free spindle, of the cusp points on the axis. The patch needs face_count > 0.
+Box toroidal_extent(const Surface& surface, const ToroidalPatch& patch);
+
+/// The box of the borders and of those poles of the probe that lie inside all planes. The patch needs face_count > 0.
+Box concave_extent(const Surface& surface, const ConcavePatch& patch);
 
 }  // namespace meniscus::povray

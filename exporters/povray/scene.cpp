@@ -9,7 +9,7 @@
 
 #include "core/base/error.h"
 
-#include "exporters/povray/cut_objects.h"
+#include "exporters/povray/cap_objects.h"
 #include "exporters/povray/geometry.h"
 #include "exporters/povray/scene_files.h"
 #include "core/base/text.h"
@@ -18,7 +18,6 @@
 #include "exporters/povray/volume_map.h"
 
 namespace meniscus::povray {
-
 namespace {
 
 /// One more object, ready to be written.

@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 
 #include "exporters/povray/scene_names.h"
+#include "exporters/povray/scene_report.h"
 #include "exporters/povray/scene_templates.h"
 #include "exporters/povray/scene_text.h"
 #include "exporters/povray/volume_map.h"

@@ -14,7 +14,7 @@
 #include "core/color/color_key.h"
 #include "core/queries/colored_shapes.h"
 #include "core/queries/surface_object.h"
-#include "core/render/material.h"
+#include "core/render/look.h"
 #include "core/render/picture_object.h"
 
 namespace meniscus::povray {
@@ -56,7 +56,7 @@ struct SceneOptions {
   bool film = false;                      ///< a surface that is seen through is denser where the view grazes it
   std::optional<ColorKey> colors;         ///< what the colours mean: for <name>_objects.json, and beside the colours
   /// Nothing, or a name for each of the atoms that SurfaceObject::atom counts: pieces then have comments that tell
-  /// their kind and atoms. They may come from a molecule file; what is not harmless (scene_names.h) is left out.
+  /// their kind and atoms. They may come from a molecule file; what is not harmless (scene_report.h) is left out.
   std::vector<std::string> atom_names;
 };
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/math/box.h"
 #include "core/camera/camera.h"
+#include "core/math/box.h"
 #include "exporters/povray/geometry.h"
 #include "exporters/povray/scene_options.h"
 

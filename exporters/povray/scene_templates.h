@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "core/base/text_template.h"
+#include "core/base/text.h"
 
 namespace meniscus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers and vectors as POV-Ray reads them.
+// Writes numbers and vectors as POV-Ray reads them.
 #include "exporters/povray/scene_text.h"
 
 #include <cmath>

@@ -15,7 +15,7 @@ namespace meniscus::povray {
 /// Throws Error when a number is not finite: a scene never holds nan or inf.
 class SceneText {
  public:
-  /// A piece of the scene language; of what came from a file nothing but comments of scene_names.h.
+  /// A piece of the scene language; of what came from a file nothing but comments of scene_report.h.
   SceneText& literal(std::string_view text);
   /// Å, to 1e-6.
   SceneText& length(double value);

@@ -12,8 +12,8 @@
 
 #include "core/color/color_key_json.h"
 #include "core/base/error.h"
-#include "core/base/shared_files.h"
-#include "exporters/povray/cut_objects.h"
+#include "core/base/output_file.h"
+#include "exporters/povray/cap_objects.h"
 #include "exporters/povray/geometry.h"
 #include "exporters/povray/scene_files.h"
 #include "exporters/povray/scene_report.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/base/text_template.h"
+#include "core/base/text.h"
 #include "exporters/povray/scene_templates.h"
 #include "exporters/povray/scene_text.h"
 

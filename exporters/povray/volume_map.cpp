@@ -12,7 +12,6 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/base/text_template.h"
 #include "exporters/povray/scene_templates.h"
 
 namespace meniscus::povray {

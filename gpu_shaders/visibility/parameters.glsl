@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the host tells the kernels of this stage, as uniform blocks of GLSL and structs of C++
-// (core/gpu/kernel_parameters.h says how).
+// (core/gpu/kernel_records.h says how).
 #ifndef MENISCUS_VISIBILITY_PARAMETERS_GLSL
 #define MENISCUS_VISIBILITY_PARAMETERS_GLSL
 

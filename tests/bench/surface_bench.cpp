@@ -15,7 +15,7 @@
 #include "core/reduced_surface/cpu/exhaustive.h"
 #include "core/surface/gpu/gpu_engine.h"
 #include "core/reduced_surface/reduced_surface.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 
 namespace meniscus {
 namespace {

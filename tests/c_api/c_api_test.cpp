@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/c_api/c_objects.h"
 #include "tests/support/run_program.h"
 #include "tests/support/sphere_tracer.h"

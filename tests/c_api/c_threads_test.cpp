@@ -8,7 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/c_api/c_objects.h"
 
 namespace meniscus {

@@ -12,8 +12,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 # the longest name that its path begins with.
 ORDER = [
     ["core/base", "gpu_shaders"],
-    ["core/text", "core/properties"],
-    ["core/math"],
+    ["core/math", "core/properties"],
     ["core/volume"],
     ["core/structure"],
     ["core/structure/selection"],

@@ -31,7 +31,6 @@
 #include "app/process/program_error.h"
 #include "core/base/text.h"
 #include "app/farm/read_bundle.h"
-#include "core/base/text_template.h"
 #include "tests/support/run_program.h"
 
 namespace meniscus::farm {

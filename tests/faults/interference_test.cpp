@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 #include "core/base/error.h"
-#include "core/text/text_file.h"
+#include "core/base/text_file.h"
 #include "tests/support/run_program.h"
 
 namespace meniscus {

@@ -8,13 +8,13 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/base/json_depth.h"
+#include "core/base/text_file.h"
 #include "core/structure/assembly.h"
 #include "core/structure/radii/radii_file.h"
-#include "core/structure/formats/reader.h"
+#include "core/structure/formats/structure_formats.h"
 #include "core/camera/camera_json.h"
 #include "core/camera/camera_path.h"
-#include "core/trajectory/formats/formats.h"
+#include "core/trajectory/formats/trajectory_formats.h"
 #include "core/trajectory/frame_list.h"
 #include "tests/fuzz/target.h"
 #include "tests/support/sanitized.h"

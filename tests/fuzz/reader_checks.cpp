@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/text/parse_number.h"
+#include "core/base/parse_number.h"
 #include "core/base/error.h"
 #include "core/structure/formats/read_structure.h"
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/structure/formats/reader.h"
+#include "core/structure/formats/structure_formats.h"
 #include "tests/fuzz/target.h"
 
 namespace meniscus::fuzz {

@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/text/parse_number.h"
+#include "core/base/parse_number.h"
 #include "core/base/error.h"
 #include "core/structure/periodic_cell.h"
 #include "core/trajectory/trajectory.h"

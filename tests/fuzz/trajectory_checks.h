@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "core/trajectory/formats/formats.h"
+#include "core/trajectory/formats/trajectory_formats.h"
 #include "tests/fuzz/target.h"
 
 namespace meniscus::fuzz {

@@ -16,15 +16,13 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/gpu/append_list.h"
+#include "core/gpu/kernel_lists.h"
 #include "core/gpu/buffer.h"
 #include "core/gpu/egl_context.h"
-#include "core/gpu/embedded_shaders.h"
-#include "core/gpu/gpu_stage.h"
-#include "core/gpu/kernel_parameters.h"
-#include "core/gpu/limits.h"
-#include "core/gpu/prefix_sum.h"
+#include "core/gpu/shader_source.h"
 #include "core/gpu/program.h"
+#include "core/gpu/kernel_records.h"
+#include "core/gpu/context_description.h"
 #include "tests/gpu/kernel_variants.h"
 
 namespace meniscus {

@@ -10,7 +10,7 @@
 #include "core/reduced_surface/cpu/exhaustive.h"
 #include "core/queries/compare.h"
 #include "core/surface/gpu/gpu_engine.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "core/base/stage_clock.h"
 

@@ -11,7 +11,7 @@
 
 #include "core/gpu/buffer.h"
 #include "core/gpu/egl_context.h"
-#include "core/gpu/kernel_parameters.h"
+#include "core/gpu/kernel_records.h"
 #include "core/gpu/program.h"
 #include "tests/gpu/gl_faults.h"
 #include "tests/support/run_program.h"

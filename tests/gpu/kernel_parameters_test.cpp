@@ -11,8 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/gpu/egl_context.h"
-#include "core/gpu/embedded_shaders.h"
-#include "core/gpu/kernel_parameters.h"
+#include "core/gpu/shader_source.h"
 #include "core/gpu/kernel_records.h"
 #include "core/gpu/program.h"
 #include "tests/gpu/kernel_variants.h"

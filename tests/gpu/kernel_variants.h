@@ -5,7 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include "core/gpu/embedded_shaders.h"
 #include "core/gpu/shader_source.h"
 
 namespace meniscus {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/gpu/egl_context.h"
-#include "core/gpu/kernel_parameters.h"
+#include "core/gpu/kernel_records.h"
 #include "core/gpu/program.h"
 #include "core/render/ray_geometry.h"
 #include "tests/support/random_rays.h"

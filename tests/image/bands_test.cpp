@@ -12,12 +12,12 @@
 #include <unistd.h>
 #include <zlib.h>
 
-#include "core/image/png_encoder.h"
-#include "core/queries/combine.h"
+#include "core/image/png_file.h"
+#include "core/queries/copies.h"
 #include "core/render/cpu/cpu_renderer.h"
 #include "core/render/picture_file.h"
 #include "core/scene/cut.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 
 namespace meniscus {

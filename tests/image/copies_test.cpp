@@ -7,11 +7,11 @@
 
 #include <gtest/gtest.h>
 
-#include "core/queries/combine.h"
+#include "core/queries/copies.h"
 #include "core/queries/part.h"
 #include "core/render/cpu/cpu_renderer.h"
 #include "core/render/cpu/visible_copies.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 
 namespace meniscus {

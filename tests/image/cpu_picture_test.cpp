@@ -10,9 +10,9 @@
 #include <tbb/global_control.h>
 
 #include "core/gpu/egl_context.h"
-#include "core/image/display_color.h"
+#include "core/image/color_space.h"
 #include "core/render/surface_renderer.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "core/camera/camera.h"
 

@@ -10,7 +10,7 @@
 #include "core/render/image_output.h"
 #include "core/render/legend.h"
 #include "core/render/renderer.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "core/color/coloring.h"
 

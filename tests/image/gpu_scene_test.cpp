@@ -14,9 +14,9 @@
 
 #include "core/base/error.h"
 #include "core/gpu/egl_context.h"
-#include "core/gpu/limits.h"
+#include "core/gpu/context_description.h"
 #include "core/render/renderer.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "core/color/coloring.h"
 

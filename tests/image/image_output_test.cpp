@@ -19,10 +19,9 @@
 
 #include "core/base/error.h"
 #include "core/image/color_space.h"
-#include "core/image/display_color.h"
 #include "core/image/image_codec.h"
-#include "core/image/png_encoder.h"
-#include "core/base/index.h"
+#include "core/image/png_file.h"
+#include "core/base/constants.h"
 
 namespace meniscus {
 namespace {

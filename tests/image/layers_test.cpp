@@ -8,10 +8,10 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/queries/solvent.h"
+#include "core/queries/surface_point.h"
 #include "core/render/cpu/cpu_renderer.h"
 #include "core/scene/cut.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "core/shapes/shapes.h"
 

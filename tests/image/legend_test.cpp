@@ -17,7 +17,7 @@
 
 #include "core/base/error.h"
 #include "core/image/color_space.h"
-#include "core/base/index.h"
+#include "core/base/constants.h"
 
 namespace meniscus {
 namespace {

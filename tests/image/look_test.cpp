@@ -11,9 +11,9 @@
 
 #include "core/gpu/egl_context.h"
 #include "core/image/color_space.h"
-#include "core/render/presenter.h"
+#include "core/render/look_pass.h"
 #include "core/render/renderer.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "core/color/coloring.h"
 

@@ -14,9 +14,9 @@
 
 #include "core/gpu/egl_context.h"
 #include "core/render/renderer.h"
-#include "core/queries/combine.h"
+#include "core/queries/copies.h"
 #include "core/queries/part.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "core/queries/surface_object.h"
 

@@ -15,7 +15,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/gpu/egl_context.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/image/ray_caster_twin.h"
 #include "tests/support/molecules.h"
 #include "tests/support/sphere_tracer.h"

@@ -13,7 +13,7 @@
 #include "core/structure/formats/read_structure.h"
 #include "core/reduced_surface/cpu/exhaustive.h"
 #include "core/surface/atom_areas.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/preview/two_models.h"
 #include "tests/support/run_program.h"
 

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "tests/support/patch_samples.h"
 #include "tests/support/sanitized.h"

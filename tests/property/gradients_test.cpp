@@ -14,7 +14,7 @@
 
 #include "core/base/error.h"
 #include "core/surface/atom_areas.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 
 namespace meniscus::testing {

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "tests/support/topology.h"
 

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "core/math/union_find.h"
 #include "tests/support/molecules.h"
 #include "tests/support/patch_samples.h"

@@ -10,7 +10,7 @@
 
 #include "core/mesh/tessellate.h"
 #include "core/reduced_surface/reduced_surface.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/prove/families.h"
 #include "tests/prove/surface_check.h"
 #include "tests/support/sanitized.h"

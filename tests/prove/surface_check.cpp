@@ -14,7 +14,7 @@
 #include "core/mesh/tessellate.h"
 #include "core/reduced_surface/reduced_surface.h"
 #include "core/surface/atom_areas.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/prove/completeness.h"
 #include "tests/prove/turning.h"
 #include "tests/support/patch_samples.h"

@@ -8,7 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "core/math/box_tree.h"
+#include "core/math/box.h"
 
 namespace meniscus::testing {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "core/base/error.h"
-#include "core/structure/formats/formats.h"
+#include "core/structure/formats/structure_formats.h"
 #include "core/structure/structure.h"
 
 int main(int count, char** arguments) {

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/trajectory/formats/formats.h"
+#include "core/trajectory/formats/trajectory_formats.h"
 #include "tests/support/run_program.h"
 #include "tests/trajectory/byte_writer.h"
 #include "tests/trajectory/samples.h"

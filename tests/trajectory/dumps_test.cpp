@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/trajectory/formats/formats.h"
+#include "core/trajectory/formats/trajectory_formats.h"
 #include "tests/support/run_program.h"
 #include "tests/trajectory/samples.h"
 #include "core/trajectory/trajectory.h"

@@ -6,7 +6,7 @@
 #include <exception>
 #include <vector>
 
-#include "core/trajectory/formats/formats.h"
+#include "core/trajectory/formats/trajectory_formats.h"
 #include "core/camera/camera.h"
 #include "core/trajectory/trajectory.h"
 

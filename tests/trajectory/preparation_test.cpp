@@ -14,12 +14,10 @@
 
 #include "core/base/error.h"
 #include "core/structure/formats/read_structure.h"
-#include "core/structure/found_bonds.h"
+#include "core/structure/bonds.h"
 #include "core/structure/periodic_cell.h"
 #include "core/trajectory/prepared_frames.h"
 #include "core/trajectory/read_ahead.h"
-#include "core/trajectory/superpose.h"
-#include "core/trajectory/whole_molecules.h"
 
 namespace meniscus {
 namespace {

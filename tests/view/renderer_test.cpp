@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/gpu/egl_context.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "core/visible_surface/view_pipeline.h"
 #include "tests/support/molecules.h"
 #include "core/color/coloring.h"

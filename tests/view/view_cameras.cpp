@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/queries/solvent.h"
+#include "core/queries/surface_point.h"
 
 namespace meniscus::testing {
 namespace {

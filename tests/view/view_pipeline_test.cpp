@@ -14,7 +14,7 @@
 #include "core/gpu/egl_context.h"
 #include "core/reduced_surface/cpu/exhaustive.h"
 #include "core/render/renderer.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "tests/view/view_cameras.h"
 #include "core/color/coloring.h"

@@ -19,7 +19,7 @@
 
 #include "app/preview/command_json.h"
 #include "app/preview/server/page_files.h"
-#include "core/base/json_depth.h"
+#include "core/base/text_file.h"
 
 namespace meniscus {
 namespace {

@@ -18,7 +18,7 @@
 #include "app/preview/server/network.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/image/png_encoder.h"
+#include "core/image/png_file.h"
 
 namespace meniscus {
 namespace {

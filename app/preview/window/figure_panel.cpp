@@ -11,7 +11,7 @@
 
 #include "app/preview/window/widgets.h"
 #include "core/color/color_schemes.h"
-#include "core/color/css_colors.h"
+#include "core/color/named_colors.h"
 #include "core/scene/cut.h"
 
 namespace meniscus {

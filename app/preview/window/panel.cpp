@@ -14,7 +14,8 @@
 
 #include "app/preview/window/widgets.h"
 #include "core/base/text.h"
-#include "core/color/css_colors.h"
+#include "core/color/color_maps.h"
+#include "core/color/color_schemes.h"
 #include "core/color/named_colors.h"
 #include "core/properties/properties.h"
 

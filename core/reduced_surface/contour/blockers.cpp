@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The arithmetic of circle.glsl for many balls at once: loops over columns of numbers, which compilers make vectors of.
+// Lays out the balls around a first one for loops over vectors, and intersects all of them with one circle.
 #include "core/reduced_surface/contour/blockers.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
-#include "core/math/vector_clones.h"
+#include "core/math/vector_loops.h"
 
 namespace meniscus {
-
 namespace {
 
 MENISCUS_VECTOR_CLONES
@@ -60,6 +60,117 @@ void Blockers::sort() {
   std::sort(balls.begin(), balls.end(), [](const Ball& a, const Ball& b) { return a.square < b.square; });
   restart(first_weight_);
   for (const Ball& ball : balls) add(ball.center, ball.weight, ball.label);
+}
+
+namespace {
+
+// How a ball meets a circle as far as that can be told without a half-plane.
+constexpr std::int64_t kSurelyMisses = 0, kSurelyCovers = 1, kClose = 2;
+
+MENISCUS_VECTOR_CLONES
+void tell_apart(const geometry::Circle& circle, double first_weight, double noise, const Blockers::Columns& balls,
+                std::size_t count, std::int64_t* out) {
+  const geometry::Circle c = circle;
+  const Blockers::Columns b = balls;
+  MENISCUS_INDEPENDENT_STEPS
+  for (std::size_t n = 0; n < count; ++n) {
+    double offset;
+    const bool apart = geometry::surely_apart(c, first_weight, noise, {b.x[n], b.y[n], b.z[n]}, b.square[n],
+                                              b.distance[n], b.half_power[n], geometry::kUnitRoundoff, offset);
+    const std::int64_t sure = offset < 0 ? kSurelyCovers : kSurelyMisses;
+    out[n] = apart ? sure : kClose;
+  }
+}
+
+}  // namespace
+
+MENISCUS_VECTOR_CLONES
+void CircleMeetings::meet_all(const geometry::Circle& circle, double unit, double first_weight, const CloseBalls& balls,
+                              std::size_t count, const Columns& out) {
+  const geometry::Circle c = circle;
+  const CloseBalls b = balls;
+  const Columns o = out;
+  MENISCUS_INDEPENDENT_STEPS
+  for (std::size_t n = 0; n < count; ++n) {
+    double margin;
+    const geometry::HalfPlane h =
+        geometry::covered_half_plane(c, first_weight, {b.x[n], b.y[n], b.z[n]}, b.distance[n], b.weight[n], unit);
+    const double meeting = geometry::meet_circle(h, margin);
+    const geometry::CoveredArc arc = geometry::covered_arc(h);
+    o.meeting[n] = margin > 0 ? meeting : kInDoubt;
+    o.begin[n] = arc.begin;
+    o.end[n] = arc.end;
+    o.error[n] = arc.error;
+  }
+}
+
+// Masks instead of choices: compilers would make branches of these.
+MENISCUS_VECTOR_CLONES
+CircleMeetings::Most CircleMeetings::find_most(const Columns& columns, std::size_t count) {
+  const Columns c = columns;
+  std::int64_t meeting = 0, error = 0, widest = 0;
+  MENISCUS_INDEPENDENT_STEPS
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::int64_t cuts = c.meeting[n] == geometry::kCuts ? -1 : 0;
+    const std::int64_t sweep = ordered_bits(geometry::pseudo_sweep(c.begin[n], c.end[n])) & cuts;
+    meeting = std::max(meeting, ordered_bits(c.meeting[n]));
+    error = std::max(error, ordered_bits(c.error[n]) & cuts);
+    widest = std::max(widest, sweep);
+    c.sweep[n] = from_ordered_bits(sweep);
+  }
+  return {from_ordered_bits(meeting), from_ordered_bits(error), from_ordered_bits(widest)};
+}
+
+// Appends the numbers of those in question without a branch: it would not be foreseen.
+bool CircleMeetings::list_close(const geometry::Circle& circle, double noise, const Blockers& blockers,
+                                std::size_t skip) {
+  const std::size_t size = blockers.size(), room = whole_vectors(size);
+  if (near_.size() < room) {
+    near_.resize(room);
+    ball_.resize(room);
+  }
+  tell_apart(circle, blockers.first_weight(), noise, blockers.columns(), room, near_.data());
+  if (skip < size) near_[skip] = kSurelyMisses;
+  std::size_t kept = 0;
+  std::int64_t all = 0;
+  for (std::size_t n = 0; n < size; ++n) {
+    ball_[kept] = static_cast<std::uint32_t>(n);
+    kept += near_[n] == kClose ? 1 : 0;
+    all |= near_[n];
+  }
+  count_ = kept;
+  return (all & kSurelyCovers) == 0;
+}
+
+void CircleMeetings::find(const geometry::Circle& circle, double unit, const Blockers& blockers, std::size_t skip) {
+  if (!list_close(circle, geometry::half_plane_noise(circle, unit), blockers, skip)) {
+    count_ = 0;
+    most_ = {geometry::kCovers, 0, 0};
+    return;
+  }
+  const std::size_t close = count_;
+  count_ = whole_vectors(close);
+  table_.make_room(count_);
+  const auto of = [&](Column c) { return table_.column(c); };
+  const Blockers::Columns from = blockers.columns();
+  double *x = of(kX), *y = of(kY), *z = of(kZ), *weight = of(kWeight), *distance = of(kDistance);
+  for (std::size_t n = 0; n < count_; ++n) {
+    const std::size_t ball = n < close ? ball_[n] : 0;
+    x[n] = from.x[ball];
+    y[n] = from.y[ball];
+    z[n] = from.z[ball];
+    weight[n] = from.weight[ball];
+    distance[n] = from.distance[ball];
+  }
+  const Columns columns{of(kMeeting), of(kBegin), of(kEnd), of(kError), of(kSweep)};
+  meet_all(circle, unit, blockers.first_weight(), {x, y, z, weight, distance}, count_, columns);
+  std::fill(columns.meeting + close, columns.meeting + count_, geometry::kMisses);
+  most_ = find_most(columns, count_);
+}
+
+std::size_t CircleMeetings::widest() const {
+  const double* sweep = table_.column(kSweep);
+  return static_cast<std::size_t>(std::find(sweep, sweep + count_, most_.sweep) - sweep);
 }
 
 }  // namespace meniscus

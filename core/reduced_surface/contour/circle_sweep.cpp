@@ -6,11 +6,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/math/ordered_bits.h"
-#include "core/math/vector_clones.h"
+#include "core/math/vector_loops.h"
 
 namespace meniscus {
-
 namespace {
 
 // Beyond all differences of pseudo-angles: there begin and end the arcs of balls that miss the circle.

@@ -7,7 +7,6 @@
 
 #include "core/math/geometry.h"
 #include "core/reduced_surface/contour/blockers.h"
-#include "core/reduced_surface/contour/circle_meetings.h"
 
 namespace meniscus {
 

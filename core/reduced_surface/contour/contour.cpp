@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contour build-up of one circle: double with an error bound first, quadruple precision where that leaves doubt.
+// Finds the exposed arcs of a circle: quickly, then in double, then in quadruple precision.
+
 #include "core/reduced_surface/contour/contour.h"
 
 #include <algorithm>

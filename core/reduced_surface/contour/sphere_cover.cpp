@@ -11,7 +11,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/math/vector_clones.h"
+#include "core/math/vector_loops.h"
 
 namespace meniscus {
 namespace {

@@ -12,7 +12,6 @@
 
 #include "core/reduced_surface/contour/contour.h"
 #include "core/reduced_surface/contour/sphere_cover.h"
-#include "core/reduced_surface/contour/tie_watch.h"
 #include "core/reduced_surface/cpu/neighbor_search.h"
 #include "core/reduced_surface/whole_spheres.h"
 

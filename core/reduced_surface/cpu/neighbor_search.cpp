@@ -9,7 +9,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "core/math/vector_clones.h"
+#include "core/math/vector_loops.h"
 
 namespace meniscus {
 namespace {

@@ -1,13 +1,144 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one loop over batches of atoms.
+// Runs the kernels that find exposed arcs, batch by batch of atoms, and decides on the host what they leave in doubt.
 #include "core/reduced_surface/gpu/gpu_arcs.h"
 
+#include <algorithm>
+#include <array>
 #include <optional>
+#include <utility>
 
-#include "core/gpu/gpu_stage.h"
+#include <glm/vec4.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "core/gpu/program.h"
+#include "core/gpu/kernel_records.h"
+#include "core/reduced_surface/contour/contour.h"
 #include "core/reduced_surface/reduced_surface.h"
 
 namespace meniscus {
+
+void GpuCircles::upload(std::span<const Ball> host_atoms, std::span<const double> weights, double roundoff) {
+  roundoff_ = roundoff;
+  host_atoms_ = host_atoms;
+  weights_ = weights;
+  exact_.resize(host_atoms.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, exact_.size(), 4096), [&](const auto& range) {
+    for (std::size_t a = range.begin(); a != range.end(); ++a) exact_[a] = glm::dvec4(host_atoms[a].center, weights[a]);
+  });
+  atoms.upload(exact_);
+}
+
+void GpuCircles::restart() {
+  arcs.clear();
+  arcs.make_room();
+  stats_ = {};
+}
+
+void GpuCircles::expose(const BallBatch& batch, StageClock& clock) {
+  stats_.pairs += batch.pair_count;
+  if (batch.pair_count == 0) return;
+  doubtful_.clear();
+  still_doubtful_.clear();
+  {
+    const GpuStage stage(clock, "circles");
+    run(batch, false, batch.pair_count);
+  }
+  if (doubtful_.count() == 0) return;
+  const GpuStage stage(clock, "doubtful circles");
+  stats_.decided_in_double += doubtful_.count();
+  run(batch, true, doubtful_.count());
+  if (still_doubtful_.count() == 0) return;
+  stats_.decided_in_quadruple += still_doubtful_.count();
+  decide_on_host(batch, still_doubtful_.buffer.download<glm::uvec2>(still_doubtful_.count()));
+}
+
+void GpuCircles::expose_later(const BallBatch& batch, StageClock& clock) {
+  still_doubtful_.clear();
+  still_doubtful_.make_room();
+  append_later({&arcs, &doubtful_}, counters_, counts_, [&] {
+    const GpuStage stage(clock, "circles");
+    start(batch, false, batch.pair_count);
+  });
+  const GpuStage stage(clock, "doubtful circles");
+  start(batch, true, doubtful_.capacity());
+}
+
+void GpuCircles::ask(Readback& readback) { readback.ask(counters_, 0, counts_); }
+
+bool GpuCircles::settle(const BallBatch& batch) {
+  stats_ = {batch.pair_count, counts_[1], counts_[2], 0};
+  return settle_all({&arcs, &doubtful_}, counts_) && counts_[2] == 0;
+}
+
+void GpuCircles::tell_count() {
+  const std::uint32_t count = arcs.count();
+  counters_.resize(sizeof counts_);
+  counters_.write(0, &count, sizeof count);
+}
+
+void GpuCircles::run(const BallBatch& batch, bool in_double, std::uint32_t circle_count) {
+  const auto start_it = [&] { start(batch, in_double, circle_count); };
+  if (in_double)
+    append_all({&arcs, &doubtful_, &still_doubtful_}, counters_, counts_, start_it);
+  else
+    append_all({&arcs, &doubtful_}, counters_, counts_, start_it);
+}
+
+void GpuCircles::start(const BallBatch& batch, bool in_double, std::uint32_t circle_count) {
+  ShaderDefines defines = neighbors_.list_defines();
+  if (in_double) defines.emplace_back("DOUBLE_PRECISION", "1");
+  const Program& program = programs_.get("gpu_shaders/reduced_surface/circles.comp", defines);
+  const AppendList& doubtful = in_double ? still_doubtful_ : doubtful_;
+  (in_double ? doubtful_.buffer : neighbors_.pairs).bind(0);
+  neighbors_.first.bind(1);
+  neighbors_.labels.bind(2);
+  if (in_double) {
+    atoms.bind(3);
+  } else {
+    neighbors_.pair_first.bind(3);
+    relative_texels_.view(neighbors_.relative);
+    relative_texels_.bind(0);
+  }
+  arcs.buffer.bind(4);
+  doubtful.buffer.bind(5);
+  counters_.bind(6);
+  neighbors_.balls.bind(7);
+  neighbors_.bind_listed();
+  program.set(kernel::CircleParameters{.doubt = roundoff_,
+                                       .first_entry = batch.first,
+                                       .entry_count = batch.count,
+                                       .circle_count = circle_count,
+                                       .list_limit = neighbors_.list_limit(),
+                                       .arc_capacity = arcs.capacity(),
+                                       .doubtful_capacity = doubtful.capacity()});
+  program.dispatch(group_count(circle_count));
+}
+
+// Double left these in doubt (ties): Contour decides them in quadruple precision.
+void GpuCircles::decide_on_host(const BallBatch& batch, std::vector<glm::uvec2> circles) {
+  std::ranges::sort(circles, {}, [](const glm::uvec2& circle) { return std::pair(circle.x, circle.y); });
+  std::vector<RsArc> found;
+  Contour contour(std::max(roundoff_, geometry::kUnitRoundoff));
+  TieWatch ties;
+  Blockers blockers;
+  NeighborList near;
+  for (const glm::uvec2& circle : circles) {
+    if (near.labels.empty() || near.entry != circle.x) {
+      near = neighbors_.list_of(batch, circle.x);
+      blockers.restart(weights_[near.ball]);
+      for (const std::uint32_t n : near.labels)
+        blockers.add(host_atoms_[n].center - host_atoms_[near.ball].center, weights_[n], n);
+    }
+    const std::uint32_t i = near.ball, place = circle.y - near.first, j = near.labels[place];
+    contour.expose(host_atoms_[j].center - host_atoms_[i].center, weights_[j], blockers, place);
+    ties.look(contour, blockers, place, i, [](std::uint32_t label) { return label; });
+    if (contour.whole()) found.push_back({i, j, kNone, kNone});
+    for (const ExposedArc& arc : contour.arcs()) found.push_back({i, j, arc.begin_by, arc.end_by});
+  }
+  stats_.ties += ties.ties();
+  arcs.append(std::span<const RsArc>(found));
+}
 
 void GpuArcs::upload(std::span<const Ball> atoms, const std::vector<bool>& swallowed, double probe_radius,
                      bool watch_ties) {

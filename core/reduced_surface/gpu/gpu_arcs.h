@@ -1,17 +1,73 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// RS edges on the GPU: the exposed arcs of all atoms, or of those that a view keeps.
+// RS edges on the GPU: the exposed arcs of all circles, single precision first, doubt in double, the rest on the host.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+#include "core/gpu/kernel_lists.h"
+#include "core/gpu/buffer.h"
 #include "core/gpu/program.h"
-#include "core/reduced_surface/gpu/gpu_circles.h"
+#include "core/math/ball.h"
 #include "core/reduced_surface/gpu/gpu_neighbors.h"
+#include "core/reduced_surface/reduced_surface.h"
 
 namespace meniscus {
 
 class StageClock;
+
+/// Kernel "circles" and its buffers. Needs a current GL context.
+class GpuCircles {
+ public:
+  GpuCircles(ProgramCache& programs, GpuNeighbors& neighbors) : programs_(programs), neighbors_(neighbors) {}
+
+  /// New atoms or a new probe; weights: decision weights. Both must stay until the last expose(). roundoff: what double
+  /// precision decides by less is decided on the host, where ties are counted; 0: by less than rounding.
+  void upload(std::span<const Ball> atoms, std::span<const double> weights, double roundoff);
+
+  /// Forgets all arcs and figures.
+  void restart();
+
+  /// Appends the arcs of the batch's circles, in any order. Its pairs must have been listed. Times go to `clock`.
+  void expose(const BallBatch& batch, StageClock& clock);
+
+  /// The same for the only batch, without asking how many arcs there are: none may be left to the host, and lists must
+  /// have had room. What the host has to know comes back with the frame; settle() says whether it was so.
+  void expose_later(const BallBatch& batch, StageClock& clock);
+  void ask(Readback& readback);
+  bool settle(const BallBatch& batch);
+  /// Puts the number of arcs that the host knows where kernels find it.
+  void tell_count();
+
+  /// For kernels: word 0 is the number of arcs, which may be more than have room.
+  const Buffer& counters() const { return counters_; }
+
+  Buffer atoms;  ///< dvec4 per atom: centre in Å, decision weight
+  AppendList arcs{sizeof(RsArc), 1 << 14};
+  const CircleStats& stats() const { return stats_; }
+
+ private:
+  void run(const BallBatch& batch, bool in_double, std::uint32_t circle_count);
+  void start(const BallBatch& batch, bool in_double, std::uint32_t circle_count);
+  void decide_on_host(const BallBatch& batch, std::vector<glm::uvec2> circles);
+
+  ProgramCache& programs_;
+  GpuNeighbors& neighbors_;
+  std::span<const Ball> host_atoms_;
+  std::span<const double> weights_;
+  double roundoff_ = 0;
+  std::vector<glm::dvec4> exact_;                    // of upload(), kept for its memory
+  TexelBuffer relative_texels_{TexelFormat::uint4};  // of the neighbours, which circles fetch most
+  AppendList doubtful_{sizeof(glm::uvec2), 1 << 12}, still_doubtful_{sizeof(glm::uvec2), 1 << 12};
+  Buffer counters_;
+  std::array<std::uint32_t, 3> counts_{};  // arcs, doubtful circles in single precision and in double
+  CircleStats stats_;
+};
 
 /// Grid, neighbours, circles and arcs, batch by batch. Keeps kernels and buffers from frame to frame. Needs a current
 /// GL context.

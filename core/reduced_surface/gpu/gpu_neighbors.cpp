@@ -10,8 +10,8 @@
 #include <tbb/parallel_reduce.h>
 
 #include "core/base/error.h"
-#include "core/gpu/limits.h"
-#include "core/math/grid_spacing.h"
+#include "core/gpu/context_description.h"
+#include "core/math/ball_grid.h"
 
 namespace meniscus {
 namespace {

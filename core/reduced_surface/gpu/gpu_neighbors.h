@@ -13,11 +13,9 @@
 #include <tbb/parallel_for.h>
 
 #include "core/gpu/buffer.h"
-#include "core/gpu/kernel_parameters.h"
-#include "core/gpu/prefix_sum.h"
+#include "core/gpu/kernel_records.h"
+#include "core/gpu/kernel_lists.h"
 #include "core/gpu/program.h"
-#include "core/gpu/readback.h"
-#include "core/gpu/texel_buffer.h"
 #include "core/math/ball.h"
 
 namespace meniscus {

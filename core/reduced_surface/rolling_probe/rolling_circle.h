@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "core/base/index.h"
+#include "core/base/constants.h"
 #include "core/math/geometry.h"
 #include "core/math/quad_geometry.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Packs, lists, casts tiles on all threads.
+// Draws pictures on the CPU: packs surfaces, lists them by tile, casts the tiles on all threads.
 #include "core/render/cpu/cpu_renderer.h"
 
 #include <algorithm>
@@ -15,10 +15,11 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include "core/image/display_color.h"
-#include "core/queries/combine.h"
+#include "core/image/color_space.h"
+#include "core/queries/copies.h"
 #include "core/render/linear_colors.h"
-#include "core/render/picture_collector.h"
+#include "core/render/picture_block.h"
+#include "core/render/shape_packing.h"
 
 namespace meniscus {
 

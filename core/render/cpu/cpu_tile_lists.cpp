@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counts, places and sorts.
+// Lists, on the CPU, the primitives that may show in each tile of a picture.
 #include "core/render/cpu/cpu_tile_lists.h"
 
 #include <algorithm>

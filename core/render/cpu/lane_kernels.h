@@ -14,7 +14,6 @@
 #include <immintrin.h>
 #endif
 
-#include "core/gpu/kernel_parameters.h"
 #include "core/gpu/kernel_records.h"
 #include "core/render/gpu_scene.h"
 

@@ -14,6 +14,7 @@
 #include <glm/vec4.hpp>
 #if defined(__x86_64__)
 #include <immintrin.h>
+
 #endif
 
 #define GEOMETRY inline

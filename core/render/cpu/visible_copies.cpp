@@ -17,10 +17,11 @@
 #include <tbb/parallel_sort.h>
 
 #include "core/math/box.h"
-#include "core/queries/moved.h"
+#include "core/queries/copies.h"
+#include "core/render/hit_point.h"
 #include "core/render/linear_colors.h"
-#include "core/render/component_lookup.h"
 #include "core/render/ray_geometry.h"
+#include "core/render/shape_packing.h"
 
 namespace meniscus {
 namespace {

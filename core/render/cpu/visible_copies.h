@@ -22,7 +22,7 @@
 #include "core/render/cpu/cpu_tile_lists.h"
 #include "core/render/cpu/host_scene.h"
 #include "core/render/cpu/ray_depths.h"
-#include "core/render/picture_collector.h"
+#include "core/render/picture_block.h"
 
 namespace meniscus {
 

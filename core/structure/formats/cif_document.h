@@ -4,7 +4,7 @@
 
 #include <gemmi/cifdoc.hpp>
 
-#include "core/text/text_file.h"
+#include "core/base/text_file.h"
 
 namespace meniscus {
 

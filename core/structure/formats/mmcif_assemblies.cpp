@@ -10,7 +10,7 @@
 #include "core/base/text.h"
 #include "core/structure/assembly.h"
 #include "core/structure/formats/cif_document.h"
-#include "core/text/parse_number.h"
+#include "core/base/parse_number.h"
 #include "core/math/rigid_motion.h"
 #include "core/structure/structure.h"
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/text/text_file.h"
+#include "core/base/text_file.h"
 
 namespace meniscus {
 

@@ -16,12 +16,12 @@
 #include "core/structure/assembly.h"
 #include "core/structure/atom_classes.h"
 #include "core/structure/formats/cif_document.h"
-#include "core/structure/warning_collector.h"
-#include "core/structure/formats/reader.h"
-#include "core/text/parse_number.h"
-#include "core/structure/residue_counter.h"
+#include "core/structure/plausibility.h"
+#include "core/structure/formats/structure_formats.h"
+#include "core/base/parse_number.h"
+#include "core/structure/residues.h"
 #include "core/structure/secondary_structure.h"
-#include "core/text/text_lines.h"
+#include "core/base/text_lines.h"
 
 namespace meniscus {
 namespace {

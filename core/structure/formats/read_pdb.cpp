@@ -15,15 +15,14 @@
 #include "core/base/text.h"
 #include "core/structure/assembly.h"
 #include "core/structure/atom_classes.h"
-#include "core/text/parse_number.h"
-#include "core/structure/warning_collector.h"
-#include "core/structure/formats/pdb_bonds.h"
-#include "core/structure/formats/pdb_columns.h"
-#include "core/structure/formats/pqr_record.h"
-#include "core/structure/formats/reader.h"
-#include "core/structure/residue_counter.h"
+#include "core/base/parse_number.h"
+#include "core/structure/plausibility.h"
+#include "core/structure/formats/pdb_records.h"
+#include "core/structure/formats/read_pqr.h"
+#include "core/structure/formats/structure_formats.h"
+#include "core/structure/residues.h"
 #include "core/structure/secondary_structure.h"
-#include "core/text/text_lines.h"
+#include "core/base/text_lines.h"
 
 namespace meniscus {
 namespace {

@@ -1,21 +1,129 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads PQR: PDB's atom records with charge and radius.
+// Reads PQR files: PDB records whose fields are separated by blanks, with charge and radius.
+#include "core/structure/formats/read_pqr.h"
+
 #include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/parse_number.h"
 #include "core/base/text.h"
+#include "core/base/text_lines.h"
 #include "core/structure/atom_classes.h"
-#include "core/text/parse_number.h"
-#include "core/structure/formats/pdb_columns.h"
-#include "core/structure/formats/pqr_record.h"
-#include "core/structure/formats/reader.h"
-#include "core/structure/residue_counter.h"
-#include "core/text/text_lines.h"
+#include "core/structure/formats/pdb_records.h"
+#include "core/structure/formats/structure_formats.h"
+#include "core/structure/residues.h"
+#include "core/structure/structure.h"
 
 namespace meniscus {
+namespace {
+
+constexpr std::size_t kNumbersStart = 30, kChargeStart = 54;  // PDB's columns 31 and 55
+
+bool is_number(std::string_view field) {
+  double ignored = 0.0;
+  return parse_number(field, ignored);
+}
+
+/// "52" or "52A".
+bool read_residue_number(std::string_view field, PqrRecord& record) {
+  if (!field.empty() && std::isalpha(static_cast<unsigned char>(field.back()))) {
+    record.insertion_code = field.back();
+    field.remove_suffix(1);
+  }
+  std::int64_t number = 0;
+  if (!parse_whole_number(field, number) || number < -1'000'000'000 || number > 1'000'000'000) return false;
+  record.residue_number = static_cast<std::int32_t>(number);
+  return true;
+}
+
+/// Blank-separated: serial, name, residue, chain if there is one, number, insertion code if it stands alone; then five
+/// numbers.
+std::optional<PqrRecord> by_blanks(std::string_view line) {
+  std::vector<std::string_view> fields = fields_of(line.substr(line[0] == 'A' || line[0] == 'a' ? 4 : 6), 13);
+  if (fields.size() < 9 || fields.size() > 11) return std::nullopt;
+  PqrRecord record;
+  std::copy(fields.end() - 5, fields.end(), record.numbers.begin());
+  fields.resize(fields.size() - 5);
+  std::int64_t ignored = 0;
+  if (fields.size() > 4 && fields.back().size() == 1 && std::isalpha(static_cast<unsigned char>(fields.back()[0]))) {
+    record.insertion_code = fields.back()[0];
+    fields.pop_back();
+  }
+  if (fields.size() == 6 || !read_residue_number(fields.back(), record)) return std::nullopt;
+  if (fields.size() < 4 || parse_whole_number(fields[1], ignored)) return std::nullopt;
+  record.name = fields[1];
+  record.residue_name = fields[2];
+  if (fields.size() == 5) record.chain = fields[3];
+  return record;
+}
+
+/// In PDB's columns up to the coordinates, so that fields may touch; charge and radius follow.
+std::optional<PqrRecord> by_columns(std::string_view line) {
+  if (line.size() <= kChargeStart) return std::nullopt;
+  const std::vector<std::string_view> behind = fields_of(line.substr(kChargeStart), 3);
+  if (behind.size() != 2) return std::nullopt;
+  Atom names;
+  read_pdb_names(line.substr(0, kNumbersStart), names);
+  PqrRecord record;
+  record.name = names.name;
+  record.residue_name = names.residue_name;
+  record.chain = names.chain;
+  if (!read_residue_number(trimmed(line.substr(22, 4)), record)) return std::nullopt;
+  record.insertion_code = names.insertion_code;
+  record.altloc = names.altloc;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    record.numbers[axis] = trimmed(line.substr(kNumbersStart + 8 * axis, 8));
+    if (!is_number(record.numbers[axis])) return std::nullopt;
+  }
+  record.numbers[3] = behind[0];
+  record.numbers[4] = behind[1];
+  return record;
+}
+
+bool has_pdb_coordinates(std::string_view line) {
+  return line.size() >= kChargeStart && is_number(line.substr(kNumbersStart, 8)) &&
+         is_number(line.substr(kNumbersStart + 8, 8)) && is_number(line.substr(kNumbersStart + 16, 8));
+}
+
+/// Occupancy and B-factor fill six columns each; PQR's numbers have more decimals and cross the border.
+bool has_occupancy_and_b_factor(std::string_view line) {
+  return has_pdb_coordinates(line) && line.size() > 60 && is_number(line.substr(54, 6)) &&
+         is_number(line.substr(60, 6)) && (line.size() <= 66 || line[66] == ' ');
+}
+
+}  // namespace
+
+std::optional<PqrRecord> parse_pqr_record(std::string_view line) {
+  const std::optional<PqrRecord> blanks = by_blanks(line);
+  if (blanks && !blanks->chain.empty()) return blanks;
+  const std::optional<PqrRecord> columns = by_columns(line);
+  return columns && (!blanks || blanks->numbers == columns->numbers) ? columns : blanks;
+}
+
+AtomRecordStyle style_of_atom_records(std::string_view text) {
+  constexpr std::size_t kEnough = 100;
+  std::size_t records = 0, pqr = 0, coordinates = 0, occupancies = 0;
+  LineReader lines(text);
+  for (std::string_view line; records < kEnough && lines.next(line);) {
+    if (!is_pdb_atom(line)) continue;
+    ++records;
+    const std::optional<PqrRecord> record = parse_pqr_record(line);
+    pqr += record && std::all_of(record->numbers.begin(), record->numbers.end(), is_number);
+    coordinates += has_pdb_coordinates(line);
+    occupancies += has_occupancy_and_b_factor(line);
+  }
+  AtomRecordStyle style;
+  style.any = records > 0;
+  style.pqr = records > 0 && 2 * pqr >= records;
+  style.pdb = coordinates > 0 && !(style.pqr && 2 * occupancies < records);
+  return style;
+}
+
 namespace {
 
 constexpr std::string_view kLine = "ATOM serial name residue [chain] number x y z charge radius";

@@ -11,11 +11,10 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/structure/atom_classes.h"
-#include "core/structure/formats/element_of_mass.h"
 #include "core/structure/formats/prmtop_sections.h"
-#include "core/structure/formats/reader.h"
-#include "core/structure/residue_counter.h"
-#include "core/text/parse_number.h"
+#include "core/structure/formats/structure_formats.h"
+#include "core/structure/residues.h"
+#include "core/base/parse_number.h"
 
 namespace meniscus {
 namespace {

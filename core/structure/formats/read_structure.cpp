@@ -12,12 +12,11 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/option_name.h"
 #include "core/base/text.h"
-#include "core/structure/molecule_bonds.h"
+#include "core/structure/bonds.h"
 #include "core/structure/plausibility.h"
 #include "core/structure/secondary_structure.h"
-#include "core/structure/selection/usual_part.h"
+#include "core/structure/selection/selection.h"
 
 namespace meniscus {
 namespace {

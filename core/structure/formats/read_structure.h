@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "core/structure/altloc.h"
+#include "core/structure/residues.h"
 #include "core/structure/assembly.h"
 #include "core/structure/radii/assign_radii.h"
-#include "core/structure/formats/formats.h"
+#include "core/structure/formats/structure_formats.h"
 #include "core/structure/selection/selection.h"
 #include "core/structure/structure.h"
 

@@ -11,9 +11,9 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/structure/formats/reader.h"
-#include "core/text/parse_number.h"
-#include "core/text/text_lines.h"
+#include "core/structure/formats/structure_formats.h"
+#include "core/base/parse_number.h"
+#include "core/base/text_lines.h"
 
 namespace meniscus {
 namespace {

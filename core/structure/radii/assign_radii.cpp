@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Atoms of equal names and element are looked up once.
+// Gives each atom its radius; atoms of equal names and element are looked up once.
 #include "core/structure/radii/assign_radii.h"
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/text/parse_number.h"
-#include "core/structure/radii.h"
+#include "core/base/parse_number.h"
+#include "core/structure/element_tables.h"
 #include "core/structure/structure.h"
 
 namespace meniscus {

@@ -11,8 +11,8 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/text/parse_number.h"
-#include "core/text/text_lines.h"
+#include "core/base/parse_number.h"
+#include "core/base/text_lines.h"
 
 namespace meniscus {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/structure/radii/radii_file.h"
-#include "core/text/text_file.h"
+#include "core/base/text_file.h"
 
 namespace meniscus {
 

@@ -29,7 +29,7 @@ class RadiiTable {
   /// Patterns are tried in order, after the names.
   void add(NamePattern residue, NamePattern atom, const Entry& entry);
 
-  /// Tries the names as they are, then canonical ones (canonical_names.h), of hydrogens also those with another last
+  /// Tries the names as they are, then canonical ones (residue_names.h), of hydrogens also those with another last
   /// digit (methylene hydrogens are numbered 1, 2 or 2, 3).
   std::optional<FoundRadius> find(const Atom& atom, bool hydrogens_used) const;
 

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The list of sets.
+// Holds the radii sets bondi, protor and united, and finds a set by its name.
 #include "core/structure/radii/radii_set.h"
+
+#include <map>
+
+#include "core/structure/residue_names.h"
+#include "core/structure/element_tables.h"
+#include "core/structure/structure.h"
 
 namespace meniscus {
 namespace {
@@ -23,5 +29,67 @@ std::string radii_set_names() {
   for (const RadiiSet* set : kSets) names += std::string(set->name) + ", ";
   return names + "file";
 }
+
+const RadiiSet kBondiSet{"bondi", "by element; hydrogens are atoms of their own", "Bondi 1964, 1966", false,
+                         [](const Atom& atom) -> std::optional<FoundRadius> {
+                           const ElementRadius found = bondi_radius(atom.element);
+                           return FoundRadius{found.radius,
+                                              atom.element == 0 ? "unknown" : element_symbol(atom.element),
+                                              source_name(found.source)};
+                         }};
+
+// J. Tsai, R. Taylor, C. Chothia & M. Gerstein, J. Mol. Biol. 290, 253 (1999), by bonding class.
+
+namespace {
+
+constexpr const char* kPaper = "Tsai et al. 1999, J. Mol. Biol. 290, 253";
+constexpr const char* kExtension = "FreeSASA's extension of Tsai et al. 1999";
+
+struct Entry {
+  double radius;  // Å
+  const char* source;
+};
+
+// The paper covers proteins; S. Mitternacht, F1000Research 5, 189 (2016) adds nucleotides, selenium and water.
+const std::map<std::string_view, Entry> kProtorRadii{
+    {"C3H0", {1.61, kPaper}},     {"C3H1", {1.76, kPaper}},      {"C4H1", {1.88, kPaper}},
+    {"C4H2", {1.88, kPaper}},     {"C4H3", {1.88, kPaper}},      {"N3H0", {1.64, kPaper}},
+    {"N3H1", {1.64, kPaper}},     {"N3H2", {1.64, kPaper}},      {"N4H3", {1.64, kPaper}},
+    {"O1H0", {1.42, kPaper}},     {"O2H1", {1.46, kPaper}},      {"S2H0", {1.77, kPaper}},
+    {"S2H1", {1.77, kPaper}},     {"P4H0", {1.80, kExtension}},  {"O2H0", {1.46, kExtension}},
+    {"O2H2", {1.46, kExtension}}, {"SE2H1", {1.90, kExtension}}, {"SE2H0", {1.90, kExtension}},
+    {"N2H0", {1.64, kExtension}}};
+
+std::optional<FoundRadius> protor_radius_of(const Atom& atom) {
+  const auto found = kProtorRadii.find(bonding_class(atom.residue_name, atom.name));
+  if (found == kProtorRadii.end()) return std::nullopt;
+  return FoundRadius{found->second.radius, found->first, found->second.source};
+}
+
+}  // namespace
+
+const RadiiSet kProtorSet{"protor", "united atoms by bonding class, as FreeSASA uses them", kPaper, true,
+                          protor_radius_of};
+
+// C. Chothia, J. Mol. Biol. 105, 1 (1976), for proteins; nucleotides by the same kinds of atoms.
+
+namespace {
+
+// Å. Tetrahedral and trigonal carbon, amide and amino nitrogen, oxygen, sulphur. The paper gives no radius for
+// phosphorus and selenium.
+const std::map<std::string_view, double> kUnitedRadii{{"C4", 1.87}, {"C3", 1.76}, {"N4", 1.50}, {"N3", 1.65},
+                                                      {"N2", 1.65}, {"O1", 1.40}, {"O2", 1.40}, {"S2", 1.85}};
+
+std::optional<FoundRadius> united_radius_of(const Atom& atom) {
+  const std::string_view bonding = bonding_class(atom.residue_name, atom.name);
+  const auto found = kUnitedRadii.find(bonding.substr(0, 2));
+  if (found == kUnitedRadii.end()) return std::nullopt;
+  return FoundRadius{found->second, bonding, kUnitedSet.source};
+}
+
+}  // namespace
+
+const RadiiSet kUnitedSet{"united", "united atoms: hydrogens are part of the atoms that carry them",
+                          "Chothia 1976, J. Mol. Biol. 105, 1", true, united_radius_of};
 
 }  // namespace meniscus

@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/parse_number.h"
 #include "core/base/text.h"
+#include "core/base/text_file.h"
+#include "core/base/text_lines.h"
 #include "core/structure/radii/charmm_radii.h"
 #include "core/structure/radii/radii_file.h"
-#include "core/text/parse_number.h"
-#include "core/text/text_file.h"
-#include "core/text/text_lines.h"
 
 namespace meniscus {
 namespace {

@@ -65,4 +65,8 @@ Selection either(const Selection& a, const Selection& b);
 inline constexpr std::size_t kLongestSelection = 65'536;
 inline constexpr int kDeepestSelection = 200;
 
+/// What the atoms of a frame can be if they are not all of the file: "as many as it has without water: choose
+/// --trajectory-atoms 'not water'", or that the two do not belong together.
+std::string advice_on_count(std::span<const Atom> atoms, std::size_t frame_atoms);
+
 }  // namespace meniscus

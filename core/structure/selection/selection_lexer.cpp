@@ -1,9 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One pass from left to right; nothing is looked at twice.
+// Splits a selection into tokens, and reads the patterns, elements, numbers and ranges among them.
 #include "core/structure/selection/selection_lexer.h"
 
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <fmt/format.h>
+
 #include "core/base/error.h"
+#include "core/base/parse_number.h"
 #include "core/base/text.h"
+#include "core/structure/element_tables.h"
 
 namespace meniscus {
 namespace {
@@ -68,6 +78,140 @@ std::vector<Token> tokens_of(std::string_view text) {
   }
   tokens.push_back({TokenKind::end, "", text.size()});
   return tokens;
+}
+
+namespace {
+
+/// Both ends of a range as written, the second empty if it is a single value.
+struct Ends {
+  SelectionValue low;
+  std::optional<SelectionValue> high;
+};
+
+SelectionValue part(const SelectionValue& value, std::size_t first, std::size_t length) {
+  return {value.text.substr(first, length), value.position + first, value.quoted};
+}
+
+/// A minus sign parts a range only behind a digit or an insertion code, so that -5--1 is -5 to -1 and 1e-3 one number.
+std::size_t range_sign(const std::string& text, bool with_letters) {
+  for (std::size_t n = 1; n < text.size(); ++n) {
+    if (text[n] == ':') return n;
+    const auto before = static_cast<unsigned char>(text[n - 1]);
+    if (text[n] == '-' && (std::isdigit(before) || before == '.' || (with_letters && std::isalpha(before)))) return n;
+  }
+  return std::string::npos;
+}
+
+/// Values and ranges: A, A-B, A:B, and A to B, which comes as three values.
+std::vector<Ends> ends_of(std::string_view text, const std::vector<SelectionValue>& values, bool with_letters) {
+  std::vector<Ends> all;
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    const SelectionValue& value = values[n];
+    if (!value.quoted && (value.text == "to" || value.text == "TO")) {
+      if (all.empty() || all.back().high || n + 1 == values.size()) {
+        throw SelectionError("'to' stands between two values, as in 5 to 10", pointed_at(text, value.position));
+      }
+      all.back().high = values[++n];
+      continue;
+    }
+    const std::size_t sign = range_sign(value.text, with_letters);
+    if (sign == std::string::npos) {
+      all.push_back({value, std::nullopt});
+    } else {
+      all.push_back({part(value, 0, sign), part(value, sign + 1, std::string::npos)});
+    }
+  }
+  return all;
+}
+
+[[noreturn]] void refuse_backwards(std::string_view text, const Ends& ends) {
+  throw SelectionError(
+      fmt::format("the range runs backwards, from {} to {}", in_quotes(ends.low.text), in_quotes(ends.high->text)),
+      pointed_at(text, ends.low.position));
+}
+
+ResidueTest::Id residue_id(std::string_view text, const SelectionValue& value) {
+  std::int32_t number = 0;
+  const char* const last = value.text.data() + value.text.size();
+  const auto [end, error] = std::from_chars(value.text.data(), last, number);
+  const bool with_code = end + 1 == last && std::isalpha(static_cast<unsigned char>(*end));
+  if (error != std::errc() || (end != last && !with_code)) {
+    throw SelectionError(
+        fmt::format("{} is no residue number; they look like 52, -3, 52A, 5-10", in_quotes(value.text)),
+        pointed_at(text, value.position));
+  }
+  return {number, with_code ? *end : ' '};
+}
+
+}  // namespace
+
+std::vector<SelectionValue> split_at_plus(const Token& token) {
+  if (token.kind == TokenKind::quoted) return {{token.text, token.position, true}};
+  std::vector<SelectionValue> values;
+  std::size_t first = 0;
+  for (std::size_t n = 1; n + 1 < token.text.size(); ++n) {
+    if (token.text[n] != '+' || n == first) continue;
+    values.push_back({token.text.substr(first, n - first), token.position + first, false});
+    first = n + 1;
+  }
+  values.push_back({token.text.substr(first), token.position + first, false});
+  return values;
+}
+
+std::vector<TextPattern> read_patterns(const std::vector<SelectionValue>& values) {
+  std::vector<TextPattern> patterns;
+  for (const SelectionValue& value : values) {
+    patterns.push_back({value.text, !value.quoted && value.text.find_first_of("*?") != std::string::npos});
+  }
+  return patterns;
+}
+
+std::vector<std::array<double, 2>> read_elements(std::string_view text, const std::vector<SelectionValue>& values) {
+  std::vector<std::array<double, 2>> elements;
+  for (const SelectionValue& value : values) {
+    const double element = element_of_symbol(value.text);
+    if (element == 0.0) {
+      throw SelectionError(fmt::format("{} is no element", in_quotes(value.text)), pointed_at(text, value.position));
+    }
+    elements.push_back({element, element});
+  }
+  return elements;
+}
+
+std::vector<std::array<ResidueTest::Id, 2>> read_residue_ranges(std::string_view text,
+                                                                const std::vector<SelectionValue>& values) {
+  std::vector<std::array<ResidueTest::Id, 2>> ranges;
+  for (const Ends& ends : ends_of(text, values, true)) {
+    const ResidueTest::Id low = residue_id(text, ends.low);
+    const ResidueTest::Id high = ends.high ? residue_id(text, *ends.high) : low;
+    if (high < low) refuse_backwards(text, ends);
+    ranges.push_back({low, high});
+  }
+  return ranges;
+}
+
+double read_number(std::string_view text, const SelectionValue& value, bool whole) {
+  double number = 0.0;
+  if (!parse_number(value.text, number)) {
+    throw SelectionError(fmt::format("{} is no finite number", in_quotes(value.text)),
+                         pointed_at(text, value.position));
+  }
+  if (whole && number != std::floor(number)) {
+    throw SelectionError(fmt::format("{} is no whole number", in_quotes(value.text)), pointed_at(text, value.position));
+  }
+  return number;
+}
+
+std::vector<std::array<double, 2>> read_number_ranges(std::string_view text, const std::vector<SelectionValue>& values,
+                                                      bool whole) {
+  std::vector<std::array<double, 2>> ranges;
+  for (const Ends& ends : ends_of(text, values, false)) {
+    const double low = read_number(text, ends.low, whole);
+    const double high = ends.high ? read_number(text, *ends.high, whole) : low;
+    if (high < low) refuse_backwards(text, ends);
+    ranges.push_back({low, high});
+  }
+  return ranges;
 }
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cuts a selection into words, quoted texts, brackets and operators.
+// Cuts a selection into words, quoted texts, brackets and operators, and reads the values behind its words.
 #pragma once
 
 #include <cstddef>
@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "core/structure/selection/selection_steps.h"
 
 namespace meniscus {
 
@@ -22,5 +24,24 @@ struct Token {
 /// signs < > = ! & |; a single quote opens a quoted text only where a word would begin, so that O5' is a word. Throws
 /// SelectionError for a quote that is not closed and for control characters.
 std::vector<Token> tokens_of(std::string_view text);
+
+/// One value of a list, with its place for messages.
+struct SelectionValue {
+  std::string text;
+  std::size_t position = 0;
+  bool quoted = false;
+};
+
+/// "CA+CB" is two values; "NA+" is one, since nothing follows the sign. Quoted values stay whole.
+std::vector<SelectionValue> split_at_plus(const Token& token);
+
+/// These throw SelectionError pointing into `text`.
+std::vector<TextPattern> read_patterns(const std::vector<SelectionValue>& values);
+std::vector<std::array<double, 2>> read_elements(std::string_view text, const std::vector<SelectionValue>& values);
+std::vector<std::array<ResidueTest::Id, 2>> read_residue_ranges(std::string_view text,
+                                                                const std::vector<SelectionValue>& values);
+std::vector<std::array<double, 2>> read_number_ranges(std::string_view text, const std::vector<SelectionValue>& values,
+                                                      bool whole);
+double read_number(std::string_view text, const SelectionValue& value, bool whole);
 
 }  // namespace meniscus

@@ -9,7 +9,6 @@
 #include "core/structure/selection/selection.h"
 #include "core/structure/selection/selection_lexer.h"
 #include "core/structure/selection/selection_steps.h"
-#include "core/structure/selection/selection_values.h"
 #include "core/structure/selection/selection_words.h"
 
 namespace meniscus {

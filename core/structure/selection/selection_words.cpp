@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of words, and the manual page made of it.
+// Lists the words of the selection language, and makes a manual page of them.
 #include "core/structure/selection/selection_words.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/similar_words.h"
+#include "core/base/text.h"
 #include "core/structure/selection/selection_steps.h"
 
 namespace meniscus {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The engine of compute shaders: grid, neighbours, circles and arcs of atoms, then cuts and cusps of fixed probes.
+// The surface on the GPU: its reduced surface and its singularities.
 #pragma once
 
 #include <memory>
 
 #include "core/gpu/device_choice.h"
+#include "core/gpu/program.h"
+#include "core/surface/cusp_tracer.h"
 #include "core/surface/reduced_surface_engine.h"
 
 namespace meniscus {
@@ -18,5 +20,8 @@ std::unique_ptr<ReducedSurfaceEngine> make_gpu_engine(const EglContext& context)
 
 /// The same in a context of its own, which it leaves current. Throws GpuError if there is no such device.
 std::unique_ptr<ReducedSurfaceEngine> make_gpu_engine(const DeviceChoice& choice);
+
+/// Circles in doubt are decided on the host. The context of `programs` must be current; they live longer.
+std::unique_ptr<CuspTracer> make_gpu_cusp_tracer(ProgramCache& programs);
 
 }  // namespace meniscus

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A file read at any place, which notices when somebody writes to it meanwhile.
+// A file of any size read at any place, as bytes or as lines, which notices when somebody writes to it meanwhile.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace meniscus {
@@ -41,5 +46,43 @@ class BinaryFile {
   std::int64_t modified_ = 0, current_modified_ = 0;
   std::vector<std::byte> tail_;  ///< what stands before the end, to tell appending from writing anew
 };
+
+/// The number that stands at `bytes`, which need not be aligned.
+template <typename Number>
+Number number_at(const std::byte* bytes, std::endian order) {
+  std::array<std::byte, sizeof(Number)> copy;
+  std::memcpy(copy.data(), bytes, sizeof(Number));
+  if (order != std::endian::native) std::reverse(copy.begin(), copy.end());
+  return std::bit_cast<Number>(copy);
+}
+
+/// Goes through the lines of a file from its beginning, or from where seek() says.
+class FileLines {
+ public:
+  /// The file must outlive this object.
+  explicit FileLines(const BinaryFile& file) : file_(file) {}
+
+  /// The next line begins at this offset. What of the block lies behind it stays.
+  void seek(std::uint64_t offset);
+  /// The next line without its end; false behind the last one. A line longer than a block is given in pieces. It holds
+  /// until the next call. Throws InputError as BinaryFile::read.
+  bool next(std::string_view& line);
+
+  std::uint64_t begin() const { return begin_; }                 ///< offset of the line last given
+  std::uint64_t behind() const { return block_begin_ + used_; }  ///< offset behind it and its end
+  bool ended_by_newline() const { return used_ > 0 && block_[used_ - 1] == '\n'; }
+
+ private:
+  const char* find_end() const;
+  void load(std::uint64_t offset);
+
+  const BinaryFile& file_;
+  std::string block_;
+  std::uint64_t block_begin_ = 0, begin_ = 0;
+  std::size_t used_ = 0;
+};
+
+/// The line without the CR of CR LF.
+std::string_view without_return(std::string_view line);
 
 }  // namespace meniscus

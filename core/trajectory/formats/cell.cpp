@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Box vectors from edges and angles.
+// Computes the vectors of a periodic box from its edges and angles.
 #include "core/trajectory/formats/cell.h"
 
 #include <cmath>

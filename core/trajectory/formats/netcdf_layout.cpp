@@ -9,7 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/trajectory/formats/byte_order.h"
+#include "core/trajectory/formats/binary_file.h"
 
 namespace meniscus {
 namespace {

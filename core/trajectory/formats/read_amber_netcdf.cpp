@@ -7,9 +7,9 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/trajectory/formats/byte_order.h"
+#include "core/trajectory/formats/binary_file.h"
 #include "core/trajectory/formats/cell.h"
-#include "core/trajectory/formats/formats.h"
+#include "core/trajectory/formats/trajectory_formats.h"
 #include "core/trajectory/formats/netcdf_layout.h"
 #include "core/trajectory/trajectory.h"
 

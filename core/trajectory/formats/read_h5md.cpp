@@ -12,7 +12,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/base/units.h"
+#include "core/base/constants.h"
 #include "core/trajectory/formats/binary_file.h"
 #include "core/trajectory/formats/cell.h"
 #include "core/structure/structure.h"

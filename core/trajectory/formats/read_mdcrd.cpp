@@ -11,12 +11,11 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/text/parse_number.h"
-#include "core/text/text_lines.h"
+#include "core/base/parse_number.h"
+#include "core/base/text_lines.h"
 #include "core/trajectory/formats/binary_file.h"
 #include "core/trajectory/formats/cell.h"
-#include "core/trajectory/formats/file_lines.h"
-#include "core/trajectory/formats/formats.h"
+#include "core/trajectory/formats/trajectory_formats.h"
 #include "core/trajectory/trajectory.h"
 
 namespace meniscus {

@@ -7,8 +7,8 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/structure/formats/formats.h"
-#include "core/trajectory/formats/formats.h"
+#include "core/structure/formats/structure_formats.h"
+#include "core/trajectory/formats/trajectory_formats.h"
 #include "core/trajectory/formats/text_frames.h"
 #include "core/trajectory/trajectory.h"
 

@@ -8,11 +8,10 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/base/units.h"
+#include "core/base/constants.h"
 #include "core/trajectory/formats/binary_file.h"
-#include "core/trajectory/formats/byte_order.h"
 #include "core/trajectory/formats/cell.h"
-#include "core/trajectory/formats/formats.h"
+#include "core/trajectory/formats/trajectory_formats.h"
 #include "core/trajectory/formats/frame_index.h"
 #include "core/trajectory/trajectory.h"
 

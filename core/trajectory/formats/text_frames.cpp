@@ -7,12 +7,12 @@
 #include <cmath>
 #include <utility>
 
-#include "core/base/units.h"
-#include "core/structure/formats/pdb_columns.h"
-#include "core/text/parse_number.h"
-#include "core/text/text_lines.h"
+#include "core/base/constants.h"
+#include "core/structure/formats/pdb_records.h"
+#include "core/base/parse_number.h"
+#include "core/base/text_lines.h"
 #include "core/trajectory/formats/cell.h"
-#include "core/trajectory/formats/file_lines.h"
+#include "core/trajectory/formats/binary_file.h"
 #include "core/trajectory/trajectory.h"
 
 namespace meniscus {

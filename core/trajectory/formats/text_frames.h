@@ -10,7 +10,7 @@
 
 #include <glm/mat3x3.hpp>
 
-#include "core/structure/formats/reader.h"
+#include "core/structure/formats/structure_formats.h"
 #include "core/trajectory/formats/binary_file.h"
 
 namespace meniscus {

@@ -6,9 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/text/parse_number.h"
+#include "core/base/parse_number.h"
 #include "exporters/bindings/c/caller_memory.h"
-#include "exporters/bindings/c/sized_struct.h"
 
 namespace meniscus::c_api {
 namespace {

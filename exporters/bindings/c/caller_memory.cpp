@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Products are never formed before it is known that they do not overflow.
+// Checks the pointers, counts and strides that callers pass.
 #include "exporters/bindings/c/caller_memory.h"
 
 #include <algorithm>

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Memory that callers pass: every pointer, count and stride of the interface is looked at here before it is followed.
+// Memory that callers pass, looked at here before it is followed: pointers, counts, strides, and structs of other
+// versions' sizes.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <type_traits>
+#include <vector>
 
 #include "exporters/bindings/c/guard.h"
+#include "exporters/bindings/c/include/meniscus/meniscus.h"
 
 namespace meniscus::c_api {
 
@@ -47,6 +52,45 @@ void require_apart(const void* written, std::size_t written_bytes, const char* w
 /// Refuses with MENISCUS_USAGE a field that is kept for later versions and not 0.
 inline void require_zero(std::int32_t reserved, const char* name) {
   if (reserved != 0) refuse(MENISCUS_USAGE, "{} is {}; it has to be 0", name, reserved);
+}
+
+/// Nobody's struct is smaller than its size and one field, or larger than this.
+inline constexpr std::size_t kLargestStruct = 4096;
+
+inline void check_size(std::size_t size, const char* name) {
+  if (size <= sizeof(std::size_t) || size > kLargestStruct)
+    refuse(MENISCUS_USAGE, "{}.size is {}; set it to sizeof({})", name, size, name);
+}
+
+/// What the caller's struct says, and `defaults` where it ends too early. Refuses what this library does not know
+/// unless it is zero.
+template <typename Struct>
+Struct read_struct(const Struct* given, const Struct& defaults, const char* name) {
+  require(given, name);
+  check_size(given->size, name);
+  const auto* const bytes = reinterpret_cast<const unsigned char*>(given);
+  if (given->size > sizeof(Struct) &&
+      std::any_of(bytes + sizeof(Struct), bytes + given->size, [](unsigned char byte) { return byte != 0; }))
+    refuse(MENISCUS_USAGE, "{} asks for more than version {} of this library knows", name, MENISCUS_VERSION);
+  Struct result = defaults;
+  std::memcpy(&result, given, std::min(given->size, sizeof(Struct)));
+  result.size = sizeof(Struct);
+  return result;
+}
+
+/// Fills in as much as the caller's struct has room for.
+template <typename Struct>
+void write_struct(Struct* given, const Struct& value, const char* name) {
+  require(given, name);
+  check_size(given->size, name);
+  const std::size_t size = given->size;
+  std::memcpy(given, &value, std::min(size, sizeof(Struct)));
+  given->size = size;
+}
+
+template <typename Row>
+meniscus_array table_of(const std::vector<Row>& rows) {
+  return {rows.data(), rows.size(), sizeof(Row)};
 }
 
 }  // namespace meniscus::c_api

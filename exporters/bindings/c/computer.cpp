@@ -8,15 +8,15 @@
 #include <utility>
 #include <vector>
 
+#include "core/mesh/check_by_mesh.h"
+#include "core/mesh/compare_mesh.h"
 #include "core/scene/surface_computer.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "exporters/bindings/c/atoms.h"
-#include "exporters/bindings/c/cpu_threads.h"
 #include "exporters/bindings/c/device.h"
 #include "exporters/bindings/c/gl_thread.h"
-#include "exporters/bindings/c/sized_struct.h"
+#include "exporters/bindings/c/caller_memory.h"
 #include "exporters/bindings/c/surface.h"
-#include "core/mesh/check_by_mesh.h"
 
 namespace meniscus::c_api {
 namespace {

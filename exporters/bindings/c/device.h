@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The devices of the C interface in the words of the library.
+// What a call runs on: the devices of the C interface in the words of the library, and how many CPU threads.
 #pragma once
 
 #include <cstdint>
+
+#include <tbb/task_arena.h>
 
 #include "core/gpu/device_choice.h"
 #include "exporters/bindings/c/guard.h"
@@ -21,6 +23,14 @@ inline DeviceChoice gl_of(std::int32_t device) {
                 : device == MENISCUS_AUTO ? DeviceChoice::Kind::automatic
                                           : DeviceChoice::Kind::software;
   return choice;
+}
+
+/// Runs the work in an arena of its own: with so many threads (0: all), and apart from tasks that the caller may have
+/// under way in TBB himself.
+template <typename Work>
+void run_on_threads(int threads, const Work& work) {
+  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  arena.execute(work);
 }
 
 }  // namespace meniscus::c_api

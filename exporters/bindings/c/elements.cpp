@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Van der Waals radii by element.
-#include "core/structure/radii.h"
+#include "core/structure/element_tables.h"
 #include "exporters/bindings/c/caller_memory.h"
 
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One worker, one piece of work at a time.
+// Runs the work of a GL context on one thread, one piece at a time.
 #include "exporters/bindings/c/gl_thread.h"
 
 #include <atomic>

@@ -4,10 +4,11 @@
 
 #include <memory>
 
+#include "core/mesh/mesh_fineness.h"
+#include "core/mesh/mesh_objects.h"
+#include "core/mesh/triangle_mesh.h"
 #include "exporters/bindings/c/counted.h"
 #include "exporters/bindings/c/surface.h"
-#include "core/mesh/mesh_fineness.h"
-#include "core/mesh/triangle_mesh.h"
 
 struct meniscus_mesh : meniscus::c_api::Counted {
   std::shared_ptr<const meniscus::c_api::FinishedSurface> of;

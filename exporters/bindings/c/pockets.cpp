@@ -6,13 +6,12 @@
 #include <vector>
 
 #include "core/pockets/pockets.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "exporters/bindings/c/counted.h"
-#include "exporters/bindings/c/cpu_threads.h"
+#include "exporters/bindings/c/device.h"
 #include "exporters/bindings/c/guard.h"
-#include "exporters/bindings/c/sized_struct.h"
+#include "exporters/bindings/c/caller_memory.h"
 #include "exporters/bindings/c/surface.h"
-#include "exporters/bindings/c/table.h"
 
 /// What stands behind the handle of pockets: their rows, one after the other.
 struct meniscus_pockets : meniscus::c_api::Counted {

@@ -8,11 +8,10 @@
 #include <string_view>
 
 #include "core/base/error.h"
-#include "core/base/option_name.h"
 #include "core/base/text.h"
 #include "core/structure/formats/read_structure.h"
 #include "core/structure/selection/selection.h"
-#include "exporters/bindings/c/sized_struct.h"
+#include "exporters/bindings/c/caller_memory.h"
 
 namespace meniscus::c_api {
 namespace {

@@ -10,13 +10,12 @@
 
 #include "core/base/error.h"
 #include "core/gpu/egl_context.h"
-#include "core/image/display_color.h"
+#include "core/image/color_space.h"
 #include "core/render/surface_renderer.h"
 #include "exporters/bindings/c/atom_colors.h"
-#include "exporters/bindings/c/cpu_threads.h"
 #include "exporters/bindings/c/device.h"
 #include "exporters/bindings/c/gl_thread.h"
-#include "exporters/bindings/c/sized_struct.h"
+#include "exporters/bindings/c/caller_memory.h"
 #include "exporters/bindings/c/surface.h"
 #include "core/camera/camera.h"
 

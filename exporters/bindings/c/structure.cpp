@@ -10,7 +10,7 @@
 #include "exporters/bindings/c/counted.h"
 #include "exporters/bindings/c/guard.h"
 #include "exporters/bindings/c/read_file.h"
-#include "exporters/bindings/c/sized_struct.h"
+#include "exporters/bindings/c/caller_memory.h"
 
 namespace meniscus::c_api {
 namespace {

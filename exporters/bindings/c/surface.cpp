@@ -11,10 +11,9 @@
 
 #include "core/base/error.h"
 #include "core/surface/gradients.h"
-#include "exporters/bindings/c/cpu_threads.h"
+#include "exporters/bindings/c/device.h"
 #include "exporters/bindings/c/guard.h"
-#include "exporters/bindings/c/sized_struct.h"
-#include "exporters/bindings/c/table.h"
+#include "exporters/bindings/c/caller_memory.h"
 
 namespace meniscus::c_api {
 

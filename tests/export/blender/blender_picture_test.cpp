@@ -12,7 +12,7 @@
 
 #include "core/camera/camera.h"
 #include "core/camera/camera_json.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "tests/support/run_program.h"
 #include "tests/support/sphere_tracer.h"

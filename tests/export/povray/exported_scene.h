@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/camera/camera.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "exporters/povray/scene.h"
 #include "tests/export/povray/buffer_comparison.h"
 #include "tests/export/povray/patch_molecules.h"

@@ -10,9 +10,9 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "exporters/povray/palette.h"
-#include "exporters/povray/patch_extent.h"
+#include "exporters/povray/patch_objects.h"
 #include "exporters/povray/scene.h"
 #include "exporters/povray/scene_text.h"
 #include "tests/export/povray/patch_molecules.h"

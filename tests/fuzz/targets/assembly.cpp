@@ -2,7 +2,7 @@
 // Assemblies: operator expressions, the records of PDB and mmCIF, and what is built of them.
 #include <cmath>
 
-#include "core/text/parse_number.h"
+#include "core/base/parse_number.h"
 #include "core/base/error.h"
 #include "core/structure/assembly.h"
 #include "tests/fuzz/reader_checks.h"

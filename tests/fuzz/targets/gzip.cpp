@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Text files, plain and packed with gzip, within a bound on what they may unpack to.
 #include "core/base/error.h"
-#include "core/text/text_file.h"
+#include "core/base/text_file.h"
 #include "tests/fuzz/target.h"
 
 namespace meniscus::fuzz {

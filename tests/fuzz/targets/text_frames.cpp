@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "core/base/error.h"
-#include "core/structure/formats/formats.h"
+#include "core/structure/formats/structure_formats.h"
 #include "tests/fuzz/trajectory_checks.h"
 #include "core/trajectory/trajectory.h"
 

@@ -8,7 +8,7 @@
 
 #include "core/color/color_key.h"
 #include "core/color/named_colors.h"
-#include "core/structure/hydropathy.h"
+#include "core/structure/element_tables.h"
 #include "tests/support/run_program.h"
 #include "tests/unit/color/colored_atoms.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The triangles at vertices, of manifolds and of others.
-#include "core/mesh/corner_lists.h"
+#include "core/mesh/half_edges.h"
 
 #include <array>
 #include <cstdint>

@@ -17,7 +17,7 @@
 #include "core/mesh/mesh_crossings.h"
 #include "core/mesh/tessellate.h"
 #include "core/queries/distance.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/support/distance_to_mesh.h"
 #include "tests/support/molecules.h"
 

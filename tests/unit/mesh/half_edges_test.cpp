@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/mesh/corner_lists.h"
 
 namespace meniscus::testing {
 namespace {

@@ -10,7 +10,7 @@
 #include "core/mesh/tessellate.h"
 #include "core/queries/part.h"
 #include "core/surface/atom_areas.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 
 namespace meniscus {

@@ -11,7 +11,6 @@
 #include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
-#include "core/mesh/crossing_guard.h"
 #include "core/mesh/half_edges.h"
 #include "core/math/ball.h"
 

@@ -14,9 +14,9 @@
 #include <tbb/global_control.h>
 
 #include "core/base/error.h"
-#include "core/mesh/contact_colors.h"
+#include "core/mesh/mesh_colors.h"
 #include "core/mesh/tessellate.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/support/distance_to_mesh.h"
 #include "tests/support/molecules.h"
 #include "tests/support/sphere_tracer.h"

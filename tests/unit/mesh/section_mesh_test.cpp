@@ -12,9 +12,9 @@
 
 #include "core/mesh/section_mesh.h"
 #include "core/mesh/tessellate.h"
-#include "core/queries/combine.h"
-#include "core/queries/solvent.h"
-#include "core/surface/surface.h"
+#include "core/queries/copies.h"
+#include "core/queries/surface_point.h"
+#include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "core/queries/surface_object.h"
 

@@ -11,7 +11,7 @@
 #include "core/base/error.h"
 #include "core/mesh/tessellate.h"
 #include "core/mesh/velocity.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "tests/support/sphere_tracer.h"
 

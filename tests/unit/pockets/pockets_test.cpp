@@ -14,10 +14,9 @@
 
 #include "core/base/error.h"
 #include "core/math/spiral.h"
-#include "core/mesh/pocket_mesh.h"
-#include "core/pockets/pocket_locator.h"
+#include "core/mesh/shape_mesh.h"
 #include "core/queries/part.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "tests/support/sphere_tracer.h"
 #include "core/mesh/triangle_mesh.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Surfaces put together are what one computation of all their atoms gives, and copies stand where they are put.
-#include "core/queries/combine.h"
+#include "core/queries/copies.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "tests/support/patch_samples.h"
 #include "tests/support/topology.h"

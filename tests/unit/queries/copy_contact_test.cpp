@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The closest pair of balls in different copies, against all pairs.
-#include "core/queries/copy_contact.h"
+#include "core/queries/copies.h"
 #include "core/math/rigid_motion.h"
 
 #include <cmath>

@@ -17,7 +17,7 @@
 #include "core/surface/atom_areas.h"
 #include "core/surface/measure.h"
 #include "core/surface/parting.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "tests/support/patch_samples.h"
 

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/reduced_surface/cpu/exhaustive.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 
 namespace meniscus::testing {

@@ -15,7 +15,7 @@
 #include "core/mesh/shape_mesh.h"
 #include "core/shapes/backbone.h"
 #include "core/structure/formats/read_structure.h"
-#include "core/structure/molecule_bonds.h"
+#include "core/structure/bonds.h"
 #include "tests/support/run_program.h"
 #include "tests/support/pdb_line.h"
 #include "core/queries/colored_shapes.h"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/structure/radii/assign_radii.h"
-#include "core/structure/radii.h"
+#include "core/structure/element_tables.h"
 #include "core/structure/structure.h"
 
 namespace meniscus {

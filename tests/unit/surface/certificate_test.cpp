@@ -14,9 +14,8 @@
 #include "core/math/geometry.h"
 #include "core/mesh/compare_mesh.h"
 #include "core/mesh/tessellate.h"
-#include "core/surface/component_side.h"
-#include "core/surface/surface.h"
-#include "core/surface/tie_ladder.h"
+#include "core/surface/components.h"
+#include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 
 namespace meniscus::testing {

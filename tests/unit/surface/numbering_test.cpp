@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 
-#include "core/surface/large_tables.h"
-#include "core/surface/numbering.h"
+#include "core/math/union_find.h"
+#include "core/surface/parallel_tables.h"
 
 namespace meniscus::testing {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "core/surface/atom_areas.h"
 #include "core/surface/reduced_surface_engine.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "core/base/stage_clock.h"
 

@@ -9,7 +9,7 @@
 #include "core/base/error.h"
 #include "core/reduced_surface/cpu/exhaustive.h"
 #include "core/reduced_surface/reduced_surface.h"
-#include "core/surface/surface.h"
+#include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 
 namespace meniscus::testing {

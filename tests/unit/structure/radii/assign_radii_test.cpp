@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/structure/radii/assign_radii.h"
-#include "core/structure/bonding_classes.h"
+#include "core/structure/residue_names.h"
 #include "core/structure/radii/name_pattern.h"
 #include "core/structure/radii/radii_file.h"
 #include "core/structure/formats/read_structure.h"

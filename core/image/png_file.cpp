@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writes pictures as PNG files, and reads and adds the texts that such files carry.
+#include "core/image/png_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "core/image/png_stream.h"
+
+namespace meniscus {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+void add_text(Bytes& bytes, std::string_view text) { bytes.insert(bytes.end(), text.begin(), text.end()); }
+
+void add_note(Bytes& file, std::string_view key, std::string_view text) {
+  Bytes content;
+  add_text(content, key);
+  content.push_back(0);
+  add_text(content, text);
+  add_chunk(file, "tEXt", content);
+}
+
+/// Text of any letters (iTXt, section 11.3.4.5), not compressed, in no language.
+void add_unicode_note(Bytes& file, std::string_view key, std::string_view text) {
+  Bytes content;
+  add_text(content, key);
+  content.insert(content.end(), 5, 0);  // end of the key, no compression, its method, no language, no translated key
+  add_text(content, text);
+  add_chunk(file, "iTXt", content);
+}
+
+/// How large a pixel is printed.
+void add_resolution(Bytes& file, double dots_per_inch) {
+  constexpr double kMetersPerInch = 0.0254;
+  const auto per_meter = static_cast<std::uint32_t>(std::lround(dots_per_inch / kMetersPerInch));
+  Bytes content;
+  add_word(content, per_meter);
+  add_word(content, per_meter);
+  content.push_back(1);  // the unit is the metre
+  add_chunk(file, "pHYs", content);
+}
+
+/// Sizes, then what sRGB means: its gamma, its primaries.
+void add_header(Bytes& file, const ImageToEncode& image) {
+  constexpr std::array<std::uint8_t, 5> kColorType{0, 0, 4, 2, 6};  // by channels
+  Bytes header;
+  add_word(header, static_cast<std::uint32_t>(image.width));
+  add_word(header, static_cast<std::uint32_t>(image.height));
+  for (const std::uint8_t byte :
+       {std::uint8_t{8}, kColorType[image.channels.size()], std::uint8_t{0}, std::uint8_t{0}, std::uint8_t{0}})
+    header.push_back(byte);
+  add_chunk(file, "IHDR", header);
+  Bytes gamma, primaries;
+  add_word(gamma, 45455);
+  for (const std::uint32_t word : {31270u, 32900u, 64000u, 33000u, 30000u, 60000u, 15000u, 6000u})
+    add_word(primaries, word);
+  add_chunk(file, "gAMA", gamma);
+  add_chunk(file, "sRGB", Bytes{3});  // absolute colorimetric
+  add_chunk(file, "cHRM", primaries);
+  add_chunk(file, "oFFs", Bytes(9, 0));
+}
+
+/// What a filter predicts of a byte by those at the left, above, and above at the left (section 9.2).
+/// In 16 bits and without branches, so that compilers make loops over vectors of it.
+template <int filter>
+std::int16_t predicted(std::int16_t left, std::int16_t above, std::int16_t corner) {
+  if constexpr (filter == 0) return 0;
+  if constexpr (filter == 1) return left;
+  if constexpr (filter == 2) return above;
+  if constexpr (filter == 3) return static_cast<std::int16_t>((left + above) / 2);
+  const auto size = [](int difference) { return static_cast<std::int16_t>(difference < 0 ? -difference : difference); };
+  const std::int16_t to_left = size(above - corner), to_above = size(left - corner);
+  const std::int16_t to_corner = size(left + above - 2 * corner);
+  const std::int16_t other = to_above <= to_corner ? above : corner;
+  return ((to_left <= to_above) & (to_left <= to_corner)) ? left : other;
+}
+
+/// Of bytes that stand for -128 to 127, without their signs.
+std::size_t sum_of_differences(const Bytes& bytes) {
+  constexpr std::size_t kTogether = 1 << 16;  // a sum of so many has 32 bits
+  std::size_t sum = 0;
+  for (std::size_t first = 0; first < bytes.size(); first += kTogether) {
+    std::uint32_t part = 0;
+    const std::size_t end = std::min(first + kTogether, bytes.size());
+    for (std::size_t n = first; n < end; ++n)
+      part += std::min(bytes[n], static_cast<std::uint8_t>(256u - bytes[n]));  // 0 wraps to 0
+    sum += part;
+  }
+  return sum;
+}
+
+/// One row of a picture and the one above it.
+struct Row {
+  const std::uint8_t* bytes;
+  const std::uint8_t* above;
+  std::size_t size, pixel;  // bytes
+
+  template <int filter>
+  void write(std::uint8_t* out) const {
+    for (std::size_t n = 0; n < pixel; ++n)
+      out[n] = static_cast<std::uint8_t>(bytes[n] - predicted<filter>(0, above[n], 0));
+    for (std::size_t n = pixel; n < size; ++n)
+      out[n] = static_cast<std::uint8_t>(bytes[n] - predicted<filter>(bytes[n - pixel], above[n], above[n - pixel]));
+  }
+
+  /// Behind its number the filter that leaves the smallest sum of absolute differences (section 12.8).
+  void write_best(std::uint8_t* out, Bytes& trial, bool averages) const {
+    constexpr std::array kFilters{&Row::write<0>, &Row::write<1>, &Row::write<2>, &Row::write<3>, &Row::write<4>};
+    std::size_t least = std::numeric_limits<std::size_t>::max();
+    for (std::size_t filter = 0; filter < kFilters.size(); ++filter) {
+      if (filter == 3 && !averages) continue;
+      (this->*kFilters[filter])(trial.data());
+      const std::size_t sum = sum_of_differences(trial);
+      if (sum >= least) continue;
+      least = sum;
+      out[0] = static_cast<std::uint8_t>(filter);
+      std::ranges::copy(trial, out + 1);
+    }
+  }
+};
+
+Bytes header(const ImageToEncode& image) {
+  Bytes file{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  add_header(file, image);
+  add_note(file, "oiio:ColorSpace", image.color_space);
+  if (image.dots_per_inch > 0.0) add_resolution(file, image.dots_per_inch);
+  if (!image.software.empty()) add_note(file, "Software", image.software);
+  if (!image.command.empty()) add_unicode_note(file, "Description", image.command);
+  if (!image.scene.empty()) add_unicode_note(file, kSceneNote, image.scene);
+  return file;
+}
+
+}  // namespace
+
+PngEncoder::PngEncoder(const ImageToEncode& image, Write write, std::size_t together)
+    : write_(std::move(write)),
+      pixel_(image.channels.size()),
+      row_size_(pixel_ * static_cast<std::size_t>(image.width)),
+      averages_(image.width > 1 && image.height > 1),  // libpng takes none of single rows and columns
+      last_row_(row_size_) {
+  write_(header(image));
+  const std::size_t size = (row_size_ + 1) * static_cast<std::size_t>(image.height);
+  stream_ = std::make_unique<PngStream>(write_, size, together, image.png_level);
+}
+
+PngEncoder::~PngEncoder() = default;
+
+void PngEncoder::add(std::span<const std::uint8_t> rows, int byte_stride) {
+  const auto stride = static_cast<std::size_t>(byte_stride);
+  if (stride == pixel_) return filter(rows);
+  Bytes packed(rows.size() / stride * pixel_);
+  for (std::size_t from = 0, to = 0; to < packed.size(); from += stride, to += pixel_)
+    std::copy_n(&rows[from], pixel_, &packed[to]);
+  filter(packed);
+}
+
+void PngEncoder::filter(std::span<const std::uint8_t> rows) {
+  if (rows.empty()) return;
+  const std::size_t count = rows.size() / row_size_;
+  const std::span<std::uint8_t> filtered = stream_->room(count * (row_size_ + 1));
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const auto& range) {
+    Bytes trial(row_size_);
+    for (std::size_t y = range.begin(); y < range.end(); ++y) {
+      const std::uint8_t* const first = &rows[y * row_size_];
+      Row{first, y > 0 ? first - row_size_ : last_row_.data(), row_size_, pixel_}.write_best(
+          &filtered[y * (row_size_ + 1)], trial, averages_);
+    }
+  });
+  std::ranges::copy(rows.last(row_size_), last_row_.begin());
+}
+
+void PngEncoder::finish() {
+  stream_->finish();
+  Bytes end;
+  add_chunk(end, "IEND", Bytes{});
+  write_(end);
+}
+
+std::vector<std::uint8_t> encode_png(const ImageToEncode& image, std::span<const std::uint8_t> pixels,
+                                     int byte_stride) {
+  Bytes file;
+  PngEncoder encoder(image,
+                     [&](std::span<const std::uint8_t> bytes) { file.insert(file.end(), bytes.begin(), bytes.end()); });
+  encoder.add(pixels, byte_stride);
+  encoder.finish();
+  return file;
+}
+
+namespace {
+
+constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
+constexpr std::uint32_t kLongestNote = 16u << 20;
+
+std::uint32_t word_at(const char* bytes) {
+  std::uint32_t word = 0;
+  for (int n = 0; n < 4; ++n) word = word << 8 | static_cast<unsigned char>(bytes[n]);
+  return word;
+}
+
+}  // namespace
+
+bool is_png(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, 8> head{};
+  return file.read(head.data(), head.size()) && std::string_view(head.data(), head.size()) == kSignature;
+}
+
+std::optional<std::string> png_note(const std::filesystem::path& path, std::string_view key) {
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, 8> head{};
+  if (!file.read(head.data(), head.size()) || std::string_view(head.data(), head.size()) != kSignature) return {};
+  // Key, its end, compression, its method, ends of language and translated key.
+  std::string start(key);
+  start.append(5, '\0');
+  while (file.read(head.data(), head.size())) {
+    const std::uint32_t length = word_at(head.data());
+    const std::string_view kind(head.data() + 4, 4);
+    if (kind == "IDAT" || kind == "IEND") return {};  // ours stand before the pixels
+    if (kind == "iTXt" && length <= kLongestNote) {
+      std::string content(length, '\0');
+      if (!file.read(content.data(), length)) return {};
+      if (content.starts_with(start)) return content.substr(start.size());
+      file.seekg(4, std::ios::cur);
+    } else {
+      file.seekg(static_cast<std::streamoff>(length) + 4, std::ios::cur);
+    }
+  }
+  return {};
+}
+
+}  // namespace meniscus

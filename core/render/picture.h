@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A finished picture in memory, and what is wanted of one, whatever makes it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "core/base/stage_clock.h"
+#include "core/render/look.h"
+
+namespace meniscus {
+
+/// Rows from the top, pixels from the left. All AOV arrays are empty unless they were asked for.
+struct Framebuffer {
+  glm::ivec2 size{0};
+  std::vector<glm::vec4> color;  ///< linear, alpha-premultiplied, alpha = share of the pixel's samples that hit
+
+  /// Distance along the ray from the camera's position (orthographic: from the plane through it), Å; +inf: no hit.
+  std::vector<float> z;
+  std::vector<glm::vec3> normal;         ///< towards the solvent; 0 where nothing is hit
+  std::vector<glm::vec3> position;       ///< Å; 0 where nothing is hit
+  std::vector<std::uint32_t> atom;       ///< index into Surface::atoms, or kNone
+  std::vector<std::uint32_t> kind;       ///< PatchKind, kShape, kCap, or kNone
+  std::vector<std::uint32_t> component;  ///< index into Surface::components, or kNone
+  std::vector<std::uint32_t> object;     ///< of several: which one; empty for one
+
+  /// Beyond PatchKind: on a shape beside a surface, on a plane that cuts one.
+  static constexpr std::uint32_t kShape = 3, kCap = 4;
+};
+
+/// How a picture is made.
+struct RenderSettings {
+  glm::ivec2 size{1024, 768};  ///< pixels
+  int samples = 1;             ///< rays per pixel, the first through its centre
+  bool aovs = false;           ///< of render(): fill the AOV arrays too; for drawables with a surface()
+  int block_edge = 2048;       ///< of render(): larger pictures are cast in blocks of at most this edge, in pixels
+  Look look;                   ///< its background is that of draw(); render() leaves it transparent
+  StageTiming timing = StageTiming::rough;
+  /// Of render() on the CPU: called now and then on the thread that asked for the picture, with the share of it that is
+  /// cast, from 0 to 1; what it throws ends the picture.
+  std::function<void(double share)> progress{};
+  /// Of render(): takes the picture in bands of whole rows, from the top, so that it is never in memory as a whole;
+  /// what render() returns has its size and no pixels. Bands are pictures of their own, of rows from `first_row` on,
+  /// and have the same pixels as the whole picture. What it throws ends the picture.
+  std::function<void(Framebuffer band, int first_row)> take_band{};
+};
+
+}  // namespace meniscus

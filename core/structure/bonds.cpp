@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Collects the bonds of a molecule from its file, from templates of residues, and from distances.
+#include "core/structure/bonds.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+
+#include <gemmi/elem.hpp>
+#include <glm/geometric.hpp>
+
+#include "core/math/ball_grid.h"
+#include "core/structure/residue_names.h"
+
+namespace meniscus {
+namespace {
+
+constexpr std::string_view kBackboneBonds =
+    "N-CA-C-O C-OXT C-O1 C-O2 C-OC1 C-OC2";  // the last four: ends of chains by GROMACS
+constexpr std::string_view kSugarBonds = "OP1-P-OP2 P-OP3 P-O5'-C5'-C4'-C3'-C2'-C1'-O4'-C4' C3'-O3' C2'-O2'";
+
+/// Heavy atoms of a residue beyond its backbone or sugar: paths of bonded atoms, names of wwPDB's components.
+constexpr std::pair<std::string_view, std::string_view> kSideChainBonds[] = {
+    {"ALA", "CA-CB"},
+    {"ARG", "CA-CB-CG-CD-NE-CZ-NH1 CZ-NH2"},
+    {"ASN", "CA-CB-CG-OD1 CG-ND2"},
+    {"ASP", "CA-CB-CG-OD1 CG-OD2"},
+    {"CYS", "CA-CB-SG"},
+    {"GLN", "CA-CB-CG-CD-OE1 CD-NE2"},
+    {"GLU", "CA-CB-CG-CD-OE1 CD-OE2"},
+    {"GLY", ""},
+    {"HIS", "CA-CB-CG-ND1-CE1-NE2-CD2-CG"},
+    {"ILE", "CA-CB-CG1-CD1 CB-CG2"},
+    {"LEU", "CA-CB-CG-CD1 CG-CD2"},
+    {"LYS", "CA-CB-CG-CD-CE-NZ"},
+    {"MET", "CA-CB-CG-SD-CE"},
+    {"MSE", "CA-CB-CG-SE-CE"},
+    {"PHE", "CA-CB-CG-CD1-CE1-CZ-CE2-CD2-CG"},
+    {"PRO", "CA-CB-CG-CD-N"},
+    {"SER", "CA-CB-OG"},
+    {"THR", "CA-CB-OG1 CB-CG2"},
+    {"TRP", "CA-CB-CG-CD1-NE1-CE2-CD2-CG CD2-CE3-CZ3-CH2-CZ2-CE2"},
+    {"TYR", "CA-CB-CG-CD1-CE1-CZ-CE2-CD2-CG CZ-OH"},
+    {"VAL", "CA-CB-CG1 CB-CG2"},
+    {"ACE", "CH3-C-O"},
+    {"NME", "N-CH3 N-C"},
+    {"NH2", ""},
+    {"HOH", ""},
+    {"A", "C1'-N9-C8-N7-C5-C6-N1-C2-N3-C4-N9 C4-C5 C6-N6"},
+    {"G", "C1'-N9-C8-N7-C5-C6-N1-C2-N3-C4-N9 C4-C5 C6-O6 C2-N2"},
+    {"C", "C1'-N1-C2-N3-C4-C5-C6-N1 C2-O2 C4-N4"},
+    {"U", "C1'-N1-C2-N3-C4-C5-C6-N1 C2-O2 C4-O4"},
+    {"DA", "C1'-N9-C8-N7-C5-C6-N1-C2-N3-C4-N9 C4-C5 C6-N6"},
+    {"DG", "C1'-N9-C8-N7-C5-C6-N1-C2-N3-C4-N9 C4-C5 C6-O6 C2-N2"},
+    {"DC", "C1'-N1-C2-N3-C4-C5-C6-N1 C2-O2 C4-N4"},
+    {"DT", "C1'-N1-C2-N3-C4-C5-C6-N1 C2-O2 C4-O4 C5-C7 C5-C5M"},
+};
+
+class BondFinder {
+ public:
+  BondFinder(std::span<const Atom> atoms, std::span<const glm::dvec3> positions,
+             const std::optional<PeriodicCell>& cell)
+      : atoms_(atoms), positions_(positions), cell_(cell) {
+    for (std::uint32_t n = 0; n < atoms.size(); ++n) {
+      if (n == 0 || atoms[n].residue != atoms[n - 1].residue) begins_.push_back(n);
+    }
+    begins_.push_back(static_cast<std::uint32_t>(atoms.size()));
+  }
+
+  std::vector<Bond> by_template() {
+    for (std::size_t r = 0; r + 1 < begins_.size(); ++r) {
+      const std::string residue = canonical_residue(atoms_[begins_[r]].residue_name);
+      const Names names = names_of(r, residue);
+      for (const auto& [name, side_chain] : kSideChainBonds) {
+        if (name != residue) continue;
+        join_path(names, kBackboneBonds);
+        join_path(names, kSugarBonds);
+        join_path(names, side_chain);
+      }
+      join_hydrogens(r);
+      if (r > 0 && atoms_[begins_[r]].chain == atoms_[begins_[r - 1]].chain) {
+        join(last_names_, "C", names, "N");
+        join(last_names_, "O3'", names, "P");
+      }
+      last_names_ = names;
+    }
+    return std::move(bonds_);
+  }
+
+  std::vector<Bond> by_distance() {
+    for (std::size_t r = 0; r + 1 < begins_.size(); ++r) {
+      const bool continues = r > 0 && atoms_[begins_[r]].chain == atoms_[begins_[r - 1]].chain;
+      for (std::uint32_t a = begins_[r]; a < begins_[r + 1]; ++a)
+        for (std::uint32_t b = continues ? begins_[r - 1] : begins_[r]; b < a; ++b)
+          if (squared_distance(a, b) <= squared_reach(a, b)) bonds_.push_back({b, a});
+    }
+    return std::move(bonds_);
+  }
+
+ private:
+  using Names = std::unordered_map<std::string, std::uint32_t>;
+
+  Names names_of(std::size_t r, const std::string& residue) const {
+    Names names;
+    for (std::uint32_t n = begins_[r]; n < begins_[r + 1]; ++n)
+      if (atoms_[n].element != 1) names.try_emplace(canonical_atom(residue, atoms_[n].name), n);
+    return names;
+  }
+
+  double squared_distance(std::uint32_t a, std::uint32_t b) const {
+    glm::dvec3 d = positions_[a] - positions_[b];
+    if (cell_) d = cell_->shortest(d);
+    return glm::dot(d, d);
+  }
+
+  double squared_reach(std::uint32_t a, std::uint32_t b) const {
+    const auto radius = [&](std::uint32_t n) { return gemmi::Element(atoms_[n].element).covalent_r(); };
+    if (atoms_[a].element == 1 && atoms_[b].element == 1) return 0.0;
+    const double reach = radius(a) + radius(b) + 0.4;
+    return reach * reach;
+  }
+
+  /// Every two neighbours of "A-B-C D-E" that are both there.
+  void join_path(const Names& names, std::string_view paths) {
+    const std::uint32_t* last = nullptr;
+    while (!paths.empty()) {
+      const std::size_t end = paths.find_first_of("- ");
+      const auto found = names.find(std::string(paths.substr(0, end)));
+      const std::uint32_t* atom = found == names.end() ? nullptr : &found->second;
+      if (last && atom) bonds_.push_back({*last, *atom});
+      last = end != std::string_view::npos && paths[end] == '-' ? atom : nullptr;
+      paths.remove_prefix(end == std::string_view::npos ? paths.size() : end + 1);
+    }
+  }
+
+  void join_hydrogens(std::size_t r) {
+    constexpr double kLongestToHydrogen = 1.6;
+    for (std::uint32_t h = begins_[r]; h < begins_[r + 1]; ++h) {
+      if (atoms_[h].element > 1) continue;  // and sites without an element, such as the fourth of water models
+      std::uint32_t nearest = h;
+      double least = kLongestToHydrogen * kLongestToHydrogen;
+      for (std::uint32_t n = begins_[r]; n < begins_[r + 1]; ++n) {
+        if (atoms_[n].element <= 1 || squared_distance(h, n) > least) continue;
+        nearest = n;
+        least = squared_distance(h, n);
+      }
+      if (nearest != h) bonds_.push_back({nearest, h});
+    }
+  }
+
+  void join(const Names& first, const char* first_name, const Names& second, const char* second_name) {
+    constexpr double kLongestLink = 2.2;
+    const auto a = first.find(first_name), b = second.find(second_name);
+    if (a == first.end() || b == second.end()) return;
+    if (squared_distance(a->second, b->second) <= kLongestLink * kLongestLink) bonds_.push_back({a->second, b->second});
+  }
+
+  std::span<const Atom> atoms_;
+  std::span<const glm::dvec3> positions_;
+  const std::optional<PeriodicCell>& cell_;
+  std::vector<std::uint32_t> begins_;  ///< of the residues, and the end
+  Names last_names_;
+  std::vector<Bond> bonds_;
+};
+
+}  // namespace
+
+std::vector<Bond> template_bonds(std::span<const Atom> atoms, std::span<const glm::dvec3> positions,
+                                 const std::optional<PeriodicCell>& cell) {
+  return BondFinder(atoms, positions, cell).by_template();
+}
+
+std::vector<Bond> guessed_bonds(std::span<const Atom> atoms, std::span<const glm::dvec3> positions,
+                                const std::optional<PeriodicCell>& cell) {
+  return BondFinder(atoms, positions, cell).by_distance();
+}
+
+namespace {
+
+constexpr double kShortestFound = 0.5;  // that of hydrogen to hydrogen, the shortest there is, is 0.74 Å long
+constexpr double kSlack = 0.4, kSlackBetweenStandardResidues = 0.2;
+
+class MoleculeBonds {
+ public:
+  explicit MoleculeBonds(std::span<const Atom> atoms) : atoms_(atoms), standard_(atoms.size()) {
+    positions_.reserve(atoms.size());
+    for (const Atom& atom : atoms) {
+      positions_.push_back(atom.position);
+      if (atom.residue >= letter_.size()) letter_.resize(atom.residue + 1, ' ');
+      char& letter = letter_[atom.residue];
+      if (atom.altloc == ' ' || atom.altloc == letter) continue;
+      letter = letter == ' ' ? atom.altloc : kSeveral;
+    }
+  }
+
+  void add_templates() {
+    // Formats without residues have one of all atoms.
+    if (std::ranges::all_of(atoms_, [](const Atom& atom) { return atom.residue_name.empty(); })) return;
+    for (const Bond& bond : template_bonds(atoms_, positions_, std::nullopt))
+      if (add(bond[0], bond[1])) standard_[bond[0]] = standard_[bond[1]] = true;
+  }
+
+  void add_listed(std::span<const Bond> listed) {
+    if (listed.empty()) return;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> places;  // by copy and place in the file
+    std::vector<std::uint32_t> copies;
+    for (std::uint32_t n = 0; n < atoms_.size(); ++n) {
+      places.try_emplace({atoms_[n].copy, atoms_[n].index}, n);
+      copies.push_back(atoms_[n].copy);
+    }
+    std::ranges::sort(copies);
+    copies.erase(std::unique(copies.begin(), copies.end()), copies.end());
+    for (const std::uint32_t copy : copies) {
+      for (const Bond& bond : listed) {
+        const auto from = places.find({copy, bond[0]}), to = places.find({copy, bond[1]});
+        if (from != places.end() && to != places.end()) add(from->second, to->second);
+      }
+    }
+  }
+
+  void add_near() {
+    double largest = 0.0;
+    std::array<double, 128> radii{};
+    for (const Atom& atom : atoms_) {
+      const std::size_t element = std::min<std::size_t>(atom.element, radii.size() - 1);
+      radii[element] = gemmi::Element(static_cast<int>(atom.element)).covalent_r();
+      largest = std::max(largest, radii[element]);
+    }
+    const BallGrid grid(positions_, 2.0 * largest + kSlack);
+    for (std::uint32_t a = 0; a < atoms_.size(); ++a) {
+      if (!binds_by_distance(atoms_[a])) continue;
+      const double own = radii[atoms_[a].element];
+      grid.for_each_near(positions_[a], own + largest + kSlack, [&](std::uint32_t b) {
+        if (b >= a || !binds_by_distance(atoms_[b]) || (atoms_[a].element == 1 && atoms_[b].element == 1)) return;
+        const bool both_standard = standard_[a] && standard_[b];
+        if (both_standard && atoms_[a].residue == atoms_[b].residue) return;
+        const double reach = own + radii[atoms_[b].element] + (both_standard ? kSlackBetweenStandardResidues : kSlack);
+        const double distance = glm::distance(positions_[a], positions_[b]);
+        if (kShortestFound <= distance && distance <= reach) add(b, a);
+      });
+    }
+  }
+
+  std::vector<Bond> take() && {
+    std::ranges::sort(bonds_);
+    bonds_.erase(std::unique(bonds_.begin(), bonds_.end()), bonds_.end());
+    return std::move(bonds_);
+  }
+
+ private:
+  static constexpr char kSeveral = '\0';
+
+  static bool binds_by_distance(const Atom& atom) {
+    return atom.element != 0 && atom.element < 119 && atom.kind != AtomClass::ion;
+  }
+
+  bool of_one_molecule(const Atom& a, const Atom& b) const {
+    if (a.model != b.model || a.copy != b.copy) return false;
+    if (a.altloc == b.altloc || a.altloc == ' ' || b.altloc == ' ') return true;
+    return a.residue != b.residue && letter_[a.residue] != kSeveral && letter_[b.residue] != kSeveral;
+  }
+
+  bool add(std::uint32_t a, std::uint32_t b) {
+    if (a == b || !of_one_molecule(atoms_[a], atoms_[b])) return false;
+    if (glm::distance(positions_[a], positions_[b]) > kLongestBond) return false;
+    bonds_.push_back({std::min(a, b), std::max(a, b)});
+    return true;
+  }
+
+  std::span<const Atom> atoms_;
+  std::vector<glm::dvec3> positions_;
+  std::vector<bool> standard_;  ///< in a bond of a template
+  std::vector<char> letter_;    ///< of each residue's alternate location; blank: it has none
+  std::vector<Bond> bonds_;
+};
+
+}  // namespace
+
+std::vector<Bond> molecule_bonds(std::span<const Atom> atoms, std::span<const Bond> listed) {
+  if (atoms.empty()) return {};
+  MoleculeBonds bonds(atoms);
+  bonds.add_templates();
+  bonds.add_listed(listed);
+  bonds.add_near();
+  return std::move(bonds).take();
+}
+
+}  // namespace meniscus

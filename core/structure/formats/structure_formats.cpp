@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lists the structure formats and chooses the one that a file's content fits.
+#include "core/structure/formats/structure_formats.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+
+namespace meniscus {
+namespace {
+
+/// A new format is a file read_<name>.cpp, its name in reader.h and an entry in both lists.
+constexpr std::array<const Reader*, 8> kReaders{&kPdbReader, &kMmcifReader, &kPqrReader, &kGroReader,
+                                                &kXyzReader, &kXyzrReader,  &kPsfReader, &kPrmtopReader};
+
+/// Strict tests first: PDB takes any text with one of its records in it, and what may be PQR too.
+constexpr std::array<const Reader*, 8> kOrderOfTrial{&kPsfReader, &kPrmtopReader, &kMmcifReader, &kGroReader,
+                                                     &kXyzReader, &kPdbReader,    &kPqrReader,   &kXyzrReader};
+static_assert(kReaders.size() == kOrderOfTrial.size());
+
+std::string lower_case_name(const std::string& path) {
+  std::string name = path;
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (name.ends_with(".gz")) name.resize(name.size() - 3);
+  return name;
+}
+
+const Reader* reader_by_name(const std::string& name) {
+  for (const Reader* reader : kReaders) {
+    std::string_view rest = reader->metadata.extensions;
+    while (!rest.empty()) {
+      const std::string_view extension = rest.substr(0, rest.find(' '));
+      if (name.ends_with(extension)) return reader;
+      rest.remove_prefix(std::min(rest.size(), extension.size() + 1));
+    }
+  }
+  return nullptr;
+}
+
+/// Formats we can name but not read; better refused by name than misread as PDB.
+void refuse_known_foreign(const TextFile& file, const std::string& name) {
+  const std::size_t first = file.text.find_first_not_of(" \t\n");
+  if (file.text[first] == '<')
+    throw InputError(file.path, 0, "looks like HTML or XML, not like a molecule; was the download refused?");
+  if (file.text[first] == '{')
+    throw InputError(file.path, 0, fmt::format("looks like JSON; {} are read", format_names()));
+  for (const char* extension : {".pdbqt", ".mol2", ".sdf"}) {
+    if (name.ends_with(extension)) {
+      throw InputError(file.path, 0,
+                       fmt::format("{} files are not read; convert it to one of {}", extension, format_names()));
+    }
+  }
+}
+
+}  // namespace
+
+std::span<const Reader* const> readers() { return kReaders; }
+
+std::string format_names() {
+  std::string names;
+  for (const Reader* reader : kReaders) {
+    if (!names.empty()) names += ", ";
+    names += reader->metadata.name;
+  }
+  return names;
+}
+
+const Reader& choose_reader(const TextFile& file) {
+  const std::string name = lower_case_name(file.path);
+  refuse_known_foreign(file, name);
+  const Reader* by_name = reader_by_name(name);
+  if (by_name && by_name->recognizes(file.text)) return *by_name;
+  for (const Reader* reader : kOrderOfTrial) {
+    if (!reader->recognizes(file.text)) continue;
+    if (!by_name) return *reader;
+    throw InputError(file.path, 0,
+                     fmt::format("the name says {}, but the content is {}; rename the file, or check that it is the "
+                                 "right one",
+                                 by_name->metadata.name, reader->metadata.name));
+  }
+  if (by_name) return *by_name;  // its reader says what is missing, and where
+  throw InputError(file.path, 0, fmt::format("is in no format that is read ({})", format_names()));
+}
+
+}  // namespace meniscus

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The residues of a file, though numbers wrap, repeat and come in pieces, and which alternate location of each is kept.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace meniscus {
+
+struct Atom;
+
+/// Numbers residues in the order of the file. Neighbouring atoms of one model, chain, segment, number, insertion code
+/// and name are one residue (of several names only where all are alternate locations). Where such a combination comes
+/// again later it is the same residue too, unless it brings an atom that the residue has already: then its number has
+/// wrapped (after 9,999 in PDB and 99,999 in GRO), and it is another one.
+class ResidueCounter {
+ public:
+  /// `atoms` are those counted so far; the caller appends each atom after it was numbered.
+  explicit ResidueCounter(const std::vector<Atom>& atoms) : atoms_(atoms) {}
+
+  /// Sets atom.index and atom.residue.
+  void number(Atom& atom);
+  /// The next atom begins a new piece, as after TER.
+  void end_piece() { piece_open_ = false; }
+
+ private:
+  struct Piece {
+    std::uint32_t residue;
+    std::size_t begin, end;  ///< atoms
+  };
+  bool continues(const Piece& piece, const Atom& atom) const;
+
+  const std::vector<Atom>& atoms_;
+  std::unordered_map<std::string, Piece> last_piece_;
+  Piece* piece_ = nullptr;
+  bool piece_open_ = false;
+  std::uint32_t residues_ = 0;
+};
+
+/// One letter a residue is kept, and the atoms without a letter.
+struct AltlocChoice {
+  enum class Rule {
+    best,    ///< highest mean occupancy, then lowest mean B-factor, then first letter
+    first,   ///< the one the file gives first
+    letter,  ///< `letter`, and in residues without it the best
+    all      ///< every one of them; they overlap
+  };
+  Rule rule = Rule::best;
+  char letter = ' ';
+};
+
+/// Reads "best", "first", "all" or a single letter or digit; nothing for any other text.
+std::optional<AltlocChoice> parse_altloc_choice(std::string_view text);
+
+/// The letter to keep by residue (Atom::residue), blank for residues without alternatives. Not for Rule::all.
+std::vector<char> kept_altlocs(const std::vector<Atom>& atoms, const AltlocChoice& choice);
+
+}  // namespace meniscus

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Large tables made on all cores: their memory, and the numbers of rows of varying length.
+#pragma once
+
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <tbb/parallel_for.h>
+
+namespace meniscus {
+
+/// Asks for new memory of [begin, begin + bytes) now, chunk by chunk on all threads: page by page, when it is first
+/// written, takes more time, and one thread's. Nothing changes where the memory is there already, or where the system
+/// (before Linux 5.14) knows no such request.
+inline void populate(void* begin, std::size_t bytes) {
+#ifdef MADV_POPULATE_WRITE
+  constexpr std::size_t kPage = 4096, kChunk = 1 << 20, kWorthIt = 32 << 20;
+  if (bytes < kWorthIt) return;
+  const auto address = reinterpret_cast<std::uintptr_t>(begin);
+  const std::size_t first = (address + kPage - 1) / kPage * kPage - address;  // of whole pages, from `begin`
+  const std::size_t past = (address + bytes) / kPage * kPage - address;
+  tbb::parallel_for(std::size_t{0}, (past - first + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+    const std::size_t from = first + chunk * kChunk, size = past - from < kChunk ? past - from : kChunk;
+    ::madvise(static_cast<std::byte*>(begin) + from, size, MADV_POPULATE_WRITE);
+  });
+#else
+  static_cast<void>(begin);
+  static_cast<void>(bytes);
+#endif
+}
+
+/// What table.resize(size) does to an empty table.
+template <typename Row>
+void resize_large(std::vector<Row>& table, std::size_t size) {
+  table.reserve(size);
+  populate(table.data(), size * sizeof(Row));
+  table.resize(size);
+}
+
+/// Counts, for each row of a table, whatever is numbered in the order of the rows. A `Sum` is a number, or a struct
+/// with
+/// +=, zero when made. The numbers do not depend on the threads that count.
+template <typename Sum>
+class RowNumbers {
+ public:
+  /// `count(n)` says how many row n has, for n from 0 to `rows` - 1. The first row's begin at `first`.
+  template <typename Count>
+  RowNumbers(std::size_t rows, const Sum& first, const Count& count) : rows_(rows), before_(chunks() + 1, Sum{}) {
+    tbb::parallel_for(std::size_t{0}, chunks(), [&](std::size_t chunk) {
+      Sum sum{};
+      for_each_row(chunk, [&](std::size_t n) { sum += count(n); });
+      before_[chunk + 1] = sum;
+    });
+    before_[0] = first;
+    for (std::size_t chunk = 0; chunk < chunks(); ++chunk) {
+      Sum sum = before_[chunk];
+      sum += before_[chunk + 1];
+      before_[chunk + 1] = sum;
+    }
+  }
+
+  /// What comes behind the last row.
+  const Sum& past() const { return before_.back(); }
+
+  /// Calls `fill(n, next)` once for each row, in rising order within a chunk: `next` is the number of its first item,
+  /// and fill leaves it at that of the row behind.
+  template <typename Fill>
+  void for_each(const Fill& fill) const {
+    tbb::parallel_for(std::size_t{0}, chunks(), [&](std::size_t chunk) {
+      Sum next = before_[chunk];
+      for_each_row(chunk, [&](std::size_t n) { fill(n, next); });
+    });
+  }
+
+ private:
+  static constexpr std::size_t kChunk = 512;
+
+  std::size_t chunks() const { return (rows_ + kChunk - 1) / kChunk; }
+
+  template <typename Visit>
+  void for_each_row(std::size_t chunk, const Visit& visit) const {
+    for (std::size_t n = chunk * kChunk, past = std::min(rows_, n + kChunk); n < past; ++n) visit(n);
+  }
+
+  std::size_t rows_;
+  std::vector<Sum> before_;  // of each chunk
+};
+
+}  // namespace meniscus

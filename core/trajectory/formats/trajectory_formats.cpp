@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lists the trajectory formats, chooses among them by content, and loads the module that reads H5MD.
+#include "core/trajectory/formats/trajectory_formats.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/module_file.h"
+#include "core/base/text_lines.h"
+#include "core/structure/formats/structure_formats.h"
+#include "core/trajectory/formats/binary_file.h"
+#include "core/trajectory/formats/read_h5md.h"
+#include "core/trajectory/trajectory.h"
+
+namespace meniscus {
+namespace {
+
+/// A new format is a file read_<name>.cpp, its name in formats.h and an entry here, before the last.
+constexpr std::array<const TrajectoryFormat*, 8> kFormats{&kXtcFormat,    &kTrrFormat,         &kDcdFormat,
+                                                          &kH5mdFormat,   &kAmberNetcdfFormat, &kMdcrdFormat,
+                                                          &kLammpsFormat, &kModelsFormat};
+constexpr std::span<const TrajectoryFormat* const> kBareFormats{kFormats.data(), kFormats.size() - 1};
+
+std::string bare_format_names() {
+  std::string names;
+  for (const TrajectoryFormat* format : kBareFormats) names += fmt::format("{}, ", format->metadata.name);
+  return names;
+}
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+const TrajectoryFormat* format_by_name(const std::string& name) {
+  for (const TrajectoryFormat* format : kBareFormats) {
+    const auto extensions = fields_of(format->metadata.extensions);
+    if (std::any_of(extensions.begin(), extensions.end(), [&](std::string_view end) { return name.ends_with(end); }))
+      return format;
+  }
+  return nullptr;
+}
+
+const TrajectoryFormat* format_by_content(std::string_view start) {
+  const auto found = std::find_if(kBareFormats.begin(), kBareFormats.end(),
+                                  [&](const TrajectoryFormat* format) { return format->recognizes(start); });
+  return found == kBareFormats.end() ? nullptr : *found;
+}
+
+std::string start_of(const std::string& path) {
+  const BinaryFile file(path);
+  std::string start(std::min<std::uint64_t>(file.size(), kTrajectoryStart), '\0');
+  file.read(0, std::as_writable_bytes(std::span(start)));
+  return start;
+}
+
+/// The version of the program as an XDR string, twice its length before it.
+bool is_run_input(std::string_view start) {
+  constexpr std::string_view kLengths("\0\0\0", 3);
+  return start.size() > 16 && start.starts_with(kLengths) && start.substr(4).starts_with(kLengths) &&
+         start.substr(8).starts_with("VERSION ");
+}
+
+[[noreturn]] void refuse_run_input(const std::string& path) {
+  throw InputError(path, 0,
+                   "is a run input file of GROMACS (TPR), which is another in each version and is not read; give its "
+                   "atoms as a PDB file: gmx editconf -f run.tpr -conect -o run.pdb");
+}
+
+const TrajectoryFormat& choose_format(const std::string& path, const std::string& start) {
+  if (is_run_input(start)) refuse_run_input(path);
+  const std::string name = lower_case(path);
+  const bool packed = start.starts_with("\x1f\x8b");
+  if (packed && name.ends_with(".gz") && format_by_name(name.substr(0, name.size() - 3)))
+    throw InputError(path, 0, "is packed with gzip; unpack it first: frames are read where they stand in the file");
+  const TrajectoryFormat* by_name = format_by_name(name);
+  if (by_name && by_name->recognizes(start)) return *by_name;
+  const TrajectoryFormat* by_content = format_by_content(start);
+  if (by_name && by_content) {
+    throw InputError(path, 0,
+                     fmt::format("the name says {}, but the content is {}; rename the file, or check that it is the "
+                                 "right one",
+                                 by_name->metadata.name, by_content->metadata.name));
+  }
+  if (by_name) return *by_name;  // its reader says what is missing
+  if (by_content) return *by_content;
+  if (!packed && start.find('\0') != std::string::npos) {
+    throw InputError(path, 0,
+                     fmt::format("is in no trajectory format that is read ({}or models of {})", bare_format_names(),
+                                 format_names()));
+  }
+  return kModelsFormat;
+}
+
+}  // namespace
+
+std::span<const TrajectoryFormat* const> trajectory_formats() { return kFormats; }
+
+std::string_view bare_trajectory_format(const std::string& path) {
+  if (path == "-") return {};
+  std::string start;
+  try {
+    start = start_of(path);
+  } catch (const InputError&) {
+    return {};
+  }
+  if (is_run_input(start)) refuse_run_input(path);
+  const TrajectoryFormat* format = format_by_content(start);
+  return format ? format->metadata.name : std::string_view();
+}
+
+std::unique_ptr<Trajectory> open_trajectory(const std::string& path, const TrajectoryOptions& options) {
+  if (path == "-")
+    throw InputError("standard input", 0,
+                     "cannot be a trajectory, whose frames are read in any order; save it as a file");
+  return choose_format(path, start_of(path)).open(path, options);
+}
+
+namespace {
+
+bool recognizes(std::string_view start) { return start.starts_with("\x89HDF\r\n\x1a\n"); }
+
+OpenH5md* load() {
+  constexpr ModuleFile kModule{MENISCUS_HDF5_MODULE_NAME, MENISCUS_HDF5_MODULE, "H5MD files", std::size_t{96} << 20};
+  using Give = OpenH5md*(const char* version, std::size_t frame_size);
+  void* const give = load_from_module(kModule, "meniscus_open_h5md");
+  if (OpenH5md* const open = reinterpret_cast<Give*>(give)(MENISCUS_VERSION, sizeof(Frame))) return open;
+  refuse_module(kModule);
+}
+
+std::unique_ptr<Trajectory> open(const std::string& path, const TrajectoryOptions&) {
+  static OpenH5md* const open_h5md = load();
+  return open_h5md(path);
+}
+
+}  // namespace
+
+const TrajectoryFormat kH5mdFormat{
+    {"H5MD", ".h5md .h5", "trajectories in HDF5, as MDAnalysis, LAMMPS and ESPResSo write them, and MDTraj's own",
+     "P. de Buyl, P. H. Colberg and F. Höfling, Comput. Phys. Commun. 185, 1546 (2014)",
+     "positions of the first group of particles, with their unit; boxes (edges or vectors), steps and times"},
+    recognizes,
+    open};
+
+}  // namespace meniscus

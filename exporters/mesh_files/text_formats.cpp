@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writes the mesh formats that are lines of text: OBJ, OFF, smesh and DMS.
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include <fmt/compile.h>
+#include <glm/geometric.hpp>
+
+#include "core/base/error.h"
+#include "core/surface/primitives.h"
+#include "exporters/mesh_files/writers.h"
+
+namespace meniscus {
+namespace {
+
+/// Names end at blanks, and other programs take some signs for their own.
+std::string plain_name(const std::string& name) {
+  std::string plain = name;
+  std::ranges::replace_if(
+      plain, [](unsigned char c) { return std::isalnum(c) == 0 && c != '-' && c != '.'; }, '_');
+  return plain;
+}
+
+}  // namespace
+
+void write_obj(OutputFile& file, const MeshFile& mesh) {
+  file.write(fmt::format("# {}\n", mesh.about));
+  std::size_t first = 1;
+  for (const FileObject& object : mesh.objects) {
+    file.write(text_of_rows(fmt::format("o {}\n", plain_name(object.name)), object.positions.size(),
+                            [&](std::size_t v, auto out) {
+                              const glm::vec3& x = object.positions[v];
+                              const auto& [red, green, blue] = object.colors[v];
+                              fmt::format_to(out, FMT_COMPILE("v {} {} {} {:.4f} {:.4f} {:.4f}\n"), x.x, x.y, x.z,
+                                             red / 255.0, green / 255.0, blue / 255.0);
+                            }));
+    file.write(text_of_rows("", object.normals.size(), [&](std::size_t v, auto out) {
+      const glm::vec3& n = object.normals[v];
+      fmt::format_to(out, FMT_COMPILE("vn {:.6g} {:.6g} {:.6g}\n"), n.x, n.y, n.z);
+    }));
+    file.write(text_of_rows("s 1\n", object.triangles.size(), [&](std::size_t t, auto out) {
+      const auto& [a, b, c] = object.triangles[t];
+      fmt::format_to(out, FMT_COMPILE("f {0}//{0} {1}//{1} {2}//{2}\n"), first + a, first + b, first + c);
+    }));
+    first += object.positions.size();
+  }
+}
+
+void write_off(OutputFile& file, const MeshFile& mesh) {
+  const FileObject& object = mesh.objects.front();
+  file.write(
+      text_of_rows(fmt::format("OFF\n# {}\n{} {} 0\n", mesh.about, object.positions.size(), object.triangles.size()),
+                   object.positions.size(), [&](std::size_t v, auto out) {
+                     const glm::vec3& x = object.positions[v];
+                     fmt::format_to(out, FMT_COMPILE("{} {} {}\n"), x.x, x.y, x.z);
+                   }));
+  file.write(text_of_rows("", object.triangles.size(), [&](std::size_t t, auto out) {
+    const auto& [a, b, c] = object.triangles[t];
+    fmt::format_to(out, FMT_COMPILE("3 {} {} {}\n"), a, b, c);
+  }));
+}
+
+// All count from 1.
+
+void write_smesh(OutputFile& file, const MeshFile& mesh) {
+  const FileObject& object = mesh.objects.front();
+  file.write(text_of_rows(fmt::format("# {}\n{} 3 0 0\n", mesh.about, object.positions.size()), object.positions.size(),
+                          [&](std::size_t v, auto out) {
+                            const glm::vec3& x = object.positions[v];
+                            fmt::format_to(out, FMT_COMPILE("{} {} {} {}\n"), v + 1, x.x, x.y, x.z);
+                          }));
+  file.write(text_of_rows(
+      fmt::format("{} 1\n", object.triangles.size()), object.triangles.size(), [&](std::size_t t, auto out) {
+        const auto& [a, b, c] = object.triangles[t];
+        fmt::format_to(out, FMT_COMPILE("3 {} {} {} {}\n"), a + 1, b + 1, c + 1, object.component[t] + 1);
+      }));
+  std::string points = fmt::format("# a point in each cavity\n{}\n", mesh.cavities.size());
+  std::size_t n = 0;
+  for (const auto& [x, component] : mesh.cavities) points += fmt::format("{} {} {} {}\n", ++n, x.x, x.y, x.z);
+  points += fmt::format("# a point in each solid, with the number of its component\n{}\n", mesh.solids.size());
+  n = 0;
+  for (const auto& [x, component] : mesh.solids)
+    points += fmt::format("{} {} {} {} {}\n", ++n, x.x, x.y, x.z, component + 1);
+  file.write(points);
+}
+
+namespace {
+
+constexpr double kLargest = 999.9995;  // a coordinate has eight columns, three decimals and perhaps a sign
+
+/// Words end at blanks, and none may be empty.
+std::string column_word(const std::string& text, std::size_t width) {
+  std::string word = text.substr(0, width);
+  std::ranges::replace_if(
+      word, [](unsigned char c) { return std::isgraph(c) == 0; }, '_');
+  return word.empty() ? "-" : word;
+}
+
+/// Å² of each vertex: a third of its triangles.
+std::vector<double> vertex_areas(const FileObject& object, double scale) {
+  std::vector<double> areas(object.positions.size(), 0.0);
+  for (const auto& t : object.triangles) {
+    const glm::dvec3 x(object.positions[t[0]]);
+    const double twice =
+        glm::length(glm::cross(glm::dvec3(object.positions[t[1]]) - x, glm::dvec3(object.positions[t[2]]) - x));
+    for (const std::uint32_t v : t) areas[v] += twice / (6.0 * scale * scale);
+  }
+  return areas;
+}
+
+char kind_letter(PatchKind kind) { return kind == PatchKind::convex ? 'C' : kind == PatchKind::toroidal ? 'S' : 'R'; }
+
+void check_range(const glm::dvec3& x) {
+  for (int k = 0; k < 3; ++k)
+    if (!(std::abs(x[k]) < kLargest))
+      throw CapacityError(
+          fmt::format("DMS has room for coordinates between -1000 and 1000 Å, and one is {:.3f}; take "
+                      "another format",
+                      x[k]));
+}
+
+}  // namespace
+
+void write_dms(OutputFile& file, const MeshFile& mesh) {
+  const FileObject& object = mesh.objects.front();
+  const std::vector<double> areas = vertex_areas(object, mesh.scale);
+  std::vector<std::vector<std::uint32_t>> dots(mesh.atoms.size());
+  for (std::uint32_t v = 0; v < object.positions.size(); ++v) {
+    check_range(glm::dvec3(object.positions[v]) / mesh.scale);
+    dots[object.atom[v]].push_back(v);
+  }
+  for (const FileAtom& atom : mesh.atoms) check_range(atom.position);
+  file.write(text_of_rows("", mesh.atoms.size(), [&](std::size_t a, auto out) {
+    const FileAtom& atom = mesh.atoms[a];
+    const std::string number =
+        fmt::format("{}{}", atom.residue_number, atom.insertion_code == ' ' ? "" : std::string(1, atom.insertion_code));
+    const std::string words = fmt::format("{:>3} {:>4} {:>4}", column_word(atom.residue_name, 3),
+                                          column_word(number, 5), column_word(atom.name, 4));
+    const glm::dvec3& x = atom.position;
+    fmt::format_to(out, FMT_COMPILE("{}{:8.3f} {:8.3f} {:8.3f} A\n"), words, x.x, x.y, x.z);
+    for (const std::uint32_t v : dots[a]) {
+      const glm::dvec3 y = glm::dvec3(object.positions[v]) / mesh.scale;
+      const glm::vec3& n = object.normals[v];
+      fmt::format_to(out, FMT_COMPILE("{}{:8.3f} {:8.3f} {:8.3f} S{}0 {:6.3f} {:6.3f} {:6.3f} {:6.3f}\n"), words, y.x,
+                     y.y, y.z, kind_letter(object.kind[v]), areas[v], n.x, n.y, n.z);
+    }
+  }));
+}
+
+}  // namespace meniscus
