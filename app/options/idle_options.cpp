@@ -11,7 +11,6 @@
 #include <fmt/ranges.h>
 
 #include "app/film/film_format.h"
-#include "app/options/scene_options.h"
 #include "app/process/program_error.h"
 #include "core/properties/properties.h"
 #include "core/render/look_presets.h"
@@ -25,7 +24,7 @@ namespace {
 /// A command whose options are parsed, as the table asks about it.
 class Asked {
  public:
-  explicit Asked(const SceneOptions& options) : options_(options), command_(options.command()) {}
+  explicit Asked(const TakenOptions& options) : options_(options), command_(options.command) {}
 
   bool has(const char* option) const { return command_.get_option_no_throw(option) != nullptr; }
   /// Was it given, by the command line or the scene?
@@ -43,7 +42,7 @@ class Asked {
     if (!given(option)) return "";
     if (const CLI::Option* const found = command_.get_option_no_throw(option); found->count() > 0)
       return found->results().back();
-    const std::vector<std::string> texts = value_texts(options_.scene(), *scene_property(option));
+    const std::vector<std::string> texts = value_texts(options_.scene, *scene_property(option));
     return texts.empty() ? "" : texts.back();
   }
   const std::string& name() const { return command_.get_name(); }
@@ -54,7 +53,7 @@ class Asked {
   }
   bool is_film() const { return is_film_path(value("--output")); }
 
-  Look look() const { return look_of(options_.scene().look, {1, 1}, std::nullopt, Hues::free); }
+  Look look() const { return look_of(options_.scene.look, {1, 1}, std::nullopt, Hues::free); }
   /// Colours are not simply those given. Objects may have a material of their own.
   bool is_shaded() const { return given("--object") || look().material.ambient < 1.0f; }
   bool has_highlights() const { return given("--object") || look().material.specular > 0.0f; }
@@ -66,7 +65,7 @@ class Asked {
     return nullptr;
   }
 
-  const SceneOptions& options_;
+  const TakenOptions& options_;
   const CLI::App& command_;
 };
 
@@ -214,7 +213,7 @@ void add_unlikely_values(const Asked& asked, std::vector<std::string>& sentences
 
 }  // namespace
 
-std::vector<std::string> idle_options(const SceneOptions& options) {
+std::vector<std::string> idle_options(const TakenOptions& options) {
   const Asked asked(options);
   std::vector<std::string> sentences;
   for (const Need& need : needs()) {

@@ -295,8 +295,8 @@ void SceneOptions::take(const std::vector<std::string>& named) {
   } catch (const ValueError& error) {
     refuse(error.key(), error.what());
   }
-  guard_scene_files(*this, settings);
-  for (const std::string& sentence : idle_options(*this))
+  guard_scene_files(command_, file_, settings);
+  for (const std::string& sentence : idle_options({command_, into_.scene, [this](std::string_view key) { return is_given(key); }}))
     if (!into_.reporting.quiet) std::cerr << "meniscus: " << escaped(sentence) << std::endl;
 }
 

@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "app/options/named_files.h"
-#include "app/options/scene_options.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/image/png_file.h"
@@ -72,10 +71,10 @@ std::string read_scene_text(const std::string& file) {
   return std::string(read_text_file(file, kLargestScene).text);
 }
 
-void guard_scene_files(const SceneOptions& options, std::span<const SceneSetting> settings) {
-  if (options.file().empty()) return;
-  NamedFiles files(options.command());
-  files.read(options.file());
+void guard_scene_files(const CLI::App& command, const std::string& file, std::span<const SceneSetting> settings) {
+  if (file.empty()) return;
+  NamedFiles files(command);
+  files.read(file);
   for (const SceneSetting& setting : settings)
     for (const std::string& text : setting.texts) {
       if (setting.property->type == ValueType::new_file)

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
 #include "core/properties/properties.h"
 #include "core/scene/scene_json.h"
 
 namespace meniscus {
-
-class SceneOptions;
 
 /// What somebody who uses a scene has said of files. Without --trust-scene a scene names no files outside of its folder
 /// but those that are typed or named before, and writes to none but a new one beside it.
@@ -32,8 +32,8 @@ struct SceneTrust {
 /// The JSON of a scene file, or of the picture that carries it. Throws InputError.
 std::string read_scene_text(const std::string& file);
 
-/// Files that the scene names are inputs that no output replaces; outputs that it names are not those of options.
+/// file: of the scene; empty: there is none. Files that the scene names are inputs that no output replaces; outputs that it names are not those of options.
 /// Throws UsageError.
-void guard_scene_files(const SceneOptions& options, std::span<const SceneSetting> settings);
+void guard_scene_files(const CLI::App& command, const std::string& file, std::span<const SceneSetting> settings);
 
 }  // namespace meniscus

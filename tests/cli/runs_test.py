@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""A picture is a run of one frame: what a command makes of one model, it makes of the frame of a run that is this model."""
+
+import json
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import OpenImageIO
+
+PROGRAM = sys.argv.pop(1)
+CAMERA = {"position": [4.0, 1.0, 60.0], "target": [4.0, 1.0, 0.0], "up": [0.0, 1.0, 0.0], "projection": "orthographic",
+          "height": 16.0}
+
+
+def models(count):
+    """Five residues of two atoms; each model is a little longer than the one before."""
+    lines = []
+    for model in range(count):
+        lines.append(f"MODEL     {model + 1:4d}")
+        for n in range(10):
+            name, element = (("N", "N"), ("CA", "C"))[n % 2]
+            lines.append(f"ATOM  {n + 1:5d}  {name:<3} ALA A{n // 2 + 1:4d}    {n * (1.4 + 0.1 * model):8.3f}{n % 3:8.3f}"
+                         f"{0.2 * n:8.3f}  1.00 10.00          {element:>2}")
+        lines.append("ENDMDL")
+    return "\n".join(lines + ["END", ""])
+
+
+class RunsLikePictures(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        (self.folder / "run.pdb").write_text(models(3))
+
+    def run_program(self, *words):
+        done = subprocess.run([PROGRAM, *words], cwd=self.folder, capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def pixels(self, name):
+        picture = OpenImageIO.ImageInput.open(str(self.folder / name))
+        return picture.read_image("uint8")
+
+    def test_meshes(self):
+        for ending in ("ply", "obj", "glb"):
+            printed = self.run_program("export", "mesh", "run.pdb", "--frames", "all", "-o", f"m_##.{ending}", "-q")
+            self.assertEqual(printed.split(), [f"m_{n:02}.{ending}" for n in range(3)])
+            for n in range(3):
+                self.run_program("export", "mesh", "run.pdb", "--model", str(n + 1), "-o", f"one.{ending}", "-q", "--force")
+                self.assertEqual((self.folder / f"m_{n:02}.{ending}").read_bytes(), (self.folder / f"one.{ending}").read_bytes())
+
+    def test_a_mesh_of_each_frame_needs_a_name_of_its_own(self):
+        done = subprocess.run([PROGRAM, "export", "mesh", "run.pdb", "--frames", "all", "-o", "m.ply"], cwd=self.folder,
+                              capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("m_#####.ply", done.stderr)
+
+    def test_labels_follow_their_atoms(self):
+        words = ["--camera", json.dumps(CAMERA), "--size", "160x120", "--samples", "1", "--label", "resid 5=End", "-q"]
+        self.run_program("render", "run.pdb", "--frames", "all", "-o", "f_#.png", *words)
+        for n in range(3):
+            self.run_program("render", "run.pdb", "--model", str(n + 1), "-o", f"one_{n}.png", *words)
+            self.assertTrue((self.pixels(f"f_{n}.png") == self.pixels(f"one_{n}.png")).all(), n)
+        self.assertFalse((self.pixels("one_0.png") == self.pixels("one_2.png")).all())
+
+    def test_objects(self):
+        beside = json.dumps({"representation": "surface", "selection": "resid 4-5", "color": "red"})
+        words = ["--select", "resid 1-3", "--object", beside, "--camera", json.dumps(CAMERA), "-q"]
+        self.run_program("export", "blender", "run.pdb", "--frames", "all", "-o", "blender", *words)
+        for n in range(3):
+            self.assertIn(b"object 1", (self.folder / f"blender/surface_{n:05}.mns").read_bytes())
+        self.run_program("export", "mitsuba", "run.pdb", "--frames", "all", "-o", "mitsuba", *words)
+        self.run_program("export", "mitsuba", "run.pdb", "--model", "2", "-o", "one", *words)
+        shapes = [(self.folder / path).read_text().count("<shape") for path in ("mitsuba/surface_00001.xml", "one/surface.xml")]
+        self.assertEqual(shapes[0], shapes[1])
+        self.assertGreater(shapes[0], 1)
+
+    def test_a_surface_that_is_hidden(self):
+        words = ["--hide-surface", "--sticks", "all", "--camera", json.dumps(CAMERA), "-q"]
+        self.run_program("export", "blender", "run.pdb", "--frames", "0-1", "-o", "blender", *words)
+        self.run_program("export", "blender", "run.pdb", "--frames", "0-1", "-o", "both", *words[1:])
+        hidden, both = (self.folder / f"{name}/surface_00001.mns" for name in ("blender", "both"))
+        self.assertLess(hidden.stat().st_size, both.stat().st_size)
+
+    def test_layers_in_a_bundle(self):
+        self.run_program("farm", "bundle", "bundle", "--engine", "make", "--chunk-frames", "1", "--", "render", "run.pdb",
+                         "--frames", "0-1", "--size", "40x30", "--samples", "1", "--aovs")
+        self.run_program("work", "bundle")
+        picture = OpenImageIO.ImageInput.open(str(self.folder / "bundle/images/frame_00001.exr"))
+        self.assertIn("Z", picture.spec().channelnames)
+
+
+if __name__ == "__main__":
+    unittest.main()
