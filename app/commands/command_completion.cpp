@@ -5,7 +5,7 @@
 
 #include "app/commands/commands.h"
 #include "app/options/command_tree.h"
-#include "app/options/value_words.h"
+#include "app/options/property_options.h"
 #include "app/process/program_error.h"
 #include "app/reports/shell_completion.h"
 #include "core/base/text.h"

@@ -26,7 +26,6 @@
 #include "app/options/scene_options.h"
 #include "app/options/property_options.h"
 #include "app/process/installed_files.h"
-#include "app/options/value_words.h"
 #include "app/process/program_error.h"
 #include "app/process/stop_signals.h"
 #include "app/farm/read_bundle.h"

@@ -11,7 +11,6 @@
 #include "app/commands/commands.h"
 #include "app/options/command_tree.h"
 #include "app/options/scene_schema.h"
-#include "app/options/value_words.h"
 #include "app/process/program_error.h"
 #include "app/reports/man_page.h"
 #include "core/base/output_file.h"

@@ -15,7 +15,6 @@
 #include "app/commands/picture_sink.h"
 #include "app/commands/render_command.h"
 #include "app/film/film_format.h"
-#include "app/options/camera_file.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
 #include "app/process/command_line.h"
@@ -27,13 +26,6 @@
 
 namespace meniscus {
 namespace {
-
-void say_times(const RenderCommand& command, const SurfaceRenderer& renderer) {
-  std::string times;
-  for (const StageTime& stage : renderer.times())
-    times += fmt::format("{}{} {:.1f} ms", times.empty() ? "" : ", ", stage.name, stage.milliseconds);
-  say(command, fmt::format("picture on {}: {}", renderer.device(), times));
-}
 
 void tell_memory(const RenderCommand& command) {
   constexpr double kManyPixels = 3e7, kMebibyte = 1 << 20;
@@ -132,8 +124,8 @@ void render_figures(const RenderCommand& command) {
   draw_figures(run, sink, device);
   sink.finish();
   if (layout.legend_alone) write_image(command.scene.legend.file, *layout.legend_alone, image_settings(command));
-  save_camera(command.save_camera, command.existing(), run.camera(0));
-  if (!run.is_run()) say_times(command, device.renderer());
+  save_camera(command, run.camera(0));
+  if (!run.is_run()) say_times(command, device.renderer().device(), device.renderer().times());
 }
 
 void run(const RenderCommand& command) {

@@ -17,7 +17,6 @@
 #include "app/farm/worker.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
-#include "app/options/value_words.h"
 #include "app/process/program_error.h"
 #include "app/process/stop_signals.h"
 #include "core/base/text.h"

@@ -13,10 +13,8 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/figure_run.h"
-#include "app/options/camera_file.h"
 #include "app/options/scene_options.h"
 #include "app/options/property_options.h"
-#include "app/options/value_words.h"
 #include "app/process/program_error.h"
 #include "app/reports/notes.h"
 #include "core/base/text.h"
@@ -124,7 +122,7 @@ void run(const PathTracerCommand& command) {
   FigureRun run(command);
   run.aim(command.scene.picture, true);
   const Scene& asked = run.scene();
-  if (run.is_run()) save_camera(command.save_camera, command.existing(), run.camera(0));
+  if (run.is_run()) save_camera(command, run.camera(0));
   const auto make = [&](FigureFrame frame) -> FinishFrame {
     Figure& figure = frame.figure;
     const std::vector<Ball> balls = run.is_run() ? balls_of(run.structure()) : figure.balls();
@@ -145,7 +143,7 @@ void run(const PathTracerCommand& command) {
   run.make({kMeshBytesPerAtom}, [&]() -> FigureRun::Sink { return make; });
   if (std::ranges::any_of(asked.figure.objects, [](const auto& object) { return !object.material.empty(); }))
     say(command, "note: materials of --object are those of render; here they are all --material");
-  if (!run.is_run()) save_camera(command.save_camera, command.existing(), run.camera(0));
+  if (!run.is_run()) save_camera(command, run.camera(0));
   std::cout << escaped(render_command(command, run.is_run())) << "\n";
 }
 

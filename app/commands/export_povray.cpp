@@ -13,10 +13,8 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/figure_run.h"
-#include "app/options/camera_file.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
-#include "app/options/value_words.h"
 #include "app/process/program_error.h"
 #include "app/reports/notes.h"
 #include "core/base/error.h"
@@ -166,7 +164,7 @@ void export_to_povray(const SceneCommand& command) {
     sequence.emplace(sequence_of(run, options));
     render_command = sequence->write_shared().command;
   }
-  save_camera(command.save_camera, command.existing(), run.camera(0));
+  save_camera(command, run.camera(0));
   bool noted = false;
   const auto finish = [&](const povray::SceneReport& report, std::uint64_t number) {
     if (!sequence) {

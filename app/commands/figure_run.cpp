@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "app/options/camera_file.h"
 #include "app/process/program_error.h"
 #include "app/reports/notes.h"
+#include "core/camera/camera_json.h"
 #include "core/queries/copies.h"
 #include "core/scene/copied_atoms.h"
 #include "core/scene/scene_values.h"
@@ -118,9 +118,16 @@ void check_caps_of_map(const Scene& scene, std::string_view reason) {
 }
 
 void check_saved_camera(const SceneCommand& command) {
-  check_camera_file(command.save_camera, command.existing());
+  if (!command.save_camera.empty()) check_output(command.save_camera, command.existing());
   if (!command.save_camera.empty() && command.scene.frames.asked() && command.scene.run_camera.moves())
     throw UsageError("--save-camera: a camera that moves is not a single one; leave it out");
+}
+
+void save_camera(const SceneCommand& command, const Camera& camera) {
+  if (command.save_camera.empty()) return;
+  OutputFile file(command.save_camera, command.existing());
+  file.write(camera_json(camera));
+  file.commit();
 }
 
 MadeFrame made_frame(std::span<const std::filesystem::path> files) {

@@ -100,6 +100,9 @@ void check_caps_of_map(const Scene& scene, std::string_view reason);
 /// written.
 void check_saved_camera(const SceneCommand& command);
 
+/// --save-camera: writes the camera, if a path is given. Throws OutputError.
+void save_camera(const SceneCommand& command, const Camera& camera);
+
 /// As run_frames takes them.
 MadeFrame made_frame(std::span<const std::filesystem::path> files);
 

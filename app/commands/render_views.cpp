@@ -1,36 +1,112 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus render --extent`: pictures by the GPU, from atoms to pixels, without the complete surface.
+#include <algorithm>
+#include <initializer_list>
 #include <iostream>
 #include <memory>
+#include <numeric>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include "app/commands/figure_run.h"
 #include "app/commands/picture_sink.h"
 #include "app/commands/render_command.h"
-#include "app/commands/view_picture.h"
-#include "app/options/camera_file.h"
+#include "app/options/scene_options.h"
 #include "app/process/program_error.h"
 #include "app/reports/notes.h"
 #include "app/reports/run_frames.h"
+#include "core/base/text.h"
+#include "core/color/color_atoms.h"
 #include "core/gpu/egl_context.h"
 #include "core/render/renderer.h"
+#include "core/scene/hidden_atoms.h"
+#include "core/scene/molecule.h"
 #include "core/scene/run_cameras.h"
 #include "core/scene/run_framing.h"
 #include "core/scene/settled_selections.h"
 #include "core/scene/view_aim.h"
+#include "core/visible_surface/extent.h"
+#include "core/visible_surface/view_pipeline.h"
 
 namespace meniscus {
 namespace {
 
-void say_times(const RenderCommand& command, const std::string& device, const std::vector<StageTime>& stages) {
-  std::string times;
-  for (const StageTime& stage : stages)
-    times += fmt::format("{}{} {:.1f} ms", times.empty() ? "" : ", ", stage.name, stage.milliseconds);
-  say(command, fmt::format("picture on {}: {}", device, times));
+/// The atoms of a structure with their colours, and no surface yet. Throws InputError.
+struct ColoredAtoms {
+  Molecule molecule;  ///< without objects
+  std::vector<Ball> balls;
+  Coloring coloring;
+};
+
+double milliseconds(const std::vector<StageTime>& times, std::initializer_list<std::string_view> names) {
+  double sum = 0.0;
+  for (const StageTime& time : times)
+    if (std::ranges::find(names, time.name) != names.end()) sum += time.milliseconds;
+  return sum;
+}
+
+/// Throws UsageError for options that only a complete surface can serve, and for --device cpu.
+void check_view_options(const MoleculeRequest& request) {
+  const auto refuse = [](const char* option) {
+    throw UsageError(fmt::format("{} needs the complete surface; leave --extent away", option));
+  };
+  if (request.surface.cpu)
+    throw UsageError(
+        "--extent finds on GL what the view needs; leave --device cpu away, or --extent: the picture is the same");
+  if (request.division.groups || request.division.components) refuse("--by");
+  if (request.division.cavities != Cavities::keep) refuse("--cavities");
+  if (request.division.instances != InstanceMode::none) refuse("--instances");
+  if (request.color.by == ColorScheme::By::component) refuse("--color component");
+  if (request.color.by == ColorScheme::By::buried || request.interface) refuse("--color buried");
+  if (request.color.by == ColorScheme::By::volume) refuse("--color-map-file");
+  if (request.surface.verify) refuse("--verify");
+  if (request.surface.kind != SurfaceKind::ses) refuse("--surface sas or vdw");
+}
+
+ColoredAtoms colored_atoms(const MoleculeRequest& request, Structure molecule) {
+  ColoredAtoms atoms;
+  atoms.molecule.structure = std::move(molecule);
+  atoms.molecule.color = color_of(request);
+  const Structure& structure = atoms.molecule.structure;
+  atoms.balls = balls_of(structure);
+  std::vector<std::uint32_t> all(structure.atoms.size());
+  std::iota(all.begin(), all.end(), 0u);
+  atoms.coloring = color_object(structure, all, atoms.molecule.color, 0);
+  if (request.show) atoms.coloring.hidden = hidden_atoms(*request.show, structure);
+  return atoms;
+}
+
+/// What the next pictures of `view` show.
+void show(const ColoredAtoms& atoms, double probe_radius, Extent extent, ViewPipeline& view) {
+  view.set_atoms(atoms.balls);
+  view.set_coloring(atoms.coloring);
+  view.set_surface(probe_radius, extent);
+}
+
+/// The four groups of stages and the ray casting line by line, with what each of them found.
+std::string stats_text(const ViewStats& n, const std::vector<StageTime>& times, glm::ivec2 picture_size) {
+  const auto line = [](const char* name, double ms, const std::string& found) {
+    return fmt::format("  {:<34} {:>9.2f} ms   {}\n", name, ms, found);
+  };
+  return line("1 visible atoms", milliseconds(times, {"upload", "visible atoms"}),
+              fmt::format("{} of {} atoms can matter for a pixel", with_thousands(n.kept_atoms),
+                          with_thousands(n.atoms))) +
+         line("2 neighbours and potential arcs", milliseconds(times, {"neighbors", "circles", "doubtful circles"}),
+              fmt::format("{} circles, {} decided again in double, {} on the host; {} arcs (RS edges)",
+                          with_thousands(n.circles.pairs), with_thousands(n.circles.decided_in_double),
+                          with_thousands(n.circles.decided_in_quadruple), with_thousands(n.arcs))) +
+         line("3 visible and cutting RS faces", milliseconds(times, {"fixed probes"}),
+              fmt::format("{} fixed probes", with_thousands(n.probes))) +
+         line("4 primitives and singularities", milliseconds(times, {"primitives"}),
+              fmt::format("{} patches", with_thousands(n.primitives))) +
+         line("ray casting", milliseconds(times, {"tile lists", "ray cast"}),
+              fmt::format("{}x{} pixels", picture_size.x, picture_size.y));
 }
 
 /// The atoms of the molecule, or of the first frame of a run, and the cameras that see them.
@@ -99,7 +175,7 @@ void render_views(const RenderCommand& asked) {
   }
   sink.finish();
   if (layout.legend_alone) write_image(scene.legend.file, *layout.legend_alone, image_settings(asked));
-  save_camera(command.save_camera, command.existing(), cameras.front());
+  save_camera(command, cameras.front());
   if (viewed.run) return;
   if (command.stats) fmt::print(std::cerr, "{}", stats_text(pipeline.stats(), renderer.times(), layout.size.size()));
   say_times(command, gl_words(context), renderer.times());

@@ -36,6 +36,18 @@ CLI::Validator within(const Property& property) {
 
 }  // namespace
 
+CLI::Validator proposes(const std::vector<std::string>& words) {
+  return CLI::Validator([](std::string&) { return std::string(); }, "", CLI::detail::join(words, "|"));
+}
+
+CLI::Validator one_of(const std::vector<std::string>& words) {
+  const auto check = [words](std::string& text) -> std::string {
+    if (std::ranges::find(words, text) != words.end()) return {};
+    return fmt::format("{} is not one of {}", in_quotes(text), fmt::join(words, ", "));
+  };
+  return CLI::Validator(check, "", CLI::detail::join(words, "|"));
+}
+
 std::string group_of(const Property& property) { return std::string(property.has(rare) ? "" : property.heading); }
 
 CLI::Option* PropertyOptions::add_parsed(std::string_view key, const std::function<void(const std::string&)>& parse) {

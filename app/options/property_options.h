@@ -15,11 +15,16 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "app/options/value_words.h"
 #include "core/properties/properties.h"
 #include "core/structure/selection/selection.h"
 
 namespace meniscus {
+
+/// Lets any value pass, and proposes these. The name of a check is where command_tree() finds its words.
+CLI::Validator proposes(const std::vector<std::string>& words);
+
+/// Takes one of these words, and nothing else.
+CLI::Validator one_of(const std::vector<std::string>& words);
 
 /// Name, heading, help, default, range and words of each option come from property_of(key). Options appear in the help
 /// in the order in which they are added. What a function throws (CLI::ValidationError, SelectionError, RequestError)

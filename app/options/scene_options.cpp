@@ -19,7 +19,6 @@
 #include "app/options/property_options.h"
 #include "app/options/scene_trust.h"
 #include "app/options/usage_faults.h"
-#include "app/options/value_words.h"
 #include "app/process/program_error.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -296,7 +295,8 @@ void SceneOptions::take(const std::vector<std::string>& named) {
     refuse(error.key(), error.what());
   }
   guard_scene_files(command_, file_, settings);
-  for (const std::string& sentence : idle_options({command_, into_.scene, [this](std::string_view key) { return is_given(key); }}))
+  for (const std::string& sentence :
+       idle_options({command_, into_.scene, [this](std::string_view key) { return is_given(key); }}))
     if (!into_.reporting.quiet) std::cerr << "meniscus: " << escaped(sentence) << std::endl;
 }
 

@@ -32,8 +32,8 @@ struct SceneTrust {
 /// The JSON of a scene file, or of the picture that carries it. Throws InputError.
 std::string read_scene_text(const std::string& file);
 
-/// file: of the scene; empty: there is none. Files that the scene names are inputs that no output replaces; outputs that it names are not those of options.
-/// Throws UsageError.
+/// file: of the scene; empty: there is none. Files that the scene names are inputs that no output replaces; outputs
+/// that it names are not those of options. Throws UsageError.
 void guard_scene_files(const CLI::App& command, const std::string& file, std::span<const SceneSetting> settings);
 
 }  // namespace meniscus

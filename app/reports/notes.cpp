@@ -104,6 +104,13 @@ Molecule build_and_tell(const SceneCommand& command, Structure structure) {
 
 Molecule load_molecule(const SceneCommand& command) { return build_and_tell(command, read_and_tell(command)); }
 
+void say_times(const SceneCommand& command, const std::string& device, std::span<const StageTime> stages) {
+  std::string times;
+  for (const StageTime& stage : stages)
+    times += fmt::format("{}{} {:.1f} ms", times.empty() ? "" : ", ", stage.name, stage.milliseconds);
+  say(command, fmt::format("picture on {}: {}", device, times));
+}
+
 void tell_if_unseen(const SceneCommand& command, const std::optional<Camera>& given, const Structure& structure) {
   const ViewRequest& picture = command.scene.picture;
   if (given && !picture.zoom_to && picture.turns.empty() &&

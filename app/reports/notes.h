@@ -50,6 +50,9 @@ Molecule build_and_tell(const SceneCommand& command, Structure structure);
 /// The same of the molecule's file.
 Molecule load_molecule(const SceneCommand& command);
 
+/// On what a picture was made, and how long each stage took.
+void say_times(const SceneCommand& command, const std::string& device, std::span<const StageTime> stages);
+
 /// Warns if the camera given is certain to see nothing of the structure.
 void tell_if_unseen(const SceneCommand& command, const std::optional<Camera>& given, const Structure& structure);
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/color/coloring.h"
 #include "core/gpu/program.h"
 
 namespace meniscus {

@@ -269,7 +269,7 @@ const Pointer kPointers[] = {
     ARGUMENT(meniscus_render, surface, false, w.renderer.get(), as<meniscus_surface>(p), &w.picture, as<std::uint8_t>(w.n), 16),
     {"meniscus_render picture", true,
      [](World& w, const void* p) {
-       std::vector<std::uint8_t> rgba(1024 * 768 * 4);
+       std::vector<std::uint8_t> rgba(1280 * 960 * 4);
        return meniscus_render(w.renderer.get(), w.surface.get(), as<meniscus_picture>(p), rgba.data(), rgba.size());
      }},
     {"meniscus_render rgba", false,

@@ -4,6 +4,7 @@ package_test.py). MENISCUS_LIBRARY names the library, MENISCUS_PACKAGE the folde
 import copy
 import ctypes
 import gc
+import inspect
 import math
 import os
 import pathlib
@@ -150,6 +151,19 @@ class Numbers(unittest.TestCase):
         np.testing.assert_array_equal(meniscus.radii_of(["C", "zn", "D", 8]), [1.7, 1.39, 1.2, 1.52])
         with self.assertRaisesRegex(meniscus.InputError, "atom 1: 'Qq' is no element"):
             meniscus.radii_of(["C", "Qq"])
+
+
+class Defaults(unittest.TestCase):
+    def test_signatures_have_those_of_the_library(self):
+        def usual(function, name):
+            return inspect.signature(function).parameters[name].default
+        picture = _library.default("picture", _library.Picture())
+        for name in ("width", "height", "samples"):
+            self.assertEqual(usual(meniscus.Surface.render, name), getattr(picture, name), name)
+        self.assertEqual(usual(meniscus.Surface.mesh, "tolerance"), _library.default("mesh_options", _library.MeshOptions()).tolerance)
+        pockets = _library.default("pocket_options", _library.PocketOptions())
+        for name in ("trim", "min_volume", "mouth_tolerance"):
+            self.assertEqual(usual(meniscus.Surface.pockets, name), getattr(pockets, name), name)
 
 
 class Views(unittest.TestCase):

@@ -10,6 +10,7 @@
 #include <imgui_stdlib.h>
 
 #include "app/preview/window/widgets.h"
+#include "app/preview/window/gui.h"
 #include "core/color/color_schemes.h"
 #include "core/color/named_colors.h"
 #include "core/scene/cut.h"
@@ -49,6 +50,7 @@ void FigurePanel::draw() {
 void FigurePanel::atoms() {
   ImGui::SetNextItemWidth(-1.0f);
   ImGui::InputTextWithHint("##atoms", "atoms: ligand, chain A ...", &selection_);
+  Gui::mark("##atoms");
   tooltip("A selection; then one of the buttons below");
   const bool empty = selection_.empty();
   if (empty) ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 0.5f);
@@ -66,6 +68,7 @@ void FigurePanel::atoms() {
   if (ImGui::Button("only") && !empty) link_.send({{"command", "show"}, {"selection", selection_}});
   if (ImGui::Button("paint") && !empty)
     link_.send({{"command", "paint"}, {"selection", selection_}, {"color", hex_color(paint_)}});
+  Gui::mark("paint");
   same_line();
   ImGui::ColorEdit3("##paint", &paint_.x, ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel);
   same_line();

@@ -13,6 +13,7 @@
 #include <imgui_stdlib.h>
 
 #include "app/preview/window/widgets.h"
+#include "app/preview/window/gui.h"
 #include "core/base/text.h"
 #include "core/color/color_maps.h"
 #include "core/color/color_schemes.h"
@@ -83,6 +84,7 @@ void Panel::surface() {
   float radius = link_.state()["probe_radius"];
   if (ImGui::SliderFloat("##probe", &radius, 0.0f, kLargestSliderProbe, "%.2f \xc3\x85", ImGuiSliderFlags_Logarithmic))
     link_.send({{"command", "probe"}, {"radius", rounded(std::max(radius, 0.0f))}});
+  Gui::mark("##probe");
   tooltip("Ctrl + click to type a radius; 0 shows the van der Waals surface");
 }
 
@@ -189,6 +191,7 @@ void Panel::frames() {
   const bool playing = state["playing"];
   if (ImGui::Button(playing ? "Pause" : "Play", {5.5f * ImGui::GetFontSize(), 0.0f}))
     link_.send({{"command", playing ? "pause" : "play"}});
+  Gui::mark("play");
   ImGui::SameLine(6.5f * ImGui::GetFontSize());
   ImGui::SetNextItemWidth(-1.0f);
   int number = state["frame"].get<int>() + 1;
@@ -203,6 +206,7 @@ void Panel::frames() {
   label("A second");
   if (ImGui::SliderFloat("##fps", &rate, 1.0f, 60.0f, "%.0f frames", ImGuiSliderFlags_AlwaysClamp))
     link_.send({{"command", playing ? "play" : "pause"}, {"fps", std::round(rate)}});
+  Gui::mark("##fps");
   bool follows = state["follow_keys"];
   if (ImGui::Checkbox("follow", &follows)) link_.send({{"command", "follow_keys"}, {"on", follows}});
 }

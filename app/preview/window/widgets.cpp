@@ -8,6 +8,7 @@
 #include <imgui.h>
 
 #include "app/preview/key_table.h"
+#include "app/preview/window/gui.h"
 
 namespace meniscus {
 
@@ -40,9 +41,14 @@ void tooltip(const std::string& text) {
 
 std::optional<std::string> chosen(const char* id, const std::string& current, const std::vector<std::string>& words) {
   std::optional<std::string> choice;
-  if (!ImGui::BeginCombo(id, current.c_str(), ImGuiComboFlags_HeightLarge)) return choice;
-  for (const std::string& word : words)
+  if (!ImGui::BeginCombo(id, current.c_str(), ImGuiComboFlags_HeightLarge)) {
+    Gui::mark(id);
+    return choice;
+  }
+  for (const std::string& word : words) {
     if (ImGui::Selectable(word.c_str(), word == current)) choice = word;
+    Gui::mark(word);
+  }
   ImGui::EndCombo();
   return choice;
 }

@@ -25,7 +25,7 @@ namespace {
 constexpr std::int32_t kLargestSide = 65535;  // pixels; what other programs can read
 constexpr std::int32_t kMostSamples = 1024;
 
-const meniscus_picture kDefaults{sizeof(meniscus_picture), nullptr, nullptr, 1024, 768, 4, 0, {0.75f, 0.82f, 0.9f},
+const meniscus_picture kDefaults{sizeof(meniscus_picture), nullptr, nullptr, 1280, 960, 9, 0, {0.75f, 0.82f, 0.9f},
                                  {1.0f, 1.0f, 1.0f},       0.0f,    0.0f,    0.0f, 0};
 
 meniscus_picture checked(const meniscus_picture* given) {

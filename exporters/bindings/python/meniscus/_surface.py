@@ -245,8 +245,8 @@ class Surface:
         """The camera that shows everything. aspect: width / height."""
         return framed(self._handle, aspect, projection)
 
-    def render(self, width: int = 1024, height: int = 768, *, colors: Optional[Any] = None,
-               camera: Optional[Camera] = None, background: Optional[Any] = None, samples: int = 4,
+    def render(self, width: int = 1280, height: int = 960, *, colors: Optional[Any] = None,
+               camera: Optional[Camera] = None, background: Optional[Any] = None, samples: int = 9,
                ambient_occlusion: float = 0.0, silhouettes: float = 0.0, depth_cue: float = 0.0,
                device: Device = "auto") -> Bytes:
         """A picture, (height, width, 4) bytes in sRGB with alpha. colors: one (3,), or one per atom (n, 3), in [0, 1];

@@ -586,8 +586,8 @@ typedef struct meniscus_picture {
   size_t size;
   const meniscus_camera* camera; /* [NULL: meniscus_surface_camera] */
   const float* atom_colors;      /* [NULL: all have `color`] sRGB in [0, 1], three per atom */
-  int32_t width, height;         /* [1024, 768] pixels, 1 to 65,535 */
-  int32_t samples;               /* [4] rays a pixel, 1 to 1,024 */
+  int32_t width, height;         /* [1280, 960] pixels, 1 to 65,535 */
+  int32_t samples;               /* [9] rays a pixel, 1 to 1,024 */
   int32_t opaque;                /* [0] else: before the background */
   float color[3];                /* [0.75, 0.82, 0.9] sRGB in [0, 1] */
   float background[3];           /* [1, 1, 1] sRGB in [0, 1] */

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Defaults are the same through every door: those of the C interface are those of a scene.
+#include <gtest/gtest.h>
+
+#include "core/pockets/pockets.h"
+#include "core/scene/scene.h"
+#include "meniscus/meniscus.h"
+
+namespace meniscus {
+namespace {
+
+TEST(CApiDefaults, OfPicturesAreThoseOfAScene) {
+  meniscus_picture picture{sizeof picture};
+  ASSERT_EQ(meniscus_default_picture(&picture), MENISCUS_OK);
+  const Scene scene;
+  EXPECT_EQ(glm::ivec2(picture.width, picture.height), scene.picture.size());
+  EXPECT_EQ(picture.samples, scene.image.samples);
+  EXPECT_EQ(picture.opaque != 0, scene.image.background.has_value());
+}
+
+TEST(CApiDefaults, OfSurfacesAndMeshesAreThoseOfAScene) {
+  meniscus_options options{sizeof options};
+  meniscus_mesh_options mesh{sizeof mesh};
+  ASSERT_EQ(meniscus_default_options(&options), MENISCUS_OK);
+  ASSERT_EQ(meniscus_default_mesh_options(&mesh), MENISCUS_OK);
+  const Scene scene;
+  EXPECT_EQ(options.probe_radius, scene.molecule.surface.probe_radius);
+  EXPECT_EQ(mesh.tolerance, scene.mesh.tolerance);
+}
+
+TEST(CApiDefaults, OfMoleculesAreThoseOfAScene) {
+  meniscus_read_options reading{sizeof reading};
+  ASSERT_EQ(meniscus_default_read_options(&reading), MENISCUS_OK);
+  const ReadOptions usual = Scene{}.molecule.reading;
+  EXPECT_EQ(reading.model, usual.model.number);
+  EXPECT_EQ(reading.hydrogens == MENISCUS_HYDROGENS_AUTO, usual.hydrogens == Hydrogens::automatic);
+  EXPECT_EQ(reading.unknown_element == MENISCUS_UNKNOWN_HALT, usual.unknown_element == UnknownElement::halt);
+  EXPECT_EQ(reading.keep_water != 0, usual.keep_water);
+  EXPECT_EQ(reading.keep_ions != 0, usual.keep_ions);
+  EXPECT_EQ(reading.select, nullptr);
+  EXPECT_FALSE(usual.selection);
+}
+
+TEST(CApiDefaults, OfPocketsAreThoseOfTheProgram) {
+  meniscus_pocket_options options{sizeof options};
+  ASSERT_EQ(meniscus_default_pocket_options(&options), MENISCUS_OK);
+  const PocketRequest usual;
+  EXPECT_EQ(options.large_probe_radius, usual.large_probe_radius);
+  EXPECT_EQ(options.trim, usual.trim);
+  EXPECT_EQ(options.min_volume, usual.min_volume);
+  EXPECT_EQ(options.mouth_tolerance, usual.tolerance);
+}
+
+}  // namespace
+}  // namespace meniscus
