@@ -10,7 +10,8 @@ namespace meniscus {
 namespace {
 
 TEST(CApiDefaults, OfPicturesAreThoseOfAScene) {
-  meniscus_picture picture{sizeof picture};
+  meniscus_picture picture{};
+  picture.size = sizeof picture;
   ASSERT_EQ(meniscus_default_picture(&picture), MENISCUS_OK);
   const Scene scene;
   EXPECT_EQ(glm::ivec2(picture.width, picture.height), scene.picture.size());
@@ -19,8 +20,10 @@ TEST(CApiDefaults, OfPicturesAreThoseOfAScene) {
 }
 
 TEST(CApiDefaults, OfSurfacesAndMeshesAreThoseOfAScene) {
-  meniscus_options options{sizeof options};
-  meniscus_mesh_options mesh{sizeof mesh};
+  meniscus_options options{};
+  options.size = sizeof options;
+  meniscus_mesh_options mesh{};
+  mesh.size = sizeof mesh;
   ASSERT_EQ(meniscus_default_options(&options), MENISCUS_OK);
   ASSERT_EQ(meniscus_default_mesh_options(&mesh), MENISCUS_OK);
   const Scene scene;
@@ -29,7 +32,8 @@ TEST(CApiDefaults, OfSurfacesAndMeshesAreThoseOfAScene) {
 }
 
 TEST(CApiDefaults, OfMoleculesAreThoseOfAScene) {
-  meniscus_read_options reading{sizeof reading};
+  meniscus_read_options reading{};
+  reading.size = sizeof reading;
   ASSERT_EQ(meniscus_default_read_options(&reading), MENISCUS_OK);
   const ReadOptions usual = Scene{}.molecule.reading;
   EXPECT_EQ(reading.model, usual.model.number);
@@ -42,7 +46,8 @@ TEST(CApiDefaults, OfMoleculesAreThoseOfAScene) {
 }
 
 TEST(CApiDefaults, OfPocketsAreThoseOfTheProgram) {
-  meniscus_pocket_options options{sizeof options};
+  meniscus_pocket_options options{};
+  options.size = sizeof options;
   ASSERT_EQ(meniscus_default_pocket_options(&options), MENISCUS_OK);
   const PocketRequest usual;
   EXPECT_EQ(options.large_probe_radius, usual.large_probe_radius);
