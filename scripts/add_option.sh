@@ -9,12 +9,12 @@ git ls-files -z --cached --others --exclude-standard | xargs -0 cp --parents -t 
 cd "$work"
 
 # A row of the table, a member of the look, and the line that binds them.
-row='    number("look.sparkle", "--sparkle", "F", "Strength of a light that only this test knows")\n'
-row+='        .from(0, 5)\n        .initially("0")\n        .in(kLight, kLook),\n'
-sed -i "0,/^    number(\"look.light_strength\"/s//$row&/" core/properties/look_properties.cpp
+row='number("look.sparkle", "--sparkle", "F", "Strength of a light that only this test knows").from(0, 5)'
+row+='.initially("0").in(kLight, kLook),'
+sed -i "0,/number(\"look.light_strength\"/s//$row\n&/" core/properties/look_properties.cpp
 sed -i 's/^  bool linear_alpha = false;/  std::optional<float> sparkle{};\n&/' core/render/look_presets.h
-binding='    plain("look.sparkle", [](auto\& s) -> auto\& { return s.look.sparkle; }),\n'
-sed -i "0,/^    plain(\"look.light_strength\"/s//$binding&/" core/scene/scene_values.cpp
+binding='plain("look.sparkle", [](auto\& s) -> auto\& { return s.look.sparkle; }),'
+sed -i "0,/{\"look.light\", read_light/s//$binding\n&/" core/scene/scene_values.cpp
 
 cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DMENISCUS_UNITY=ON >/dev/null
 cmake --build build --target meniscus >/dev/null
