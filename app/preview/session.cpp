@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Whoever carries it out again waits for exports.
+/// A replay waits for each export to end.
 Json recorded(Json command) {
   if (command_word(command) == "export") command.erase("wait");
   return command;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a GL context says about itself, whoever made it: who draws, and the limits that decide whether a job fits.
+// What a GL context says about itself: its renderer and version, and the limits that decide whether a job fits.
 #pragma once
 
 #include <cstddef>

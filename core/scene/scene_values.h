@@ -14,7 +14,7 @@
 namespace meniscus {
 
 /// A value that a property cannot have, or that contradicts another one. Says what is wrong, not where it was said:
-/// whoever set it names the option, or the place in the file.
+/// the command line adds the option, a scene file the place.
 class ValueError : public RequestError {
  public:
   ValueError(std::string_view property_key, const std::string& what) : RequestError(what), key_(property_key) {}
