@@ -29,7 +29,12 @@ expect() {
   failures=$((failures + 1))
   echo "failed: $what: $(tail -n 1 "$work/said")"
 }
-says() { "${@:2}" 2>&1 | grep -q -e "$1"; }
+# says WORDS COMMAND...: the command, which may fail, says so.
+says() {
+  local said
+  said=$("${@:2}" 2>&1 || true)
+  grep -q -e "$1" <<<"$said"
+}
 
 printf '1 0 0 1.7\n3 0 0 1.7\n' >two.xyzr
 small=(--size 64x48 --samples 1 -q)

@@ -22,7 +22,7 @@ void tell_structure(const SceneCommand& command, const Structure& structure) {
   say(command, fmt::format("{}: {}", structure.file, structure.report.sentence()));
   say_warnings(command, structure);
   for (const std::string& rule : rules_without_atoms(structure, command.scene.molecule.color))
-    say(command, fmt::format("warning: {}: no atom used is meant by {}; chains and names are case-sensitive",
+    say(command, fmt::format("warning: {}: {} selects none of the atoms used; chains and names are case-sensitive",
                              structure.file, in_quotes(rule)));
 }
 

@@ -71,7 +71,7 @@ TEST_F(ColorCommand, RulesPaintOverTheSchemeWhateverTheOrder) {
             picture({"--color", "grey", "--color", "chain B=red"}));
   const ProgramResult typo = meniscus({"render", file_, "-o", path("t.png"), "--color", "chain b=red"});
   EXPECT_EQ(typo.exit_code, 0);
-  EXPECT_NE(typo.err.find("no atom used is meant by 'chain b'"), std::string::npos) << typo.err;
+  EXPECT_NE(typo.err.find("'chain b' selects none of the atoms used"), std::string::npos) << typo.err;
 }
 
 /// A map from -1 at x = -5 to 1 at x = 5, 20 Å wide along y and z.
