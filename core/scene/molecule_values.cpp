@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Binds the values of the molecule, of runs of frames and of films.
+#include <array>
+#include <charconv>
+#include <optional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/text.h"
+#include "core/scene/scene_value.h"
+
+namespace meniscus::scene_values {
+namespace {
+
+// The molecule.
+
+void read_model(const Property&, Texts texts, Scene& scene) {
+  const std::string& text = texts.back();
+  ModelChoice choice;
+  choice.all = text == "all";
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), choice.number);
+  if (!choice.all && (error != std::errc() || end != text.data() + text.size() || choice.number < 1))
+    throw RequestError(fmt::format("{} is neither a number from 1 nor all", in_quotes(text)));
+  scene.molecule.reading.model = choice;
+}
+
+Written write_model(const Property&, const Scene& scene) {
+  const ModelChoice& choice = scene.molecule.reading.model;
+  if (choice.all) return {"all"};
+  if (choice.number == ModelChoice{}.number) return {};
+  return {std::to_string(choice.number)};
+}
+
+void read_altloc(const Property&, Texts texts, Scene& scene) {
+  const std::optional<AltlocChoice> choice = parse_altloc_choice(texts.back());
+  if (!choice) throw RequestError(in_quotes(texts.back()) + " is not best, first, all or one letter");
+  scene.molecule.reading.altloc = *choice;
+}
+
+Written write_altloc(const Property&, const Scene& scene) {
+  switch (scene.molecule.reading.altloc.rule) {
+    case AltlocChoice::Rule::first:
+      return {"first"};
+    case AltlocChoice::Rule::letter:
+      return {std::string(1, scene.molecule.reading.altloc.letter)};
+    case AltlocChoice::Rule::all:
+      return {"all"};
+    case AltlocChoice::Rule::best:
+      break;
+  }
+  return {};
+}
+
+void read_radii(const Property&, Texts texts, Scene& scene) {
+  if (texts.back().empty()) return;  // info --radii, which prints them
+  std::vector<std::string> sets{"file"};
+  for (const RadiiSet* set : radii_sets()) sets.emplace_back(set->name);
+  scene.molecule.reading.radii.set = sets[place_of_word(sets, texts.back())];
+}
+
+Written write_radii(const Property&, const Scene& scene) {
+  return written(scene.molecule.reading.radii.set, std::string());
+}
+
+void read_radius(const Property&, Texts texts, Scene& scene) {
+  for (const std::string& text : texts) scene.molecule.reading.radii.overrides.push_back(parse_radius_override(text));
+}
+
+Written write_radius(const Property&, const Scene& scene) {
+  Written texts;
+  for (const RadiusOverride& one : scene.molecule.reading.radii.overrides)
+    texts.push_back(fmt::format("{}={}", one.atoms.text(), one.radius));
+  return texts;
+}
+
+void read_whole(const Property&, Texts texts, Scene& scene) {
+  const std::string& text = texts.back();
+  if (text == "guess")
+    scene.frames.whole = WholeBy::guess;
+  else if (text.empty() || text == "bonds" || text == "true")
+    scene.frames.whole = WholeBy::bonds;
+  else
+    throw RequestError(in_quotes(text) + " is neither bonds nor guess");
+}
+
+Written write_whole(const Property&, const Scene& scene) {
+  if (scene.frames.whole == WholeBy::nothing) return {};
+  return {scene.frames.whole == WholeBy::guess ? "guess" : "bonds"};
+}
+
+template <int... possible>
+constexpr auto one_of_numbers(const Property& property, const std::string& text) {
+  const auto number = static_cast<int>(number_in_range(property, text));
+  if (((number == possible) || ...)) return number;
+  throw RequestError(fmt::format("{} is not one of {}", in_quotes(text), fmt::join({possible...}, ", ")));
+}
+
+constexpr auto kMoleculeRows = std::to_array<SceneValue>({
+    plain(
+        "molecule.file", [](auto& s) -> auto& { return s.molecule.file; }),
+    {"molecule.model", read_model, write_model},
+    {"molecule.altloc", read_altloc, write_altloc},
+    plain(
+        "molecule.select", [](auto& s) -> auto& { return s.molecule.reading.selection; }),
+    plain(
+        "molecule.keep_water", [](auto& s) -> auto& { return s.molecule.reading.keep_water; }),
+    plain(
+        "molecule.keep_ions", [](auto& s) -> auto& { return s.molecule.reading.keep_ions; }),
+    worded<UnknownElement::halt, UnknownElement::guess, UnknownElement::skip>(
+        "molecule.unknown_element", [](auto& s) -> auto& { return s.molecule.reading.unknown_element; }),
+    worded<Hydrogens::keep, Hydrogens::drop, Hydrogens::automatic>(
+        "molecule.hydrogens", [](auto& s) -> auto& { return s.molecule.reading.hydrogens; }),
+    {"molecule.radii", read_radii, write_radii},
+    plain(
+        "molecule.radii_file", [](auto& s) -> auto& { return s.molecule.reading.radii.files; }),
+    {"molecule.radius", read_radius, write_radius},
+    plain(
+        "molecule.assembly", [](auto& s) -> auto& { return s.molecule.reading.assembly; }),
+    worded<InstanceMode::exact, InstanceMode::separate>(
+        "molecule.instances", [](auto& s) -> auto& { return s.molecule.division.instances; }),
+
+    plain(
+        "frames.trajectory", [](auto& s) -> auto& { return s.frames.trajectories; }),
+    plain(
+        "frames.trajectory_atoms", [](auto& s) -> auto& { return s.frames.trajectory_atoms; }),
+    plain(
+        "frames.trust_atom_order", [](auto& s) -> auto& { return s.frames.trust_atom_order; }),
+    plain(
+        "frames.frames", [](auto& s) -> auto& { return s.frames.frames; }),
+    plain(
+        "frames.stride", [](auto& s) -> auto& { return s.frames.stride; }),
+    plain(
+        "frames.begin", [](auto& s) -> auto& { return s.frames.begin; }),
+    plain(
+        "frames.end", [](auto& s) -> auto& { return s.frames.end; }),
+    plain(
+        "frames.repeat", [](auto& s) -> auto& { return s.frames.repeat; }),
+    plain(
+        "frames.only", [](auto& s) -> auto& { return s.frames.only; }),
+    plain(
+        "frames.select_once", [](auto& s) -> auto& { return s.frames.select_once; }),
+    {"frames.whole", read_whole, write_whole},
+    plain(
+        "frames.superpose", [](auto& s) -> auto& { return s.frames.superpose; }),
+    plain(
+        "frames.center", [](auto& s) -> auto& { return s.frames.center; }),
+    plain(
+        "frames.reference", [](auto& s) -> auto& { return s.frames.reference; }),
+    plain(
+        "frames.smooth", [](auto& s) -> auto& { return s.frames.smooth; }),
+    plain(
+        "frames.fps", [](auto& s) -> auto& { return s.film.frames_per_second; }),
+    plain(
+        "frames.codec", [](auto& s) -> auto& { return s.film.codec; }),
+    plain(
+        "frames.crf", [](auto& s) -> auto& { return s.film.rate_factor; }),
+    {"frames.bits",
+     [](const Property& property, Texts texts, Scene& scene) {
+       scene.film.bits = one_of_numbers<8, 10>(property, texts.back());
+     },
+     [](const Property&, const Scene& scene) { return written(scene.film.bits, 0); }},
+    {"frames.chroma",
+     [](const Property& property, Texts texts, Scene& scene) {
+       scene.film.chroma = one_of_numbers<420, 422, 444>(property, texts.back());
+     },
+     [](const Property&, const Scene& scene) { return written(scene.film.chroma, 0); }},
+});
+
+}  // namespace
+
+std::span<const SceneValue> molecule_values() { return kMoleculeRows; }
+
+}  // namespace meniscus::scene_values

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lengths of pictures: pixels, or millimetres and the like on paper.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <glm/vec2.hpp>
+
+#include "core/scene/scene_value.h"
+
+namespace meniscus::scene_values {
+
+inline constexpr int kLargestSide = 65535;  // pixels; PNG and EXR readers of other programs stop here
+/// Dots per inch of lengths on paper where nothing else is said.
+inline constexpr double kUsualResolution = 300.0;
+
+struct Length {
+  double value = 0.0;
+  double per_inch = 0.0;  ///< 0: pixels
+
+  double pixels(double dots_per_inch) const;
+};
+
+/// "85mm", "8.5cm", "3.5in", "8pt", "1000px" or "1000". Throws RequestError.
+Length parse_length(const std::string& text);
+
+/// A side of a picture. Throws RequestError for one of no pixel or too many, once the resolution is known.
+int side_in_pixels(const std::string& text, double dots_per_inch);
+/// Of lines and letters, within the range of the property. what: "a line has". Throws RequestError likewise.
+double pixels_in_range(const Property& property, const std::string& text, double dots_per_inch, const char* what);
+
+/// Remembers a length on paper as it was given.
+void keep_length(Scene& scene, std::string_view key, const std::string& text);
+/// A width of lines in pixels. The text on paper counts as long as it still means that width.
+Written written_line(const Scene& scene, std::string_view key, const std::optional<float>& pixels);
+
+/// The size that lengths make of sides. One side alone keeps the shape of the usual picture.
+glm::ivec2 size_by_lengths(const Scene& scene);
+/// Whether the size of the picture is the one that lengths make.
+bool has_lengths_of_sides(const Scene& scene);
+
+}  // namespace meniscus::scene_values

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How the values of a scene are bound to its members: each row says where a property is held, how it is read from text,
+// and how it is written.
+#pragma once
+
+#include <algorithm>
+#include <concepts>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/properties/properties.h"
+#include "core/scene/scene.h"
+
+namespace meniscus::scene_values {
+
+using Texts = std::span<const std::string>;
+using Written = std::vector<std::string>;
+
+/// One property and its member. read() throws RequestError, SelectionError.
+struct SceneValue {
+  std::string_view key;
+  void (*read)(const Property& property, Texts texts, Scene& scene);
+  Written (*write)(const Property& property, const Scene& scene);
+};
+
+/// The rows, by subject.
+std::span<const SceneValue> molecule_values();
+std::span<const SceneValue> surface_values();
+std::span<const SceneValue> picture_values();
+
+/// With all its defaults.
+const Scene& usual_scene();
+
+/// A number in the range of its property. Throws RequestError.
+double number_in_range(const Property& property, const std::string& text);
+/// Throws RequestError for a text that is none of the words.
+std::size_t place_of_word(const std::vector<std::string>& words, const std::string& text);
+
+// Values of common types: read from texts, of which the last counts, and written unless they are the usual ones.
+
+template <typename Number>
+requires std::is_arithmetic_v<Number>
+void read(const Property& property, Texts texts, Number& number) {
+  if constexpr (std::same_as<Number, bool>)
+    number = texts.back() != "false";
+  else
+    number = static_cast<Number>(number_in_range(property, texts.back()));
+}
+inline void read(const Property&, Texts texts, std::string& text) { text = texts.back(); }
+inline void read(const Property&, Texts texts, std::vector<std::string>& all) {
+  all.insert(all.end(), texts.begin(), texts.end());
+}
+inline void read(const Property&, Texts texts, std::optional<Selection>& atoms) {
+  atoms = parse_selection(texts.back());
+}
+template <typename Value>
+void read(const Property& property, Texts texts, std::optional<Value>& value) {
+  read(property, texts, value.emplace());
+}
+
+template <typename Number>
+requires std::is_arithmetic_v<Number> Written written(const Number& number, const Number& usual) {
+  if (number == usual) return {};
+  return {fmt::format("{}", number)};
+}
+inline Written written(const std::string& text, const std::string& usual) {
+  if (text == usual) return {};
+  return {text};
+}
+inline Written written(const std::vector<std::string>& all, const std::vector<std::string>&) { return all; }
+inline Written written(const std::optional<Selection>& atoms, const std::optional<Selection>&) {
+  if (!atoms) return {};
+  return {atoms->text()};
+}
+template <typename Value>
+Written written(const std::optional<Value>& value, const std::optional<Value>&) {
+  if (!value) return {};
+  if constexpr (std::is_arithmetic_v<Value>)
+    return {fmt::format("{}", *value)};
+  else
+    return {*value};
+}
+
+/// A value whose type says how it is read. Member: a function without state from a scene to it.
+template <typename Member>
+constexpr SceneValue plain(std::string_view key, Member) {
+  return {key, [](const Property& property, Texts texts, Scene& scene) { read(property, texts, Member{}(scene)); },
+          [](const Property&, const Scene& scene) { return written(Member{}(scene), Member{}(usual_scene())); }};
+}
+
+/// One of the property's words. meanings: of them, in their order. Scene files of version 0.1.0 have the number of the
+/// enumerator instead.
+template <auto... meanings, typename Member>
+constexpr SceneValue worded(std::string_view key, Member) {
+  using Value = std::common_type_t<decltype(meanings)...>;
+  constexpr auto read_word = [](const Property& property, Texts texts, Scene& scene) {
+    constexpr Value kMeanings[] = {meanings...};
+    const std::string& text = texts.back();
+    const auto* const numbered = std::ranges::find_if(
+        kMeanings, [&](Value meaning) { return text == fmt::format("{}", static_cast<int>(meaning)); });
+    Member{}(scene) = numbered != std::end(kMeanings) ? *numbered : kMeanings[place_of_word(words_of(property), text)];
+  };
+  constexpr auto write_word = [](const Property& property, const Scene& scene) -> Written {
+    constexpr Value kMeanings[] = {meanings...};
+    const Value value = Member{}(scene);
+    if (value == Member{}(usual_scene())) return {};
+    return {words_of(property)[static_cast<std::size_t>(std::ranges::find(kMeanings, value) - kMeanings)]};
+  };
+  return {key, read_word, write_word};
+}
+
+}  // namespace meniscus::scene_values

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Binds the values of the surface, of its colours and cuts, and of what stands beside it.
+#include <array>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "core/base/parse_number.h"
+#include "core/base/text.h"
+#include "core/color/color_maps.h"
+#include "core/color/named_colors.h"
+#include "core/scene/object_json.h"
+#include "core/scene/scene_value.h"
+
+namespace meniscus::scene_values {
+namespace {
+
+// The surface.
+
+void read_probe(const Property&, Texts texts, Scene& scene) {
+  double radius = 0.0;
+  if (!parse_number(texts.back(), radius))
+    throw RequestError(in_quotes(texts.back()) + " is not a finite number of Å, such as 1.4");
+  if (const std::string fault = probe_fault(radius); !fault.empty()) throw RequestError(fault);
+  scene.molecule.surface.probe_radius = radius;
+  scene.molecule.surface.probe_named = true;
+}
+
+Written write_probe(const Property&, const Scene& scene) {
+  const SurfaceRequest& surface = scene.molecule.surface;
+  if (surface.kind == SurfaceKind::vdw && !surface.probe_named) return {};
+  return written(surface.probe_radius, SurfaceRequest{}.probe_radius);
+}
+
+void read_device(const Property&, Texts texts, Scene& scene) {
+  SurfaceRequest& surface = scene.molecule.surface;
+  surface.cpu = texts.back() == "cpu";
+  const std::optional<DeviceChoice> choice = parse_device_choice(surface.cpu ? "auto" : texts.back());
+  if (!choice)
+    throw RequestError(in_quotes(texts.back()) +
+                       " is none of auto, gpu, gpu:N, gpu:UUID, gpu:PCI-ADDRESS, software, cpu");
+  surface.gl.kind = choice->kind;
+  surface.gl.index = choice->index;
+  surface.gl.name = choice->name;
+}
+
+Written write_device(const Property&, const Scene& scene) {
+  if (scene.molecule.surface.cpu) return {"cpu"};
+  return written(to_string(scene.molecule.surface.gl), to_string(DeviceChoice{}));
+}
+
+/// "auto" becomes any hardware GPU and nothing else; set behind the device.
+void read_require_gpu(const Property&, Texts texts, Scene& scene) {
+  SurfaceRequest& surface = scene.molecule.surface;
+  if (texts.back() == "false") return;
+  if (surface.cpu || surface.gl.kind == DeviceChoice::Kind::software)
+    throw GpuError(fmt::format("--require-gpu refuses --device {}; leave one of them away",
+                               surface.cpu ? "cpu" : to_string(surface.gl)));
+  if (surface.gl.kind == DeviceChoice::Kind::automatic) surface.gl.kind = DeviceChoice::Kind::gpu;
+}
+
+constexpr std::pair<const char*, Grouping> kGroupings[] = {{"chain", Grouping::chain},
+                                                           {"model", Grouping::model},
+                                                           {"class", Grouping::atom_class},
+                                                           {"residue", Grouping::residue}};
+
+void read_division(const Property&, Texts texts, Scene& scene) {
+  Division& division = scene.molecule.division;
+  division.groups.reset();
+  division.components = texts.back() == "component";
+  if (division.components) return;
+  for (const auto& [word, grouping] : kGroupings)
+    if (texts.back() == word) division.groups = grouping;
+  if (!division.groups)
+    throw RequestError(in_quotes(texts.back()) + " is none of chain, model, class, residue, component");
+}
+
+Written write_division(const Property&, const Scene& scene) {
+  if (scene.molecule.division.components) return {"component"};
+  for (const auto& [word, grouping] : kGroupings)
+    if (scene.molecule.division.groups == grouping) return {word};
+  return {};
+}
+
+void read_interface(const Property&, Texts texts, Scene& scene) {
+  scene.molecule.interface = parse_interface(texts.back());
+}
+
+Written write_interface(const Property&, const Scene& scene) {
+  if (!scene.molecule.interface) return {};
+  return {scene.molecule.interface->left.text() + ":" + scene.molecule.interface->right.text()};
+}
+
+// Colours.
+
+/// A scheme for all, or a rule for some.
+void read_color(const Property&, Texts texts, Scene& scene) {
+  ColorScheme& color = scene.molecule.color;
+  for (const std::string& text : texts) {
+    if (text.find('=') != std::string::npos) {
+      color.rules.push_back(parse_color_rule(text));
+      continue;
+    }
+    const std::optional<ColorScheme> scheme = parse_color_scheme(text);
+    if (!scheme) throw RequestError(in_quotes(text) + " is none of " + color_scheme_words());
+    color.by = scheme->by;
+    color.fixed = scheme->fixed;
+    scene.molecule.color_named = true;
+  }
+}
+
+Written write_color(const Property&, const Scene& scene) {
+  const ColorScheme& color = scene.molecule.color;
+  Written texts;
+  if (scene.molecule.color_named) texts.push_back(scheme_word(color));
+  for (const ColorRule& rule : color.rules) texts.push_back(rule.atoms.text() + "=" + scheme_word(rule.paint));
+  return texts;
+}
+
+void read_map(const Property&, Texts texts, Scene& scene) {
+  scene.molecule.color.map = parse_color_map(texts.back());
+  if (scene.molecule.color.map) return;
+  std::vector<std::string_view> names;
+  for (const ColorMapMetadata& map : color_maps()) names.push_back(map.name);
+  throw RequestError(fmt::format("{} is none of {}", in_quotes(texts.back()), fmt::join(names, ", ")));
+}
+
+Written write_map(const Property&, const Scene& scene) {
+  if (!scene.molecule.color.map) return {};
+  return {std::string(map_name(*scene.molecule.color.map))};
+}
+
+void read_range(const Property&, Texts texts, Scene& scene) {
+  scene.molecule.color.range = parse_color_range(texts.back());
+  if (!scene.molecule.color.range && texts.back() != "auto")
+    throw RequestError(in_quotes(texts.back()) + " is neither auto nor lo:hi with lo < hi, such as 10:60");
+}
+
+Written write_range(const Property&, const Scene& scene) {
+  const auto& range = scene.molecule.color.range;
+  if (!range) return {};
+  return {fmt::format("{}:{}", (*range)[0], (*range)[1])};
+}
+
+void read_missing(const Property&, Texts texts, Scene& scene) {
+  scene.molecule.color.missing = parse_color(texts.back());
+  if (!scene.molecule.color.missing)
+    throw RequestError(in_quotes(texts.back()) + " is neither a colour's name such as red nor #rrggbb");
+}
+
+Written write_missing(const Property&, const Scene& scene) {
+  if (!scene.molecule.color.missing) return {};
+  return {hex_color(*scene.molecule.color.missing)};
+}
+
+void read_opacity(const Property&, Texts texts, Scene& scene) {
+  for (const std::string& text : texts) scene.molecule.color.opacities.push_back(parse_opacity_rule(text));
+}
+
+Written write_opacity(const Property&, const Scene& scene) {
+  Written texts;
+  for (const OpacityRule& rule : scene.molecule.color.opacities)
+    texts.push_back((rule.atoms ? rule.atoms->text() + "=" : "") + fmt::format("{}", rule.opacity));
+  return texts;
+}
+
+// The figure.
+
+void read_cuts(const Property&, Texts texts, Scene& scene) {
+  for (const std::string& text : texts) scene.figure.cuts.push_back(parse_cut(text));
+}
+
+Written write_cuts(const Property&, const Scene& scene) {
+  Written texts;
+  for (const Cut& cut : scene.figure.cuts) texts.push_back(cut_text(cut));
+  return texts;
+}
+
+void read_cap_color(const Property&, Texts texts, Scene& scene) {
+  std::optional<glm::vec3>& color = scene.figure.cap.color;
+  color.reset();
+  if (texts.back() == "atom") return;
+  color = parse_color(texts.back());
+  if (!color) throw RequestError(in_quotes(texts.back()) + " is neither atom nor a colour (red, #rrggbb)");
+}
+
+Written write_cap_color(const Property&, const Scene& scene) {
+  if (!scene.figure.cap.color) return {};
+  return {hex_color(*scene.figure.cap.color)};
+}
+
+using Shape = RepresentationRequest::Kind;
+
+template <Shape kind>
+constexpr SceneValue shapes(std::string_view key) {
+  return {key,
+          [](const Property&, Texts texts, Scene& scene) {
+            std::vector<RepresentationRequest>& requests = scene.figure.representations.requests;
+            for (const std::string& text : texts) {
+              if (requests.size() == kMostShown)
+                throw RequestError(fmt::format("at most {} sets of atoms are drawn beside a surface", kMostShown));
+              requests.push_back({kind, parse_selection(text)});
+            }
+          },
+          [](const Property&, const Scene& scene) {
+            Written texts;
+            for (const RepresentationRequest& request : scene.figure.representations.requests)
+              if (request.kind == kind) texts.push_back(request.atoms.text());
+            return texts;
+          }};
+}
+
+/// Says of which object a fault is.
+void read_objects(const Property&, Texts texts, Scene& scene) {
+  const auto named = [&](std::size_t n, std::string_view fault) {
+    constexpr std::string_view kPrefix = "object: ";
+    if (fault.starts_with(kPrefix)) fault.remove_prefix(kPrefix.size());
+    return texts.size() == 1 ? std::string(fault) : fmt::format("{} of {}: {}", n + 1, texts.size(), fault);
+  };
+  for (std::size_t n = 0; n < texts.size(); ++n) {
+    try {
+      scene.figure.objects.push_back(parse_figure_object(texts[n]));
+    } catch (const SelectionError& error) {
+      throw SelectionError(named(n, error.sentence()), error.picture());
+    } catch (const RequestError& error) {
+      throw RequestError(named(n, error.what()));
+    }
+  }
+}
+
+Written write_objects(const Property&, const Scene& scene) {
+  Written texts;
+  for (const FigureObjectRequest& object : scene.figure.objects)
+    texts.push_back(figure_object_json(object).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  return texts;
+}
+
+constexpr auto kSurfaceRows = std::to_array<SceneValue>({
+    plain(
+        "surface.shown", [](auto& s) -> auto& { return s.figure.hides_surface; }),
+    {"surface.interface", read_interface, write_interface},
+    worded<SurfaceKind::ses, SurfaceKind::sas, SurfaceKind::vdw>(
+        "surface.kind", [](auto& s) -> auto& { return s.molecule.surface.kind; }),
+    {"surface.probe", read_probe, write_probe},
+    plain(
+        "surface.show", [](auto& s) -> auto& { return s.molecule.show; }),
+    {"surface.by", read_division, write_division},
+    worded<Cavities::keep, Cavities::drop, Cavities::only>(
+        "surface.cavities", [](auto& s) -> auto& { return s.molecule.division.cavities; }),
+    {"surface.device", read_device, write_device},
+    {"surface.require_gpu", read_require_gpu, [](const Property&, const Scene&) { return Written(); }},
+    plain(
+        "surface.threads", [](auto& s) -> auto& { return s.molecule.surface.threads; }),
+    plain(
+        "surface.verify", [](auto& s) -> auto& { return s.molecule.surface.verify; }),
+    {"surface.color", read_color, write_color},
+    plain(
+        "surface.color_by_file", [](auto& s) -> auto& { return s.molecule.number_file; }),
+    plain(
+        "surface.color_column", [](auto& s) -> auto& { return s.molecule.number_column; }),
+    plain(
+        "surface.color_map_file", [](auto& s) -> auto& { return s.molecule.volume_file; }),
+    plain(
+        "surface.map_offset", [](auto& s) -> auto& { return s.molecule.volume_offset; }),
+    {"surface.map", read_map, write_map},
+    plain(
+        "surface.map_file", [](auto& s) -> auto& { return s.molecule.map_file; }),
+    {"surface.color_range", read_range, write_range},
+    {"surface.missing_color", read_missing, write_missing},
+    plain(
+        "surface.color_title", [](auto& s) -> auto& { return s.molecule.color.title; }),
+    plain(
+        "surface.color_unit", [](auto& s) -> auto& { return s.molecule.color.unit; }),
+    {"surface.opacity", read_opacity, write_opacity},
+    plain(
+        "surface.film_opacity", [](auto& s) -> auto& { return s.figure.thickens; }),
+    {"surface.clip", read_cuts, write_cuts},
+    {"surface.cap_color", read_cap_color, write_cap_color},
+    plain(
+        "surface.cap_hatching", [](auto& s) -> auto& { return s.figure.cap.hatching; }),
+    shapes<Shape::sticks>("figure.sticks"),
+    shapes<Shape::balls_and_sticks>("figure.balls"),
+    shapes<Shape::spheres>("figure.spheres"),
+    shapes<Shape::backbone>("figure.tube"),
+    plain(
+        "shapes.stick_radius", [](auto& s) -> auto& { return s.figure.representations.stick_radius; }),
+    plain(
+        "shapes.tube_radius", [](auto& s) -> auto& { return s.figure.representations.tube_radius; }),
+    {"figure.object", read_objects, write_objects},
+});
+
+}  // namespace
+
+std::span<const SceneValue> surface_values() { return kSurfaceRows; }
+
+}  // namespace meniscus::scene_values
