@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program `meniscus`: a table of commands.
+// The program `meniscus`: reads the command line, and has the command do its work.
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <iostream>
+#include <span>
 #include <sstream>
 #include <system_error>
 #include <vector>
@@ -24,13 +25,6 @@
 
 namespace meniscus {
 namespace {
-
-constexpr Command kCommands[] = {
-    {"surface", add_surface}, {"pockets", add_pockets}, {"render", add_render}, {"preview", add_preview},
-    {"export", add_export},   {"farm", add_farm},       {"work", add_work},     {"info", add_info},
-    {"formats", add_formats}, {"colors", add_colors},   {"bench", add_bench},   {"completion", add_completion},
-    {"help", add_help},
-};
 
 constexpr const char* kExamples = R"(  meniscus info 1tii.pdb                          what the file holds
   meniscus surface 1tii.pdb                       area, volume, cavities; --json, --csv for programs
@@ -122,12 +116,12 @@ class ManualFormatter : public CLI::Formatter {
 };
 
 bool is_command(std::string_view word) {
-  return std::ranges::any_of(kCommands, [&](const Command& command) { return word == command.name; });
+  return std::ranges::any_of(commands(), [&](const Command& command) { return word == command.name; });
 }
 
 [[noreturn]] void refuse_unknown_command(std::string_view word) {
   std::vector<std::string_view> names;
-  for (const Command& command : kCommands) names.emplace_back(command.name);
+  for (const Command& command : commands()) names.emplace_back(command.name);
   const std::string_view nearest = nearest_word(word, names);
   throw UsageError(fmt::format("{} is no command{}; there are {}; see meniscus --help", in_quotes(word),
                                nearest.empty() ? "" : fmt::format(" (did you mean {}?) and no file", nearest),
@@ -144,6 +138,12 @@ std::vector<const char*> words_of(int argc, char** argv) {
   if (std::filesystem::path(argv[1]).extension() == ".json") words.insert(words.begin() + 1, "--scene");
   words.insert(words.begin() + 1, "render");
   return words;
+}
+
+/// Whether commands are asked about options of others.
+bool shows_options(std::span<const char* const> words) {
+  constexpr std::array<std::string_view, 3> kAsking{"help", "completion", "--help-all"};
+  return words.size() > 1 && std::ranges::find(kAsking, std::string_view(words[1])) != kAsking.end();
 }
 
 void run(int argc, char** argv) {
@@ -165,7 +165,7 @@ void run(int argc, char** argv) {
   program.require_subcommand(1);
   let_the_last_count(program);
   program.footer(kExamples);
-  for (const Command& command : kCommands) command.add(*program.add_subcommand(command.name)->group("Commands"));
+  add_commands(program, "Commands", commands(), shows_options(words) ? Declared::at_once : Declared::when_reached);
   // All options are known then, and no command has begun.
   program.parse_complete_callback([&program] { NamedFiles(named_command(program)).check(); });
   std::vector<std::string> arguments(words.rbegin(), words.rend() - 1);
@@ -182,11 +182,6 @@ void run(int argc, char** argv) {
 }
 
 }  // namespace
-
-void describe(CLI::App& command, const std::string& summary, const std::string& examples, const std::string& details) {
-  command.description(summary);
-  command.footer(details.empty() ? examples : examples + "\n\n" + details);
-}
 
 }  // namespace meniscus
 

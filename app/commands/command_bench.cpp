@@ -151,7 +151,7 @@ void run(BenchCommand& command) {
 
 void add_bench(CLI::App& command) {
   describe(
-      command, "Time the stages of the surface computation for several files",
+      command,
       "  meniscus bench 1ubq.pdb 1tii.pdb            a row each: stages, total, surfaces per second\n"
       "  meniscus bench 6zu5.cif --device cpu --threads 1 --runs 20\n"
       "  meniscus bench --paper 1crn.pdb 1vis.pdb 1tii.pdb   frames as in the paper, beside its own figures",

@@ -35,7 +35,7 @@ void list_colors() {
 }  // namespace
 
 void add_colors(CLI::App& command) {
-  describe(command, "List colour schemes and colour maps with their sources", "  meniscus colors");
+  describe(command, "  meniscus colors");
   command.callback(list_colors);
 }
 

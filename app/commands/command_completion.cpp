@@ -32,7 +32,7 @@ void run(const CLI::App& program, const std::string& name) {
 }  // namespace
 
 void add_completion(CLI::App& command) {
-  describe(command, "Print the script by which bash, zsh or fish completes commands, options and their words",
+  describe(command,
            "  source <(meniscus completion bash)                 in ~/.bashrc\n"
            "  meniscus completion zsh >~/.zfunc/_meniscus        a folder of $fpath\n"
            "  meniscus completion fish >~/.config/fish/completions/meniscus.fish\n\n"

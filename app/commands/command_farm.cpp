@@ -99,8 +99,10 @@ void bundle(BundleCommand command) {
                escaped(filled(engine.start, {{"DIR", shell_word(command.folder)}})));
 }
 
-void add_bundle(CLI::App& command) {
-  describe(command, "Make a folder that any machine can work on",
+}  // namespace
+
+void add_farm_bundle(CLI::App& command) {
+  describe(command,
            "  meniscus farm bundle film --film film.mp4 -- render adk.psf --trajectory adk.dcd --frames all\n"
            "  meniscus farm bundle film -- export povray adk.psf --trajectory adk.dcd --frames 0-97 -- +A0.1\n"
            "  meniscus farm bundle film --engine slurm --chunk-frames 20 -- export blender adk.pdb --frames all -- "
@@ -136,12 +138,12 @@ void add_bundle(CLI::App& command) {
   });
 }
 
-void add_status(CLI::App& command) {
+void add_farm_status(CLI::App& command) {
   struct Status {
     std::string folder;
     bool json = false, metrics = false;
   };
-  describe(command, "Tell how far the frames of a bundle are, how long still, and what failed last",
+  describe(command,
            "  meniscus farm status film\n"
            "  meniscus farm status film --prometheus > film.prom.new && mv film.prom.new /var/lib/node/film.prom");
   auto state = std::make_shared<Status>();
@@ -157,6 +159,8 @@ void add_status(CLI::App& command) {
                                    : farm::status_table(bundle, status, state->folder));
   });
 }
+
+namespace {
 
 /// Of seconds since 1970: "2026-11-23 11:12:13 UTC".
 std::string utc_time(double seconds) {
@@ -196,12 +200,14 @@ void tell_log(const std::string& folder, std::uint64_t frame, const std::string&
     fmt::print(std::cout, "{} was made without frame {}: {}\n", bundle.film->file, frame, note->sentence());
 }
 
-void add_log(CLI::App& command) {
+}  // namespace
+
+void add_farm_log(CLI::App& command) {
   struct Log {
     std::string folder, step;
     std::uint64_t frame = 0;
   };
-  describe(command, "Tell what became of a frame, who made it, and what the programs that made it said",
+  describe(command,
            "  meniscus farm log film 42\n"
            "  meniscus farm log film 42 --step render");
   auto state = std::make_shared<Log>();
@@ -210,6 +216,8 @@ void add_log(CLI::App& command) {
   PropertyOptions(command).add("work.step", state->step);
   command.callback([state] { tell_log(state->folder, state->frame, state->step); });
 }
+
+namespace {
 
 /// What can be done about frames that are not good, which is another thing if they failed when they were made.
 std::string advice(const std::vector<farm::FrameFault>& faults, const std::string& folder) {
@@ -264,8 +272,10 @@ void verify(const std::filesystem::path& folder, const std::optional<farm::InPla
                          : "");
 }
 
-void add_verify(CLI::App& command) {
-  describe(command, "Check that every frame is there, whole, of the right size and not blank; then make the film",
+}  // namespace
+
+void add_farm_verify(CLI::App& command) {
+  describe(command,
            "  meniscus farm verify film\n"
            "  meniscus farm verify film --allow-missing hold    a film in spite of frames that cannot be made");
   struct Verify {
@@ -279,20 +289,13 @@ void add_verify(CLI::App& command) {
   command.callback([state] { verify(state->folder, state->in_place); });
 }
 
-constexpr Command kFarmCommands[] = {
-    {"bundle", add_bundle}, {"status", add_status}, {"log", add_log}, {"verify", add_verify}};
-
-}  // namespace
-
 void add_farm(CLI::App& command) {
-  describe(command, "Make films on many machines: make, Slurm, OpenJD, Flamenco, OpenCue",
+  describe(command,
            "  meniscus farm bundle film -- render adk.psf --trajectory adk.dcd --frames all\n"
            "  meniscus work film            on any number of machines (meniscus work --help)\n"
            "  meniscus farm status film\n"
            "  meniscus farm log film 42\n"
            "  meniscus farm verify film");
-  command.require_subcommand(1);
-  for (const Command& entry : kFarmCommands) entry.add(*command.add_subcommand(entry.name)->group("Commands"));
 }
 
 }  // namespace meniscus

@@ -61,7 +61,7 @@ void print_json() {
 }  // namespace
 
 void add_formats(CLI::App& command) {
-  describe(command, "List the file formats that are read, and what of them is used",
+  describe(command,
            "  meniscus formats\n"
            "  meniscus formats --json");
   auto json = std::make_shared<bool>(false);

@@ -159,7 +159,7 @@ std::vector<std::string> page_names(const CLI::App& program) {
 }  // namespace
 
 void add_help(CLI::App& command) {
-  describe(command, "Show a page of the manual: selections, assemblies, frames, exit-codes, or a command",
+  describe(command,
            "  meniscus help\n"
            "  meniscus help selections\n"
            "  meniscus help --man man            a manual page of every command and topic, into the folder man");

@@ -156,7 +156,6 @@ void run(const SceneCommand& command, const std::string& trajectory_path) {
 
 void add_info(CLI::App& command) {
   describe(command,
-           "Tell what a file holds: models, chains, classes, extent, and which radius each class of atoms gets",
            "  meniscus info 1tii.pdb\n"
            "  meniscus info 6zu5.cif.gz --select 'nucleic and chain A'\n"
            "  meniscus info 1tii.pdb --radii protor         radii of another set\n"

@@ -103,7 +103,7 @@ std::vector<bool> taken_out(const PocketsCommand& command, const Structure& stru
 
 void add_pockets(CLI::App& command) {
   describe(
-      command, "Find pockets, tunnels and cavities: volume, mouths, depth, the atoms around",
+      command,
       "  meniscus pockets 1hpv.pdb                         a table; the ligand's place is told\n"
       "  meniscus pockets 1hpv.pdb --json > pockets.json   one JSON object\n"
       "  meniscus pockets 1hpv.pdb --csv pockets.csv --mesh pockets.ply    rows, and solids in colours\n"

@@ -217,7 +217,7 @@ void open_window(DeclaredPreview& declared) {
 }  // namespace
 
 void add_preview(CLI::App& command) {
-  describe(command, "Look at the surface while it changes, in a window or in a browser",
+  describe(command,
            "  meniscus preview 1tii.pdb                           a window; h shows its keys\n"
            "  meniscus preview 1tii.pdb --serve                   prints an address to open in a browser\n"
            "  meniscus preview 1tii.pdb --serve 8080 --color chain\n"

@@ -179,7 +179,7 @@ RenderSettings render_settings(const RenderCommand& command, const PictureLayout
 
 void add_render(CLI::App& command) {
   describe(
-      command, "Ray cast a picture of the analytic surface",
+      command,
       "  meniscus render 1tii.pdb -o 1tii.png\n"
       "  meniscus render 1tii.pdb -o 1tii.png --size 3840x2160 --samples 16 --color chain --background white\n"
       "  meniscus render 1tii.pdb -o 1tii.png --color hydrophobicity --legend --background white\n"

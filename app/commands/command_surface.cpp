@@ -112,7 +112,7 @@ void check_outputs(const SurfaceCommand& command) {
 
 void add_surface(CLI::App& command) {
   describe(
-      command, "Compute the surface; print area, volume, components, chains, and areas of atoms",
+      command,
       "  meniscus surface 1tii.pdb                         a table\n"
       "  meniscus surface 1tii.pdb --json > 1tii.json      one JSON object\n"
       "  meniscus surface 1tii.pdb --csv atoms.csv --csv-residues residues.csv   areas of each\n"

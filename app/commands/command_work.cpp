@@ -115,7 +115,7 @@ void run(const WorkCommand& command) {
 
 void add_work(CLI::App& command) {
   describe(
-      command, "Make the missing frames of a bundle, or a chunk of them (see meniscus farm)",
+      command,
       "  meniscus work film                                all that is missing\n"
       "  meniscus work film --step render --chunk 3/10     the third of ten shares of one step\n"
       "  meniscus work film --frames 40-49 --force         these once more",

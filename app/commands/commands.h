@@ -1,24 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The commands of the program, one function and one file (command_<name>.cpp, export_<name>.cpp) each.
+// The commands of the program, one function each.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include <CLI/CLI.hpp>
 
 namespace meniscus {
 
-/// One row of a command table. `add` gives the empty command its description, options and callback; the callback does
-/// the work and throws the errors of core/base/error.h.
+/// One row of a table of commands. `add` gives the empty command its options and its callback, which does the work and
+/// throws the errors of core/base/error.h.
 struct Command {
   const char* name;
+  const char* summary;  ///< one line
   void (*add)(CLI::App& command);
+  const char* heading_below = "";
+  std::span<const Command> below = {};
 };
+
+/// Those of the program.
+std::span<const Command> commands();
+
+/// When commands declare their options: all at once, as their help and completion need them, or each when the command
+/// line reaches it.
+enum class Declared { at_once, when_reached };
+
+/// Adds the commands and those below them; the rows have to live as long as `parent`.
+void add_commands(CLI::App& parent, const std::string& heading, std::span<const Command> rows, Declared when);
 
 void add_bench(CLI::App& command);
 void add_colors(CLI::App& command);
 void add_completion(CLI::App& command);
-void add_export(CLI::App& command);
 void add_export_atoms(CLI::App& command);
 void add_export_blender(CLI::App& command);
 void add_export_mesh(CLI::App& command);
@@ -27,6 +40,10 @@ void add_export_pbrt(CLI::App& command);
 void add_export_ply(CLI::App& command);
 void add_export_povray(CLI::App& command);
 void add_farm(CLI::App& command);
+void add_farm_bundle(CLI::App& command);
+void add_farm_log(CLI::App& command);
+void add_farm_status(CLI::App& command);
+void add_farm_verify(CLI::App& command);
 void add_formats(CLI::App& command);
 void add_help(CLI::App& command);
 void add_info(CLI::App& command);
@@ -36,8 +53,7 @@ void add_render(CLI::App& command);
 void add_surface(CLI::App& command);
 void add_work(CLI::App& command);
 
-/// Sets a command's one-line summary, its examples, which the help shows first, and what else a reader should know.
-void describe(CLI::App& command, const std::string& summary, const std::string& examples,
-              const std::string& details = "");
+/// Sets a command's examples, which its help shows first, and what else a reader should know.
+void describe(CLI::App& command, const std::string& examples, const std::string& details = "");
 
 }  // namespace meniscus

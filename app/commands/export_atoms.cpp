@@ -69,7 +69,7 @@ void export_atoms(const SceneCommand& asked) {
 }  // namespace
 
 void add_export_atoms(CLI::App& command) {
-  describe(command, "Write the atoms that a surface is computed of, with radii, colours and frames, as arrays",
+  describe(command,
            "  meniscus export atoms 1tii.pdb -o 1tii.atoms\n"
            "  meniscus export atoms adk.psf --trajectory adk.dcd --frames all --select protein -o adk.atoms",
            "For programs that compute surfaces themselves, by libmeniscus: the panel of the Blender add-on is one. The "

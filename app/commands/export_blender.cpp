@@ -252,7 +252,7 @@ void export_to_blender(const SceneCommand& asked) {
 
 void add_export_blender(CLI::App& command) {
   describe(
-      command, "Write a file for Blender: closed mesh, analytic patches, atoms, camera (add-on: meniscus_import)",
+      command,
       "  meniscus export blender 1tii.pdb -o 1tii.mns\n"
       "  meniscus export blender 1tii.pdb -o 1tii.mns --camera camera.json --tolerance-pixels 0.25 "
       "--size 1920x1080\n"

@@ -174,7 +174,7 @@ void declare(CLI::App& command, const std::string& format) {
 }  // namespace
 
 void add_export_mesh(CLI::App& command) {
-  describe(command, "Write a closed triangle mesh: STL, 3MF, OBJ, OFF, GLB, VTP, TetGen, DMS or PLY",
+  describe(command,
            "  meniscus export mesh 1tii.pdb -o 1tii.glb --color chain --density 2\n"
            "  meniscus export mesh 1tii.pdb -o 1tii.3mf --even --tolerance 0.1\n"
            "  meniscus export mesh 1tii.pdb -o 1tii.vtp --attributes mean_curvature,hydrophobicity\n"
@@ -186,7 +186,7 @@ void add_export_mesh(CLI::App& command) {
 }
 
 void add_export_ply(CLI::App& command) {
-  describe(command, "Write a closed triangle mesh as binary PLY: the same as export mesh --format ply",
+  describe(command,
            "  meniscus export ply 1tii.pdb -o 1tii.ply\n"
            "  meniscus export ply 1tii.pdb -o fine.ply --tolerance 0.002 --color chain");
   declare(command, "ply");

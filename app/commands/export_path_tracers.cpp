@@ -168,7 +168,7 @@ void declare(CLI::App& command, path_tracers::Renderer renderer) {
 }  // namespace
 
 void add_export_mitsuba(CLI::App& command) {
-  describe(command, "Write a Mitsuba 3 scene: meshes as fine as the picture, spheres and cylinders as they are",
+  describe(command,
            "  meniscus export mitsuba 1tii.pdb -o 1tii --color chain     then: cd 1tii; mitsuba surface.xml\n"
            "  meniscus export mitsuba 1tii.pdb -o glass --material glass --size 1920x1080\n"
            "  meniscus export mitsuba adk.psf --trajectory adk.dcd --frames 0-90 -o adk     a scene a frame");
@@ -176,7 +176,7 @@ void add_export_mitsuba(CLI::App& command) {
 }
 
 void add_export_pbrt(CLI::App& command) {
-  describe(command, "Write a pbrt-v4 scene: meshes as fine as the picture, spheres and cylinders as they are",
+  describe(command,
            "  meniscus export pbrt 1tii.pdb -o 1tii --color chain     then: cd 1tii; pbrt surface.pbrt\n"
            "  meniscus export pbrt 1tii.pdb -o wax --material wax --size 1920x1080\n"
            "  meniscus export pbrt adk.psf --trajectory adk.dcd --frames 0-90 -o adk     a scene a frame");

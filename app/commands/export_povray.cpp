@@ -195,7 +195,7 @@ void export_to_povray(const SceneCommand& command) {
 
 void add_export_povray(CLI::App& command) {
   describe(
-      command, "Write a POV-Ray scene of the analytic patches, no triangles; prints how to render it",
+      command,
       "  meniscus export povray 1tii.pdb -o 1tii                 then: cd 1tii; povray surface.ini\n"
       "  meniscus export povray 1tii.pdb -o glass --material glass --size 1920x1080\n"
       "  meniscus export povray 1tii.pdb -o cut --clip 'depth>0.5' --color chain --sticks 'chain C'\n"

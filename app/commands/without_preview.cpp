@@ -7,8 +7,7 @@
 namespace meniscus {
 
 void add_preview(CLI::App& command) {
-  describe(command, "Look at the surface while it changes: not in this build", "",
-           "This build has neither window nor page; configure it with -DMENISCUS_PREVIEW=ON.");
+  describe(command, "", "This build has neither window nor page; configure it with -DMENISCUS_PREVIEW=ON.");
   command.allow_extras();
   command.callback([] {
     throw UsageError("this build has no preview; configure it with -DMENISCUS_PREVIEW=ON, or use meniscus render");
