@@ -100,7 +100,11 @@ surface is that of the molecule:
 All others are made of their own atoms alone, which need not be among those of molecule.select; as --object:
 
 )";
-  for (const ObjectKey& key : object_keys()) page += fmt::format("  {:<26}{}\n", key.key, key.description);
+  for (const ObjectKey& key : object_keys())
+    page += fmt::format("  {:<26}{}{}\n", key.name, key.property->long_option(),
+                        !key.of_shapes     ? "; of surfaces"
+                        : !key.of_surfaces ? " or --tube-radius; of sticks and tubes"
+                                           : "");
   return page;
 }
 
@@ -114,11 +118,9 @@ std::string scene_schema() {
     own[std::string(property->section())][std::string(property->name())] = described(*property);
   for (const auto& [section, keys] : own.items()) sections[section] = strict(keys);
   Json object = surface;
-  for (const ObjectKey& key : object_keys()) {
-    const std::string name(key.key);
-    if (!object.contains(name)) object[name] = type_of(key.form);
-    object[name]["description"] = std::string(key.description);
-  }
+  for (const ObjectKey& key : object_keys())
+    if (const std::string name(key.name); !object.contains(name)) object[name] = described(*key.property);
+  object["selection"] = {{"type", "string"}, {"description", "The atoms of the object"}};
   object["representation"] = {{"enum", {"surface", "sticks", "balls", "spheres", "tube"}}};
   sections["objects"] = {{"type", "array"}, {"items", strict(object)}};
   Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Meniscus scene"}};

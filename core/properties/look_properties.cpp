@@ -33,18 +33,18 @@ constexpr auto kTable = of_commands(
         number("look.ambient", "--ambient", "F",
                "Share of light that comes evenly from everywhere, 0 to 1; with 1 colours are exactly those given")
             .from(0, 1)
-            .in(kLight, kLook),
+            .in(kLight, kLook | of_objects),
         number("look.roughness", "--roughness", "F",
                "Roughness, from wax (0), which darkens towards its edges, to chalk (1)")
             .from(0, 1)
-            .in(kLight, kLook),
+            .in(kLight, kLook | of_objects),
         number("look.specular", "--specular", "F", "Strength of highlights, 0 (none) to 1")
             .from(0, 1)
-            .in(kLight, kLook),
+            .in(kLight, kLook | of_objects),
         number("look.shininess", "--shininess", "F",
                "Specular exponent, 1 to 1000; a larger one makes smaller highlights")
             .from(1, 1000)
-            .in(kLight, kLook),
+            .in(kLight, kLook | of_objects),
         number("look.ambient_occlusion", "--ambient-occlusion", "F",
                "Strength of the shade in pockets and clefts, 0 (none) to 1; only what the picture shows casts shade")
             .from(0, 1)

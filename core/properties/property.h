@@ -33,7 +33,9 @@ enum Trait : unsigned {
   value_optional = 16,  ///< the option may stand without a value; true in scene files
   needs_support = 32,   ///< a command without it would show something else, so it refuses a scene that sets it
   negated = 64,         ///< the scene key is false where the option is given
-  rare = 128            ///< few need it: the help has no words about its option; --set has its key
+  rare = 128,           ///< few need it: the help has no words about its option; --set has its key
+  of_objects = 256,     ///< each object beside the surface has its own
+  of_surfaces = 512     ///< each such object that is a surface has its own
 };
 
 /// Which commands have an option for a property; combined by |.

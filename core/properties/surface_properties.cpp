@@ -29,16 +29,16 @@ constexpr auto kTable = of_commands(
              "ses: solvent-excluded; sas: solvent-accessible; vdw: van der Waals, without a probe")
             .one_of("ses|sas|vdw")
             .initially("ses")
-            .in(kSurface, kSeen | live)
+            .in(kSurface, kSeen | live | of_surfaces)
             .of((kForRuns & ~for_pockets) | for_bench),
         text("surface.probe", "--probe", "RADIUS", "Radius of the probe in Å; 0 gives the van der Waals surface")
             .from(0, 1000)
             .initially("1.4")
-            .in(kSurface, kShared | live)
+            .in(kSurface, kShared | live | of_surfaces)
             .of(kForRuns | for_bench),
         text("surface.show", "--show", "EXPR",
              "Compute the surface of all atoms used, but draw and export only the part of these")
-            .in(kSurface, kShared | live)
+            .in(kSurface, kShared | live | of_surfaces)
             .of(kForFigures | for_mesh | for_pockets),
         text("surface.by", "--by", "WORD",
              "Several objects: chain, model, class (polymer, ligand, ...) or residue: each a surface of its own, as if "
@@ -78,7 +78,7 @@ constexpr auto kTable = of_commands(
              "(Kyte & Doolittle 1982), index, radial (for capsids); meniscus colors explains them. EXPR=COLOR colours "
              "some atoms, as in 'ligand=orange'. Repeatable; the last counts")
             .initially("element")
-            .in(kColour, kSeen | live | repeatable)
+            .in(kColour, kSeen | live | repeatable | of_objects)
             .of(kForColours),
         file("surface.color_by_file", "--color-by-file", "NUMBERS",
              "Colour by numbers from a file: one for each atom of FILE or each atom used; lines of chain, residue and "
@@ -107,7 +107,7 @@ constexpr auto kTable = of_commands(
              "red-white-blue (default for charge: negative is red), blues and ylorrd (light), consurf (grades 1 to 9), "
              "categorical (each number has its own colour)")
             .initially("viridis")
-            .in(kColour, kSeen | live)
+            .in(kColour, kSeen | live | of_objects)
             .of(kForColours),
         file("surface.map_file", "--map-file", "FILE",
              "A colour map of your own: lines with a colour, or a position and a colour; or a JSON list of them")
@@ -117,12 +117,12 @@ constexpr auto kTable = of_commands(
              "Numbers at the ends of the colour map, or auto: the smallest and the largest (charge is symmetric about "
              "0, hydrophobicity has -4.5:4.5)")
             .initially("auto")
-            .in(kColour, kSeen | live)
+            .in(kColour, kSeen | live | of_objects)
             .of(kForColours),
         text("surface.missing_color", "--missing-color", "COLOR",
              "Colour of atoms without a number, and of points outside the volume map")
             .initially("#808080; cividis #cc79a7; consurf #ffff96")
-            .in(kColour, kSeen | live)
+            .in(kColour, kSeen | live | of_objects)
             .of(kForColours),
         text("surface.color_title", "--color-title", "TEXT", "Title of the colour scale in the legend")
             .in(kColour, kShared)
@@ -133,22 +133,22 @@ constexpr auto kTable = of_commands(
         text("surface.opacity", "--opacity", "EXPR=N",
              "Opacity from 0 (hidden) to 1: EXPR=0.4 for some atoms, or a number alone for all. Repeatable; the last "
              "counts")
-            .in(kFigure, kSeen | live | repeatable),
+            .in(kFigure, kSeen | live | repeatable | of_objects),
         flag("surface.film_opacity", "--film-opacity",
              "Make transparent surfaces denser where the line of sight grazes them, like a thin film")
-            .in(kFigure, kSeen | live),
+            .in(kFigure, kSeen | live | of_surfaces),
         text("surface.clip", "--clip", "PLANE",
              "Keep the part of the surface where this holds, with exact caps: x<20, 1,1,0>35 (a direction), or "
              "depth>0.5 along the line of sight (0 nearest, 1 farthest). Repeatable; all apply")
-            .in(kFigure, kSeen | live | repeatable),
+            .in(kFigure, kSeen | live | repeatable | of_surfaces),
         text("surface.cap_color", "--cap-color", "COLOR",
              "Colour of caps: atom (that of the nearest atom) or a colour (red, #rrggbb)")
             .initially("atom")
-            .in(kFigure, kSeen | live),
+            .in(kFigure, kSeen | live | of_surfaces),
         number("surface.cap_hatching", "--cap-hatching", "Å", "Distance in Å between dark lines on caps; 0: no lines")
             .from(0, 1000)
             .initially("0")
-            .in(kFigure, kSeen | live),
+            .in(kFigure, kSeen | live | of_surfaces),
 
         text("figure.sticks", "--sticks", "EXPR",
              "Draw the bonds of these atoms as sticks. Repeatable; may name atoms outside --select")

@@ -1,24 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads each key by the same parsers that options have.
+// Reads and writes an object as a scene of its own: its keys are those of properties, and so are their values.
 #include "core/scene/object_json.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <set>
+#include <string>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
-#include "core/base/text_file.h"
 #include "core/base/text.h"
-#include "core/color/color_maps.h"
-#include "core/color/named_colors.h"
-#include "core/properties/properties.h"
+#include "core/base/text_file.h"
+#include "core/scene/scene_values.h"
+#include "core/scene/value_json.h"
 
 namespace meniscus {
 namespace {
@@ -30,238 +26,145 @@ constexpr std::array<std::pair<std::string_view, Kind>, 4> kShapeWords{{{"sticks
                                                                         {"balls", Kind::balls_and_sticks},
                                                                         {"spheres", Kind::spheres},
                                                                         {"tube", Kind::backbone}}};
+/// Of sticks and of tubes.
+constexpr std::string_view kRadius = "radius", kRadiusProperty = "shapes.stick_radius";
 
-constexpr auto kObjectKeys = std::to_array<ObjectKey>({
-    {"representation", "surface, sticks, balls, spheres or tube", SceneForm::text},
-    {"selection", "its atoms", SceneForm::text},
-    {"color", "as --color, of this object [that of the molecule]", SceneForm::list},
-    {"opacity", "as --opacity, of this object", SceneForm::list},
-    {"map", "as --map, of a color by number", SceneForm::text},
-    {"color_range", "as --color-range, likewise", SceneForm::text},
-    {"missing_color", "as --missing-color, likewise", SceneForm::text},
-    {"ambient", "of its material, 0 to 1 [as --ambient]", SceneForm::text},
-    {"roughness", "likewise, 0 to 1", SceneForm::text},
-    {"specular", "likewise, 0 to 1", SceneForm::text},
-    {"shininess", "likewise, 1 to 1000", SceneForm::text},
-    {"radius", "of sticks and tubes, Å", SceneForm::text},
-    {"kind", "of a surface: ses, sas, vdw", SceneForm::text},
-    {"probe", "of a surface: radius of the probe, Å [1.4]", SceneForm::text},
-    {"show", "of a surface: as --show", SceneForm::text},
-    {"clip", "of a surface: as --clip", SceneForm::list},
-    {"cap_color", "as --cap-color", SceneForm::text},
-    {"cap_hatching", "as --cap-hatching", SceneForm::text},
-    {"film_opacity", "as --film-opacity", SceneForm::flag},
-});
-
-class ObjectReader {
-  template <typename Parse>
-  auto naming(const char* key, const Parse& parse) const {
-    try {
-      return parse();
-    } catch (const SelectionError& error) {
-      throw SelectionError(fmt::format("object: \"{}\": {}", key, error.sentence()), error.picture());
-    } catch (const RequestError& error) {
-      throw RequestError(fmt::format("object: \"{}\": {}", key, error.what()));
-    }
+/// `read()`, with what it throws said of this key.
+template <typename Read>
+auto naming(std::string_view key, const Read& read) {
+  try {
+    return read();
+  } catch (const SelectionError& error) {
+    throw SelectionError(fmt::format("object: \"{}\": {}", key, error.sentence()), error.picture());
+  } catch (const RequestError& error) {
+    throw RequestError(fmt::format("object: \"{}\": {}", key, error.what()));
   }
-
- public:
-  explicit ObjectReader(const Json& json) : json_(json) {}
-
-  FigureObjectRequest read() {
-    const std::string representation = text("representation", "surface");
-    const std::string selection = text("selection", "");
-    if (selection.empty()) throw RequestError("object: \"selection\" is missing: which atoms is it made of?");
-    FigureObjectRequest object{.atoms = naming("selection", [&] { return parse_selection(selection); })};
-    const auto* const shape =
-        std::ranges::find(kShapeWords, std::string_view(representation), &std::pair<std::string_view, Kind>::first);
-    if (shape != kShapeWords.end())
-      object.shapes = shape->second;
-    else if (representation != "surface")
-      refuse("representation", "is none of surface, sticks, balls, spheres, tube");
-    read_colors(object);
-    read_material(object.material);
-    if (object.shapes)
-      object.radius = number("radius", "shapes.stick_radius");
-    else
-      read_surface(object);
-    for (const auto& [key, value] : json_.items())
-      if (!known_.contains(key))
-        throw RequestError(fmt::format("object: {} is no key of {}; there are {}", in_quotes(key), representation,
-                                       fmt::join(known_, ", ")));
-    return object;
-  }
-
- private:
-  [[noreturn]] void refuse(const std::string& key, std::string_view what) const {
-    throw RequestError(fmt::format("object: \"{}\": {} {}", key, escaped(json_.at(key).dump()), what));
-  }
-
-  bool has(const std::string& key) {
-    known_.insert(key);
-    return json_.contains(key);
-  }
-
-  std::string text(const std::string& key, const char* otherwise) {
-    if (!has(key)) return otherwise;
-    if (!json_.at(key).is_string()) refuse(key, "is no text");
-    return json_.at(key).get<std::string>();
-  }
-
-  /// Within the range of a property.
-  std::optional<double> number(const std::string& key, std::string_view property_key) {
-    if (!has(key)) return {};
-    const Property& property = property_of(property_key);
-    const Json& value = json_.at(key);
-    if (!value.is_number() || !property.is_within(value.get<double>()))
-      refuse(key, fmt::format("is not a number from {} to {}", property.lowest, property.highest));
-    return value.get<double>();
-  }
-
-  bool flag(const std::string& key) {
-    if (!has(key)) return false;
-    if (!json_.at(key).is_boolean()) refuse(key, "is neither true nor false");
-    return json_.at(key).get<bool>();
-  }
-
-  /// A text or a number, or a list of them.
-  std::vector<std::string> words(const std::string& key) {
-    std::vector<std::string> words;
-    if (!has(key)) return words;
-    const Json& value = json_.at(key);
-    const auto add = [&](const Json& one) {
-      if (!one.is_string() && !one.is_number()) refuse(key, "is neither a text nor a number nor a list of them");
-      words.push_back(one.is_string() ? one.get<std::string>() : one.dump());
-    };
-    if (!value.is_array()) add(value);
-    if (value.is_array())
-      for (const Json& one : value) add(one);
-    return words;
-  }
-
-  void read_colors(FigureObjectRequest& object) {
-    ColorScheme color;
-    bool own = false;
-    for (const std::string& word : words("color")) {
-      own = true;
-      if (word.find('=') != std::string::npos) {
-        color.rules.push_back(naming("color", [&] { return parse_color_rule(word); }));
-        continue;
-      }
-      const std::optional<ColorScheme> scheme = parse_color_scheme(word);
-      if (!scheme) refuse("color", "is none of " + color_scheme_words());
-      color.by = scheme->by;
-      color.fixed = scheme->fixed;
-    }
-    for (const std::string& word : words("opacity")) {
-      object.opacities.push_back(naming("opacity", [&] { return parse_opacity_rule(word); }));
-    }
-    if (has("map")) {
-      color.map = parse_color_map(text("map", ""));
-      if (!color.map) refuse("map", "is the name of no map; meniscus colors lists them");
-    }
-    if (has("color_range")) {
-      color.range = parse_color_range(text("color_range", ""));
-      if (!color.range) refuse("color_range", "is not lo:hi with lo < hi, such as 10:60");
-    }
-    if (has("missing_color")) {
-      color.missing = parse_color(text("missing_color", ""));
-      if (!color.missing) refuse("missing_color", "is neither a colour's name such as red nor #rrggbb");
-    }
-    if ((color.map || color.range || color.missing) && !color.uses_scale())
-      throw RequestError("object: \"map\", \"color_range\" and \"missing_color\" are for a \"color\" by a number");
-    color.share_scale();
-    if (own) object.color = std::move(color);
-  }
-
-  void read_material(MaterialRequest& material) {
-    const auto take = [&](const std::string& key, std::optional<float>& value) {
-      if (const std::optional<double> given = number(key, "look." + key)) value = static_cast<float>(*given);
-    };
-    take("ambient", material.ambient);
-    take("roughness", material.roughness);
-    take("specular", material.specular);
-    take("shininess", material.shininess);
-  }
-
-  void read_surface(FigureObjectRequest& object) {
-    const std::string kind = text("kind", "ses");
-    if (kind == kind_word(SurfaceKind::sas))
-      object.kind = SurfaceKind::sas;
-    else if (kind == kind_word(SurfaceKind::vdw))
-      object.kind = SurfaceKind::vdw;
-    else if (kind != kind_word(SurfaceKind::ses))
-      refuse("kind", "is none of ses, sas, vdw");
-    if (const std::optional<double> radius = number("probe", "surface.probe")) {
-      if (object.kind == SurfaceKind::vdw)
-        throw RequestError("object: \"probe\": a van der Waals surface has none; leave it away");
-      if (const std::string fault = probe_fault(*radius); !fault.empty()) refuse("probe", fault);
-      object.probe_radius = *radius;
-    }
-    if (has("show")) object.show = naming("show", [&] { return parse_selection(text("show", "")); });
-    for (const std::string& word : words("clip"))
-      object.cuts.push_back(naming("clip", [&] { return parse_cut(word); }));
-    const std::string cap = text("cap_color", "atom");
-    if (cap != "atom") object.cap.color = parse_color(cap);
-    if (cap != "atom" && !object.cap.color) refuse("cap_color", "is neither atom nor a colour");
-    object.cap.hatching = number("cap_hatching", "surface.cap_hatching").value_or(0.0);
-    object.thickens = flag("film_opacity");
-  }
-
-  const Json& json_;
-  std::set<std::string> known_;
-};
-
-/// The shortest number that is the same float.
-double shortest_number(float value) { return std::stod(fmt::format("{}", value)); }
-
-/// One alone without a list around it.
-void put_words(const char* key, const std::vector<std::string>& words, Json& json) {
-  if (words.size() == 1) json[key] = words.front();
-  if (words.size() > 1) json[key] = words;
 }
 
-void put_colors(const FigureObjectRequest& object, Json& json) {
+/// The text of a key that no property has.
+std::string own_text(const Json& json, std::string_view key, const char* otherwise) {
+  const auto found = json.find(key);
+  if (found == json.end()) return otherwise;
+  if (!found->is_string())
+    throw RequestError(fmt::format("object: \"{}\": {} is no text", key, escaped(found->dump())));
+  return found->get<std::string>();
+}
+
+std::optional<Kind> shapes_of(const std::string& representation) {
+  if (representation == "surface") return {};
+  const auto* const shape =
+      std::ranges::find(kShapeWords, std::string_view(representation), &std::pair<std::string_view, Kind>::first);
+  if (shape == kShapeWords.end())
+    throw RequestError(fmt::format("object: \"representation\": {} is none of surface, sticks, balls, spheres, tube",
+                                   in_quotes(representation)));
+  return shape->second;
+}
+
+const Property& property_of_key(const std::string& key, const std::string& representation) {
+  std::vector<std::string_view> names{"representation", "selection"};
+  for (const ObjectKey& known : object_keys()) {
+    if (!(representation == "surface" ? known.of_surfaces : known.of_shapes)) continue;
+    if (known.name == key) return *known.property;
+    names.push_back(known.name);
+  }
+  throw RequestError(
+      fmt::format("object: {} is no key of {}; there are {}", in_quotes(key), representation, fmt::join(names, ", ")));
+}
+
+std::vector<std::string> texts_of(const Property& property, const std::string& key, const Json& value) {
+  try {
+    return texts_of_json(property, value);
+  } catch (const RequestError& error) {
+    throw RequestError(fmt::format("object: \"{}\": {} {}", key, escaped(value.dump()), error.what()));
+  }
+}
+
+/// The object's own values.
+Scene values_of(const Json& json, const std::string& representation) {
+  Scene own;
+  for (const auto& [key, value] : json.items()) {
+    if (key == "representation" || key == "selection") continue;
+    const Property& property = property_of_key(key, representation);
+    const std::vector<std::string> texts = texts_of(property, key, value);
+    if (!texts.empty()) naming(key, [&] { set_value(own, property, texts); });
+  }
+  return own;
+}
+
+/// Nothing: the molecule's.
+std::optional<ColorScheme> color_of(const Scene& own) {
+  ColorScheme color = own.molecule.color;
+  if ((color.map || color.range || color.missing) && !color.uses_scale())
+    throw RequestError("object: \"map\", \"color_range\" and \"missing_color\" are for a \"color\" by a number");
+  if (!own.molecule.color_named && color.rules.empty()) return {};
+  color.opacities.clear();
+  color.share_scale();
+  return color;
+}
+
+/// What figure_object_json() writes as values.
+Scene values_of(const FigureObjectRequest& object) {
+  Scene own;
   if (object.color) {
-    std::vector<std::string> words{scheme_word(*object.color)};
-    for (const ColorRule& rule : object.color->rules)
-      words.push_back(rule.atoms.text() + "=" + scheme_word(rule.paint));
-    put_words("color", words, json);
-    if (object.color->map) json["map"] = map_name(*object.color->map);
-    if (const auto& range = object.color->range) json["color_range"] = fmt::format("{}:{}", (*range)[0], (*range)[1]);
-    if (object.color->missing) json["missing_color"] = hex_color(*object.color->missing);
+    own.molecule.color = *object.color;
+    own.molecule.color_named = true;
   }
-  std::vector<std::string> opacities;
-  for (const OpacityRule& rule : object.opacities)
-    opacities.push_back((rule.atoms ? rule.atoms->text() + "=" : "") + fmt::format("{}", rule.opacity));
-  put_words("opacity", opacities, json);
-}
-
-void put_surface(const FigureObjectRequest& object, Json& json) {
-  if (object.kind != SurfaceKind::ses) json["kind"] = kind_word(object.kind);
-  if (object.kind != SurfaceKind::vdw && object.probe_radius != SurfaceRequest{}.probe_radius)
-    json["probe"] = object.probe_radius;
-  if (object.show) json["show"] = object.show->text();
-  std::vector<std::string> cuts;
-  for (const Cut& cut : object.cuts) cuts.push_back(cut_text(cut));
-  put_words("clip", cuts, json);
-  if (object.cap.color) json["cap_color"] = hex_color(*object.cap.color);
-  if (object.cap.hatching > 0.0) json["cap_hatching"] = object.cap.hatching;
-  if (object.thickens) json["film_opacity"] = true;
+  own.molecule.color.opacities = object.opacities;
+  own.look.ambient = object.material.ambient;
+  own.look.roughness = object.material.roughness;
+  own.look.specular = object.material.specular;
+  own.look.shininess = object.material.shininess;
+  own.figure.representations.stick_radius = object.radius;
+  own.molecule.surface.kind = object.kind;
+  own.molecule.surface.probe_radius = object.probe_radius;
+  own.molecule.show = object.show;
+  own.figure.cuts = object.cuts;
+  own.figure.cap = object.cap;
+  own.figure.thickens = object.thickens;
+  return own;
 }
 
 }  // namespace
 
-std::span<const ObjectKey> object_keys() { return kObjectKeys; }
+const std::vector<ObjectKey>& object_keys() {
+  static const std::vector<ObjectKey> keys = [] {
+    std::vector<ObjectKey> all;
+    for (const Property* property : properties())
+      if (property->has(of_objects) || property->has(of_surfaces))
+        all.push_back({property->name(), property, true, property->has(of_objects)});
+    all.push_back({kRadius, &property_of(kRadiusProperty), false, true});
+    return all;
+  }();
+  return keys;
+}
 
-FigureObjectRequest parse_figure_object(std::string_view json) {
-  if (is_nested_too_deep(json)) throw RequestError("object: JSON nested too deep");
-  const Json object = Json::parse(json, nullptr, false);
-  if (!object.is_object())
+FigureObjectRequest parse_figure_object(std::string_view text) {
+  if (is_nested_too_deep(text)) throw RequestError("object: JSON nested too deep");
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object())
     throw RequestError(
         fmt::format(R"(object: {} is no JSON such as {{"representation": "sticks", "selection": "ligand"}})",
-                    in_quotes(shortened(std::string(json), 60))));
-  return ObjectReader(object).read();
+                    in_quotes(shortened(std::string(text), 60))));
+  const std::string representation = own_text(json, "representation", "surface");
+  const std::string selection = own_text(json, "selection", "");
+  if (selection.empty()) throw RequestError("object: \"selection\" is missing: which atoms is it made of?");
+  FigureObjectRequest object{.atoms = naming("selection", [&] { return parse_selection(selection); })};
+  object.shapes = shapes_of(representation);
+  const Scene own = values_of(json, representation);
+  const SurfaceRequest& surface = own.molecule.surface;
+  if (surface.kind == SurfaceKind::vdw && surface.probe_named)
+    throw RequestError("object: \"probe\": a van der Waals surface has none; leave it away");
+  object.color = color_of(own);
+  object.opacities = own.molecule.color.opacities;
+  object.material = {own.look.ambient, own.look.roughness, own.look.specular, own.look.shininess};
+  object.radius = own.figure.representations.stick_radius;
+  object.kind = surface.kind;
+  object.probe_radius = surface.probe_radius;
+  object.show = own.molecule.show;
+  object.cuts = own.figure.cuts;
+  object.cap = own.figure.cap;
+  object.thickens = own.figure.thickens;
+  return object;
 }
 
 Json figure_object_json(const FigureObjectRequest& object) {
@@ -270,17 +173,12 @@ Json figure_object_json(const FigureObjectRequest& object) {
                     : kShapeWords.end();
   Json json{{"representation", std::string(shape == kShapeWords.end() ? "surface" : shape->first)},
             {"selection", object.atoms.text()}};
-  put_colors(object, json);
-  const MaterialRequest& material = object.material;
-  const auto put_number = [&](const char* key, const std::optional<float>& value) {
-    if (value) json[key] = shortest_number(*value);
-  };
-  put_number("ambient", material.ambient);
-  put_number("roughness", material.roughness);
-  put_number("specular", material.specular);
-  put_number("shininess", material.shininess);
-  if (object.radius) json["radius"] = *object.radius;
-  if (!object.shapes) put_surface(object, json);
+  const Scene own = values_of(object);
+  for (const ObjectKey& key : object_keys()) {
+    if (!(object.shapes ? key.of_shapes : key.of_surfaces)) continue;
+    if (const std::vector<std::string> texts = value_texts(own, *key.property); !texts.empty())
+      json[std::string(key.name)] = json_of_texts(*key.property, texts, "");
+  }
   return json;
 }
 

@@ -2,9 +2,8 @@
 // One object of a figure as JSON: of --object, and of the list in a scene file.
 #pragma once
 
-#include <span>
-#include <string>
 #include <string_view>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -13,13 +12,15 @@
 
 namespace meniscus {
 
-/// A key of such an object.
+/// A key of such an object, besides "representation" and "selection".
 struct ObjectKey {
-  std::string_view key, description;
-  SceneForm form;
+  std::string_view name;
+  const Property* property;  ///< that says what it means and which values it takes
+  bool of_surfaces, of_shapes;
 };
 
-std::span<const ObjectKey> object_keys();
+/// In the order of their table.
+const std::vector<ObjectKey>& object_keys();
 
 /// Reads {"representation": "surface" | "sticks" | "balls" | "spheres" | "tube", "selection": EXPR, ...};
 /// docs/scenes.md has all keys. Throws RequestError that names the key, SelectionError.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,12 +14,12 @@
 #include "core/base/text_file.h"
 #include "core/base/text.h"
 #include "core/scene/scene_values.h"
+#include "core/scene/value_json.h"
 
 namespace meniscus {
 namespace {
 
 using Json = nlohmann::ordered_json;
-namespace fs = std::filesystem;
 
 constexpr const char* kVersionKey = "meniscus_scene";
 constexpr int kVersion = 1;
@@ -109,28 +108,11 @@ class SceneParser {
   }
 
   void add(const Property& property, const Json& value, const std::string& place) {
-    switch (scene_form(property)) {
-      case SceneForm::text_or_flag:
-        if (value == false) return;
-        return set(property, {value == true ? std::string() : text(value, place)}, place);
-      case SceneForm::flag:
-      case SceneForm::negated:
-        if (!value.is_boolean()) fail(place, "is neither true nor false");
-        return set(property, {value.get<bool>() != property.has(negated) ? "true" : "false"}, place);
-      case SceneForm::text:
-        return set(property, {text(value, place)}, place);
-      case SceneForm::path:
-        return set(property, {path(value, place)}, place);
-      case SceneForm::camera:
-        return set(property, {value.is_object() ? value.dump() : path(value, place)}, place);
-      case SceneForm::list:
-      case SceneForm::paths: {
-        std::vector<std::string> texts;
-        for (const Json& one : value.is_array() ? value.get<std::vector<Json>>() : std::vector<Json>{value})
-          texts.push_back(scene_form(property) == SceneForm::list ? text(one, place) : path(one, place));
-        if (!texts.empty()) set(property, std::move(texts), place);
-        return;
-      }
+    try {
+      if (std::vector<std::string> texts = texts_of_json(property, value); !texts.empty())
+        set(property, std::move(texts), place);
+    } catch (const RequestError& error) {
+      fail(place, error.what());
     }
   }
 
@@ -138,11 +120,6 @@ class SceneParser {
     if (value.is_string()) return value.get<std::string>();
     if (!value.is_number()) fail(place, "is neither a text nor a number");
     return value.dump();
-  }
-
-  std::string path(const Json& value, const std::string& place) const {
-    if (!value.is_string() || value.get<std::string>().empty()) fail(place, "is no path");
-    return value.get<std::string>();
   }
 
   void read_objects(const Json& scene) {
@@ -186,45 +163,6 @@ class SceneParser {
   std::vector<SceneSetting> settings_;
 };
 
-/// As a number if it is written as JSON writes numbers.
-Json number_or_text(const std::string& text) {
-  const Json number = Json::parse(text, nullptr, false);
-  return number.is_number() && number.dump() == text ? number : Json(text);
-}
-
-std::string seen_from(const std::string& folder, const std::string& path) {
-  if (folder.empty()) return fs::path(path).filename().string();
-  std::error_code failed;
-  const fs::path seen = fs::proximate(fs::absolute(path), fs::absolute(folder), failed);
-  return failed ? fs::absolute(path).string() : seen.string();
-}
-
-Json json_value(const Property& property, const std::vector<std::string>& texts, const std::string& folder) {
-  Json list = Json::array();
-  switch (scene_form(property)) {
-    case SceneForm::flag:
-      return true;
-    case SceneForm::negated:
-      return false;
-    case SceneForm::text_or_flag:
-      return texts.back() == "auto" ? Json(true) : number_or_text(texts.back());
-    case SceneForm::text:
-      return number_or_text(texts.back());
-    case SceneForm::list:
-      for (const std::string& text : texts) list.push_back(number_or_text(text));
-      return list.size() == 1 ? list.front() : list;
-    case SceneForm::path:
-      return seen_from(folder, texts.back());
-    case SceneForm::paths:
-      for (const std::string& text : texts) list.push_back(seen_from(folder, text));
-      return list;
-    case SceneForm::camera:
-      return texts.back().starts_with('{') ? Json::parse(texts.back(), nullptr, false)
-                                           : Json(seen_from(folder, texts.back()));
-  }
-  return {};
-}
-
 }  // namespace
 
 std::vector<SceneSetting> parse_scene(std::string_view json, const std::string& file) {
@@ -239,7 +177,7 @@ std::string scene_text(const Scene& scene, const std::string& folder) {
     const std::vector<std::string> texts = value_texts(scene, *property);
     if (texts.empty()) continue;
     const std::string section(property->section()), name(property->name());
-    (section == "surface" ? objects.front() : sections[section])[name] = json_value(*property, texts, folder);
+    (section == "surface" ? objects.front() : sections[section])[name] = json_of_texts(*property, texts, folder);
   }
   for (const auto& [word, key] : kShapes)
     for (const std::string& selection : value_texts(scene, property_of(key)))

@@ -31,6 +31,7 @@ std::string moved(Cut cut, double bound, bool turned) {
 float object_opacity(const Json& object) {
   if (!object.contains("opacity")) return 1.0f;
   const Json& opacity = object["opacity"];
+  if (opacity.is_number()) return opacity.get<float>();
   if (!opacity.is_string() || opacity.get<std::string>().find('=') != std::string::npos) return -1.0f;
   return parse_opacity_rule(opacity.get<std::string>()).opacity;
 }
