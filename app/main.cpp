@@ -12,14 +12,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/commands/commands.h"
 #include "app/options/named_files.h"
 #include "app/options/usage_faults.h"
-#include "app/process/build_version.h"
-#include "app/process/command_line.h"
-#include "app/commands/commands.h"
 #include "app/process/program_error.h"
 #include "app/process/program_main.h"
-#include "app/process/standard_streams.h"
+#include "app/process/this_program.h"
 #include "app/reports/version_report.h"
 #include "core/base/text.h"
 

@@ -9,11 +9,11 @@
 #include <fmt/ostream.h>
 #include <nlohmann/json.hpp>
 
-#include "app/options/property_options.h"
 #include "app/commands/commands.h"
+#include "app/options/property_options.h"
 #include "core/base/text.h"
+#include "core/base/text_file.h"
 #include "core/structure/formats/structure_formats.h"
-#include "core/base/text_lines.h"
 #include "core/trajectory/formats/trajectory_formats.h"
 
 namespace meniscus {

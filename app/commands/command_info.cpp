@@ -12,15 +12,14 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-#include "app/options/property_options.h"
 #include "app/commands/commands.h"
-#include "core/scene/molecule.h"
-#include "core/scene/frame_run.h"
-#include "app/reports/trajectory_report.h"
-#include "core/base/text.h"
-#include "app/reports/notes.h"
-#include "app/reports/assembly_table.h"
+#include "app/options/property_options.h"
 #include "app/options/scene_options.h"
+#include "app/reports/file_report.h"
+#include "app/reports/notes.h"
+#include "core/base/text.h"
+#include "core/scene/frame_run.h"
+#include "core/scene/molecule.h"
 #include "core/trajectory/formats/trajectory_formats.h"
 
 namespace meniscus {

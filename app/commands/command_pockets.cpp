@@ -10,20 +10,18 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/pockets_command.h"
-#include "app/options/scene_options.h"
 #include "app/options/property_options.h"
+#include "app/options/scene_options.h"
 #include "app/process/program_error.h"
 #include "app/reports/notes.h"
-#include "app/reports/pocket_figure.h"
-#include "app/reports/pocket_hints.h"
 #include "app/reports/pocket_report.h"
 #include "core/base/output_file.h"
 #include "core/base/text.h"
 #include "core/mesh/mesh_objects.h"
 #include "core/mesh/shape_mesh.h"
 #include "core/scene/molecule_pockets.h"
-#include "exporters/mesh_files/mesh_formats.h"
 #include "exporters/mesh_files/file_object.h"
+#include "exporters/mesh_files/mesh_formats.h"
 
 namespace meniscus {
 namespace {

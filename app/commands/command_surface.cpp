@@ -10,10 +10,10 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/surface_command.h"
-#include "app/options/scene_options.h"
 #include "app/options/property_options.h"
+#include "app/options/scene_options.h"
 #include "app/process/program_error.h"
-#include "app/reports/area_csv.h"
+#include "app/reports/csv_tables.h"
 #include "app/reports/notes.h"
 #include "app/reports/surface_report.h"
 #include "core/base/output_file.h"

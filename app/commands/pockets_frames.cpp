@@ -11,9 +11,8 @@
 
 #include "app/commands/pockets_command.h"
 #include "app/process/program_error.h"
-#include "app/reports/growing_table.h"
+#include "app/reports/csv_tables.h"
 #include "app/reports/notes.h"
-#include "app/reports/pocket_hints.h"
 #include "app/reports/pocket_report.h"
 #include "app/reports/run_frames.h"
 #include "core/queries/cavity_tracks.h"

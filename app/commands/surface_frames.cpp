@@ -14,11 +14,9 @@
 
 #include "app/commands/surface_command.h"
 #include "app/process/program_error.h"
-#include "app/reports/area_csv.h"
-#include "app/reports/growing_table.h"
+#include "app/reports/csv_tables.h"
 #include "app/reports/notes.h"
 #include "app/reports/run_frames.h"
-#include "app/reports/series_csv.h"
 #include "app/reports/series_plot.h"
 #include "app/reports/surface_report.h"
 #include "core/base/output_file.h"

@@ -66,7 +66,7 @@ struct Chunking {
 /// Everything a worker needs to know. Nothing in it depends on time, machine or user, but what was measured
 /// and follows of it.
 struct Bundle {
-  std::string program_version;        ///< with its commit (app/process/build_version.h)
+  std::string program_version;        ///< with its commit (app/process/this_program.h)
   std::vector<std::string> command;   ///< of the program, as {"render", "inputs/a.pdb", ...}; paths are relative
   std::vector<std::uint64_t> frames;  ///< of the run, by their numbers in the trajectory
   std::vector<Step> steps;            ///< in order

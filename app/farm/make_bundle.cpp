@@ -9,8 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "core/camera/camera_json.h"
-#include "app/process/build_version.h"
 #include "app/farm/blender_driver.h"
 #include "app/farm/bundled_steps.h"
 #include "app/farm/check_bundle.h"
@@ -19,19 +17,21 @@
 #include "app/farm/frame_record.h"
 #include "app/farm/inner_path.h"
 #include "app/farm/quote.h"
+#include "app/farm/read_bundle.h"
 #include "app/farm/worker.h"
-#include "app/reports/notes.h"
 #include "app/film/film.h"
 #include "app/options/scene_words.h"
 #include "app/process/program_error.h"
-#include "core/scene/run_cameras.h"
+#include "app/process/stop_signals.h"
+#include "app/process/this_program.h"
+#include "app/reports/notes.h"
+#include "core/base/output_file.h"
+#include "core/base/text.h"
+#include "core/camera/camera_json.h"
 #include "core/scene/frame_run.h"
+#include "core/scene/run_cameras.h"
 #include "core/scene/scene_values.h"
 #include "core/scene/settled_selections.h"
-#include "app/process/stop_signals.h"
-#include "core/base/output_file.h"
-#include "app/farm/read_bundle.h"
-#include "core/base/text.h"
 
 namespace meniscus::farm {
 namespace {

@@ -13,13 +13,13 @@
 
 #include <fmt/format.h>
 
-#include "app/process/build_version.h"
 #include "app/farm/checksum.h"
 #include "app/farm/claims.h"
 #include "app/farm/frame_log.h"
 #include "app/farm/frame_record.h"
 #include "app/farm/inner_path.h"
 #include "app/process/program_error.h"
+#include "app/process/this_program.h"
 #include "core/base/text.h"
 
 namespace meniscus::farm {

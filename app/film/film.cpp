@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs ffmpeg by an argument vector, never through a shell.
+// Starts ffmpeg and feeds it pictures, and reads the boxes and clusters of a film to see whether all frames are there.
 #include "app/film/film.h"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cerrno>
 #include <cstring>
+#include <span>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fcntl.h>
 #include <signal.h>
@@ -19,13 +22,166 @@
 
 #include <fmt/format.h>
 
-#include "app/film/film_check.h"
 #include "app/process/program_error.h"
 #include "core/base/error.h"
+#include "core/trajectory/formats/binary_file.h"
 
 extern char** environ;
 
 namespace meniscus {
+namespace {
+
+using Size = std::uint64_t;
+
+/// A box of MP4 or an element of Matroska: what it is, and where its content lies.
+struct Part {
+  Size kind = 0, begin = 0, end = 0;
+};
+
+/// Unsigned, big-endian, of up to 8 bytes.
+Size number(const BinaryFile& file, Size offset, Size bytes) {
+  std::array<std::byte, 8> raw{};
+  file.read(offset, std::span(raw).last(bytes));
+  Size value = 0;
+  for (const std::byte byte : raw) value = value << 8 | std::to_integer<Size>(byte);
+  return value;
+}
+
+[[noreturn]] void cut_short(Size offset) { throw Error(fmt::format("is cut short at byte {}", offset)); }
+
+Part first_of(const std::vector<Part>& parts, Size kind, std::string_view name) {
+  const auto found = std::ranges::find(parts, kind, &Part::kind);
+  if (found == parts.end()) throw Error(fmt::format("has no {}", name));
+  return *found;
+}
+
+constexpr Size four_letters(std::string_view name) {
+  Size value = 0;
+  for (const char letter : name) value = value << 8 | static_cast<unsigned char>(letter);
+  return value;
+}
+
+std::vector<Part> boxes(const BinaryFile& file, Size begin, Size end) {
+  std::vector<Part> found;
+  while (begin < end) {
+    Size header = 8;
+    if (end - begin < header) cut_short(begin);
+    Size size = number(file, begin, 4);
+    if (size == 1) {  // too large for 32 bits: the size follows
+      header = 16;
+      if (end - begin < header) cut_short(begin);
+      size = number(file, begin + 8, 8);
+    }
+    if (size < header || size > end - begin) cut_short(begin);
+    found.push_back({number(file, begin + 4, 4), begin + header, begin + size});
+    begin += size;
+  }
+  return found;
+}
+
+Size pictures_of_mp4(const BinaryFile& file) {
+  const std::vector<Part> top = boxes(file, 0, file.size());
+  const Part data = first_of(top, four_letters("mdat"), "mdat box");
+  Part box = first_of(top, four_letters("moov"), "moov box");
+  for (const std::string_view name : {"trak", "mdia", "minf", "stbl", "stsz"})
+    box = first_of(boxes(file, box.begin, box.end), four_letters(name), fmt::format("{} box", name));
+  constexpr Size kSizes = 12;  // behind version and flags, the size of all samples or 0, their count
+  if (box.end - box.begin < kSizes) cut_short(box.begin);
+  const Size equal = number(file, box.begin + 4, 4), count = number(file, box.begin + 8, 4);
+  if (equal == 0 && box.end - box.begin < kSizes + 4 * count) cut_short(box.begin);
+  Size bytes = equal * count;
+  for (Size n = 0; equal == 0 && n < count; ++n) bytes += number(file, box.begin + kSizes + 4 * n, 4);
+  if (bytes > data.end - data.begin)
+    throw Error(fmt::format("lacks {} bytes of its pictures", bytes - (data.end - data.begin)));
+  return count;
+}
+
+/// EBML (RFC 8794): the leading zero bits of the first byte tell the length of an identifier or a size.
+std::vector<Part> elements(const BinaryFile& file, Size begin, Size end) {
+  std::vector<Part> found;
+  const auto length_at = [&](Size offset, Size longest) {
+    const Size length = offset < end ? 1 + std::countl_zero(static_cast<std::uint8_t>(number(file, offset, 1))) : 0;
+    if (length == 0 || length > longest || length > end - offset) cut_short(offset);
+    return length;
+  };
+  while (begin < end) {
+    const Size id_length = length_at(begin, 4), size_at = begin + id_length, size_length = length_at(size_at, 8);
+    const Size unknown = (Size{1} << (7 * size_length)) - 1;
+    const Size size = number(file, size_at, size_length) & unknown, content = size_at + size_length;
+    if (size == unknown) throw Error(fmt::format("was not finished: the size at byte {} is left open", size_at));
+    if (size > end - content) cut_short(begin);
+    found.push_back({number(file, begin, id_length), content, content + size});
+    begin = content + size;
+  }
+  return found;
+}
+
+Size pictures_of_matroska(const BinaryFile& file) {
+  constexpr Size kSegment = 0x18538067, kCluster = 0x1f43b675, kCues = 0x1c53bb6b;
+  constexpr Size kSimpleBlock = 0xa3, kBlockGroup = 0xa0;
+  const Part segment = first_of(elements(file, 0, file.size()), kSegment, "segment");
+  const std::vector<Part> parts = elements(file, segment.begin, segment.end);
+  first_of(parts, kCues, "cues");
+  Size count = 0;
+  for (const Part& part : parts) {
+    if (part.kind != kCluster) continue;
+    count += std::ranges::count_if(elements(file, part.begin, part.end), [](const Part& block) {
+      return block.kind == kSimpleBlock || block.kind == kBlockGroup;
+    });
+  }
+  return count;
+}
+
+/// Behind a block's data in pieces of up to 255 bytes, each after its length; one of none ends them.
+Size end_of_pieces(const BinaryFile& file, Size at) {
+  while (at < file.size()) {
+    const Size length = number(file, at, 1);
+    at += 1 + length;
+    if (length == 0) return at;
+  }
+  cut_short(file.size());
+}
+
+Size pictures_of_gif(const BinaryFile& file) {
+  constexpr Size kHeader = 13, kDescriptor = 10, kExtension = 0x21, kPicture = 0x2c, kTrailer = 0x3b;
+  // The lowest bits of the flags are one less than the binary logarithm of the number of colours.
+  const auto palette = [](Size flags) { return (flags & 0x80) != 0 ? Size{3} << ((flags & 7) + 1) : 0; };
+  if (file.size() < kHeader) cut_short(file.size());
+  Size at = kHeader + palette(number(file, 10, 1)), count = 0;
+  while (at < file.size()) {
+    const Size kind = number(file, at, 1);
+    if (kind == kTrailer) {
+      if (at + 1 != file.size()) throw Error(fmt::format("goes on behind its end at byte {}", at));
+      return count;
+    }
+    if (kind == kExtension) {
+      at = end_of_pieces(file, at + 2);
+    } else if (kind == kPicture) {
+      if (file.size() - at < kDescriptor) cut_short(at);
+      at = end_of_pieces(file, at + kDescriptor + palette(number(file, at + 9, 1)) + 1);
+      ++count;
+    } else {
+      throw Error(fmt::format("has no block at byte {}", at));
+    }
+  }
+  cut_short(file.size());
+}
+
+}  // namespace
+
+std::string film_fault(const std::filesystem::path& path, std::uint64_t pictures) {
+  try {
+    const BinaryFile file(path.string());
+    const auto ending = path.extension();
+    const Size found = ending == ".gif"                        ? pictures_of_gif(file)
+                       : ending == ".mkv" || ending == ".webm" ? pictures_of_matroska(file)
+                                                               : pictures_of_mp4(file);
+    return found == pictures ? "" : fmt::format("holds {} of {} pictures", found, pictures);
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
 namespace {
 
 std::string pixel_format(const FilmPixels& pixels) {

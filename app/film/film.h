@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A film that ffmpeg encodes from pictures as they are made.
+// Films made of pictures by ffmpeg, and whether such a file is whole.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +16,12 @@
 #include "core/base/output_file.h"
 
 namespace meniscus {
+
+/// Why the file is not a whole film of this many pictures; empty if it is. MP4 and MOV (ISO/IEC 14496-12): the boxes
+/// fill the file, and the table of samples has all pictures and no more bytes than the media data. Matroska (RFC 9559)
+/// for names in .mkv and .webm: the elements fill the file, the clusters hold all pictures, and there are cues to seek
+/// by. GIF (CompuServe 1990) for names in .gif: the blocks fill the file, and the trailer ends it.
+std::string film_fault(const std::filesystem::path& path, std::uint64_t pictures);
 
 /// Throws UsageError unless the size, in pixels, is such as the encoder takes: even where it halves colours.
 void check_film_size(const FilmEncoder& encoder, glm::ivec2 size);

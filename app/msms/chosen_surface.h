@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "app/msms/arguments.h"
-#include "app/msms/spheres.h"
+#include "app/msms/drop_in.h"
+#include "core/mesh/triangle_mesh.h"
 #include "core/surface/atom_areas.h"
 #include "core/surface/reduced_components.h"
 #include "exporters/msms/numbered_mesh.h"
-#include "core/mesh/triangle_mesh.h"
 
 namespace meniscus::msms {
 

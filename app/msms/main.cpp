@@ -1,24 +1,101 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program `meniscus-msms`: MSMS's command line, files and words for exact surfaces.
+
+#include <array>
 #include <chrono>
+#include <cstdint>
 #include <iostream>
 #include <span>
 #include <string>
+#include <vector>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
 
 #include "app/msms/arguments.h"
 #include "app/msms/chosen_surface.h"
-#include "app/msms/report.h"
+#include "app/msms/drop_in.h"
 #include "app/msms/serve.h"
-#include "app/msms/spheres.h"
-#include "app/msms/write_files.h"
 #include "app/process/program_error.h"
 #include "app/process/program_main.h"
-#include "app/process/standard_streams.h"
 #include "core/base/output_file.h"
+#include "core/base/text.h"
+#include "core/surface/reduced_components.h"
 #include "exporters/msms/msms_files.h"
 
 namespace meniscus::msms {
 namespace {
+
+/// The version whose files and lines these are.
+constexpr const char* kAnswersAs = "2.6.1";
+
+std::string host() {
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 && name.front() ? name.data() : "localhost";
+}
+
+double seconds_of(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+/// Which program, as whom it answers, where.
+std::string banner() {
+  return fmt::format(
+      "MSMS {} started on {}\n"
+      "Copyright of the Meniscus developers: this is meniscus-msms " MENISCUS_VERSION
+      ", which answers as MSMS does\n"
+      "Compilation flags none\n",
+      kAnswersAs, host());
+}
+
+/// The lines INPUT and PARAM.
+std::string input_lines(const Arguments& arguments, std::size_t spheres, double smallest_radius,
+                        double largest_radius) {
+  return fmt::format(
+      "INPUT  {} {} spheres 0 collision only, radii {:6.3f} to {:6.3f}\n"
+      "PARAM  Probe_radius {:6.3f} density {:6.3f} hdensity {:6.3f}\n",
+      escaped(arguments.spheres), spheres, smallest_radius, largest_radius, arguments.probe_radius, arguments.density,
+      arguments.hdensity);
+}
+
+/// One line for each component above number 0, which are those that have files of their own.
+std::string component_lines(std::size_t count) {
+  std::string lines;
+  for (std::size_t c = 1; c < count; ++c) lines += fmt::format("    RS component {} identified\n", c);
+  return lines;
+}
+
+/// Areas of each component, in closed form.
+std::string analytic_table(double probe_radius, std::span<const ReducedComponentSize> sizes) {
+  std::string table =
+      "ANALYTICAL SURFACE AREA :\n    Comp. probe_radius,   reent,    toric,   contact    SES       SAS\n";
+  for (std::size_t c = 0; c < sizes.size(); ++c)
+    table += fmt::format("{:7d} {:11.3f} {:11.3f} {:9.3f} {:9.3f} {:9.3f} {:9.3f}\n", c, probe_radius,
+                         sizes[c].reentrant, sizes[c].toroidal, sizes[c].contact, sizes[c].area(), sizes[c].accessible);
+  return table;
+}
+
+/// Volume and area of each component, and the sum of volumes. MSMS takes them from triangles; these are in closed form.
+std::string numeric_table(double probe_radius, std::span<const ReducedComponentSize> sizes) {
+  std::string table = "NUMERICAL VOLUMES AND AREA\n    Comp. probe_radius SES_volume SES_area)\n";
+  double total = 0;
+  for (std::size_t c = 0; c < sizes.size(); ++c) {
+    table += fmt::format("{:8d} {:9.2f} {:12.3f} {:10.3f}\n", c, probe_radius, sizes[c].volume, sizes[c].area());
+    total += sizes[c].volume;
+  }
+  return table + fmt::format("    Total ses_volume: {:9.3f}\n", total);
+}
+
+/// The last two lines. Time since `start`, and of processors since the process began.
+std::string ending(std::chrono::steady_clock::time_point start) {
+  rusage used{};
+  ::getrusage(RUSAGE_SELF, &used);
+  const std::chrono::duration<double> real = std::chrono::steady_clock::now() - start;
+  return fmt::format("MSMS terminated normally\nTotal Time real: {:.2f} user: {:.2f} sys: {:.2f}\n", real.count(),
+                     seconds_of(used.ru_utime), seconds_of(used.ru_stime));
+}
 
 std::string with_extension(const std::string& path, const std::string& extension) {
   return path.ends_with(extension) ? path : path + extension;
@@ -83,6 +160,7 @@ ExitCode run(std::span<const char* const> words) {
 }
 
 }  // namespace
+
 }  // namespace meniscus::msms
 
 int main(int argc, char** argv) {

@@ -11,7 +11,6 @@
 
 #include "app/process/program_error.h"
 #include "app/process/program_main.h"
-#include "app/process/standard_streams.h"
 #include "core/base/text.h"
 #include "core/structure/formats/read_structure.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every program of ours does before its own work and behind it.
+// What every program of ours does before its own work and behind it, with its standard streams among that.
 #pragma once
 
 #include <functional>
@@ -7,6 +7,14 @@
 #include "app/process/program_error.h"
 
 namespace meniscus {
+
+/// Call first. A standard stream that is closed gets a descriptor that nothing can be read from or written to, lest the
+/// next file opened takes its number and messages are written into it.
+void hold_standard_streams();
+
+/// Throws OutputError unless all that was printed has been taken. (What is said on standard error is no result: if it
+/// cannot be said, the program goes on.)
+void finish_standard_output();
 
 /// For main(): makes ready for what may go wrong (memory, streams, signals), does the work, and gives the exit code:
 /// that of the work, or that of the exception which left it, after a line on standard error that begins with `name`. A

@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "app/options/scene_options.h"
-#include "app/reports/assembly_table.h"
+#include "app/reports/file_report.h"
 #include "core/base/text.h"
 #include "core/mesh/mesh_objects.h"
 

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lays out the numbers of pockets.
+// Writes what was found as tables and JSON, looks for what they do not show, and colours the atoms around pockets.
 #include "app/reports/pocket_report.h"
 
+#include <algorithm>
 #include <iterator>
+#include <map>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "app/reports/area_csv.h"
-#include "app/reports/series_csv.h"
+#include "app/reports/csv_tables.h"
 #include "core/base/text.h"
+#include "core/color/named_colors.h"
 
 namespace meniscus {
 namespace {
@@ -197,6 +200,106 @@ std::string pocket_row(const PocketReport& report, const FrameNote& note) {
   if (pockets.empty()) return row + "\n";
   return row + fmt::format(" {:>15.3f} {:>11.3f}  {}\n", pockets.front().cavity.volume, pockets.front().depth,
                            escaped(first_of(residues_of(report.structure, pockets.front().cavity.atoms))));
+}
+
+namespace {
+
+std::string unplaced_ligands(const PocketReport& report) {
+  std::vector<std::string> names;
+  for (const LeftOutResidue& residue : report.pockets.left_out)
+    if (std::ranges::none_of(residue.in_pocket, [&](std::size_t atoms) { return 2 * atoms >= residue.atoms; }))
+      names.push_back(residues_of(report.structure, {residue.first_atom}));
+  if (names.empty()) return {};
+  constexpr std::size_t kNamed = 5;
+  const std::size_t count = names.size();
+  names.resize(std::min(count, kNamed));
+  return fmt::format("less than half of {}{} lies in one pocket; a --large-probe above {} Å may reach shallower sites",
+                     fmt::join(names, ", "),
+                     count > kNamed ? fmt::format(" and {} more ligands", with_thousands(count - kNamed)) : "",
+                     report.pockets.found.request.large_probe_radius);
+}
+
+/// Chains of at most 30 residues beside one at least three times as long, such as peptides that are bound to it, that
+/// were not taken out; by name, in the order of the file.
+std::vector<std::string> short_chains(const PocketReport& report) {
+  constexpr std::size_t kShort = 30, kTimes = 3;
+  std::set<std::uint32_t> taken;
+  for (const LeftOutResidue& residue : report.pockets.left_out)
+    taken.insert(report.structure.atoms[residue.first_atom].residue);
+  std::vector<std::string> order;
+  std::map<std::string, std::set<std::uint32_t>> residues;
+  for (const Atom& atom : report.structure.atoms) {
+    if (atom.kind != AtomClass::polymer || taken.contains(atom.residue)) continue;
+    const auto [chain, added] = residues.try_emplace(atom.chain);
+    if (added) order.push_back(atom.chain);
+    chain->second.insert(atom.residue);
+  }
+  std::size_t longest = 0;
+  for (const auto& [chain, members] : residues) longest = std::max(longest, members.size());
+  std::erase_if(order, [&](const std::string& chain) {
+    const std::size_t count = residues[chain].size();
+    return count > kShort || kTimes * count > longest;
+  });
+  return order;
+}
+
+std::string filling_chains(const PocketReport& report) {
+  const std::vector<std::string> chains = short_chains(report);
+  if (chains.empty()) return {};
+  std::string selection = "ligand";
+  for (const std::string& chain : chains) selection += fmt::format(" or chain \"{}\"", chain);
+  return fmt::format(
+      "short chains stay in the molecule and fill the pockets they are bound in: {}; take them out by "
+      "--ligand '{}'",
+      fmt::join(chains, ", "), selection);
+}
+
+}  // namespace
+
+std::vector<std::string> pocket_hints(const PocketReport& report) {
+  std::vector<std::string> hints;
+  for (std::string hint : {unplaced_ligands(report), filling_chains(report)})
+    if (!hint.empty()) hints.push_back(std::move(hint));
+  return hints;
+}
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kOfOthers = "#d9d9d9";
+
+/// A rule for --color.
+std::string rule_of(const Structure& structure, const Pocket& pocket, std::size_t rank) {
+  std::string rule = "index";
+  for (const std::uint32_t a : pocket.cavity.atoms) rule += fmt::format(" {}", structure.atoms[a].index);
+  return rule + "=" + hex_color(categorical_color(rank));
+}
+
+}  // namespace
+
+std::string pocket_figure(const PocketReport& report, const std::string& scene, const std::string& left_out) {
+  Json figure = Json::parse(scene);
+  const std::vector<Pocket>& pockets = report.pockets.found.pockets;
+  Json colors = Json::array({kOfOthers});
+  // Of several rules that speak of an atom the last counts.
+  for (std::size_t n = pockets.size(); n-- > 0;) colors.push_back(rule_of(report.structure, pockets[n], n));
+  Json& molecule = figure["molecule"];
+  const bool some_left_out = report.pockets.atom_count < report.structure.atoms.size();
+  if (some_left_out) {
+    const std::string rest = fmt::format("not ({})", left_out);
+    molecule["select"] =
+        molecule.contains("select") ? fmt::format("({}) and {}", molecule["select"].get<std::string>(), rest) : rest;
+  }
+  Json surface{{"representation", "surface"}, {"color", colors}};
+  if (figure["objects"].is_array())
+    for (const auto& [key, value] : figure["objects"].front().items())
+      if (!surface.contains(key)) surface[key] = value;
+  figure["objects"] = Json::array({surface});
+  if (some_left_out)
+    figure["objects"].push_back({{"representation", "sticks"}, {"selection", left_out}, {"color", "element"}});
+  figure.erase("mesh");
+  return figure.dump(2) + "\n";
 }
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `meniscus pockets` prints: a table for people, JSON for programs, rows of pockets and of atoms.
+// What `meniscus pockets` tells: tables, JSON, rows of pockets and of atoms, hints on what to try next, and a scene.
 #pragma once
 
 #include <cstdint>
@@ -40,5 +40,12 @@ std::string pocket_series_rows(const PocketReport& report, const FrameNote& note
 /// A line of the table of a run, and the line above all of them.
 std::string pocket_row_header();
 std::string pocket_row(const PocketReport& report, const FrameNote& note);
+
+/// Sentences that say what to try next; none where there is nothing to say.
+std::vector<std::string> pocket_hints(const PocketReport& report);
+
+/// scene: of the command that found the pockets (scene_text()). left_out: the expression by which atoms were taken out.
+/// Atoms that line several pockets have the colour of the first; later than the 21st colours begin again.
+std::string pocket_figure(const PocketReport& report, const std::string& scene, const std::string& left_out);
 
 }  // namespace meniscus

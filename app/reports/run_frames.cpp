@@ -14,12 +14,11 @@
 #include <tbb/info.h>
 #include <tbb/task_arena.h>
 
-#include "app/process/memory_limit.h"
-#include "app/process/memory_size.h"
-#include "app/process/program_error.h"
-#include "app/reports/run_progress.h"
-#include "app/reports/notes.h"
 #include "app/options/scene_options.h"
+#include "app/process/memory.h"
+#include "app/process/program_error.h"
+#include "app/reports/notes.h"
+#include "app/reports/run_progress.h"
 #include "core/base/ordered_jobs.h"
 #include "core/base/text.h"
 

@@ -18,7 +18,7 @@
 #include <libdeflate.h>
 #include <zlib.h>
 
-#include "app/process/build_version.h"
+#include "app/process/this_program.h"
 #include "core/gpu/egl_context.h"
 #include "core/image/image_codec.h"
 

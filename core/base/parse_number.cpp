@@ -10,7 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/base/text_lines.h"
+#include "core/base/text_file.h"
 
 namespace meniscus {
 namespace {

@@ -9,11 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
-#include "core/base/text_file.h"
-#include "core/base/text.h"
-#include "core/color/named_colors.h"
 #include "core/base/parse_number.h"
-#include "core/base/text_lines.h"
+#include "core/base/text.h"
+#include "core/base/text_file.h"
+#include "core/color/named_colors.h"
 
 namespace meniscus {
 namespace {

@@ -13,11 +13,11 @@
 #include <glm/matrix.hpp>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
 #include "core/base/parse_number.h"
-#include "core/base/text_lines.h"
-#include "core/structure/structure.h"
+#include "core/base/text.h"
+#include "core/base/text_file.h"
 #include "core/math/rigid_motion.h"
+#include "core/structure/structure.h"
 
 namespace meniscus {
 namespace {

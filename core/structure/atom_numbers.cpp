@@ -11,9 +11,8 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
-#include "core/base/text_lines.h"
 #include "core/base/parse_number.h"
+#include "core/base/text.h"
 #include "core/base/text_file.h"
 
 namespace meniscus {

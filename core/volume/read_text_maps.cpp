@@ -12,7 +12,6 @@
 #include "core/base/parse_number.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"
-#include "core/base/text_lines.h"
 #include "core/volume/read_volume.h"
 
 namespace meniscus {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/base/text_lines.h"
+#include "core/base/text_file.h"
 
 namespace meniscus {
 namespace {

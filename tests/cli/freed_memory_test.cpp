@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include "app/process/freed_memory.h"
+#include "app/process/memory.h"
 
 namespace meniscus {
 namespace {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A film that is not whole is found out, wherever it ends and whatever it lacks.
-#include "app/film/film_check.h"
+#include "app/film/film.h"
 
 #include <filesystem>
 
 #include <gtest/gtest.h>
 
-#include "app/film/film.h"
 #include "core/base/error.h"
 #include "tests/support/run_program.h"
 

@@ -15,7 +15,6 @@
 #include <glm/vec4.hpp>
 
 #include "app/film/film.h"
-#include "app/film/film_check.h"
 #include "app/process/program_error.h"
 #include "tests/support/run_program.h"
 

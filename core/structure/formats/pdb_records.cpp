@@ -15,7 +15,7 @@
 #include "core/base/error.h"
 #include "core/base/parse_number.h"
 #include "core/base/text.h"
-#include "core/base/text_lines.h"
+#include "core/base/text_file.h"
 #include "core/math/ball.h"
 #include "core/math/rigid_motion.h"
 #include "core/structure/assembly.h"

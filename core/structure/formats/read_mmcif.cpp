@@ -12,16 +12,16 @@
 #include <gemmi/numb.hpp>
 
 #include "core/base/error.h"
+#include "core/base/parse_number.h"
 #include "core/base/text.h"
+#include "core/base/text_file.h"
 #include "core/structure/assembly.h"
 #include "core/structure/atom_classes.h"
 #include "core/structure/formats/cif_document.h"
-#include "core/structure/plausibility.h"
 #include "core/structure/formats/structure_formats.h"
-#include "core/base/parse_number.h"
+#include "core/structure/plausibility.h"
 #include "core/structure/residues.h"
 #include "core/structure/secondary_structure.h"
-#include "core/base/text_lines.h"
 
 namespace meniscus {
 namespace {

@@ -12,17 +12,17 @@
 #include <gemmi/elem.hpp>
 
 #include "core/base/error.h"
+#include "core/base/parse_number.h"
 #include "core/base/text.h"
+#include "core/base/text_file.h"
 #include "core/structure/assembly.h"
 #include "core/structure/atom_classes.h"
-#include "core/base/parse_number.h"
-#include "core/structure/plausibility.h"
 #include "core/structure/formats/pdb_records.h"
 #include "core/structure/formats/read_pqr.h"
 #include "core/structure/formats/structure_formats.h"
+#include "core/structure/plausibility.h"
 #include "core/structure/residues.h"
 #include "core/structure/secondary_structure.h"
-#include "core/base/text_lines.h"
 
 namespace meniscus {
 namespace {

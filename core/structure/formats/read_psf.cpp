@@ -7,12 +7,12 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
-#include "core/structure/atom_classes.h"
 #include "core/base/parse_number.h"
+#include "core/base/text.h"
+#include "core/base/text_file.h"
+#include "core/structure/atom_classes.h"
 #include "core/structure/formats/structure_formats.h"
 #include "core/structure/residues.h"
-#include "core/base/text_lines.h"
 
 namespace meniscus {
 namespace {

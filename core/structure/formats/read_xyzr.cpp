@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
-#include "core/structure/formats/structure_formats.h"
 #include "core/base/parse_number.h"
-#include "core/base/text_lines.h"
+#include "core/base/text.h"
+#include "core/base/text_file.h"
+#include "core/structure/formats/structure_formats.h"
 
 namespace meniscus {
 namespace {

@@ -9,7 +9,6 @@
 #include "core/base/parse_number.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"
-#include "core/base/text_lines.h"
 #include "core/structure/radii/charmm_radii.h"
 #include "core/structure/radii/radii_file.h"
 

@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "core/base/constants.h"
-#include "core/structure/formats/pdb_records.h"
 #include "core/base/parse_number.h"
-#include "core/base/text_lines.h"
-#include "core/trajectory/formats/cell.h"
+#include "core/base/text_file.h"
+#include "core/structure/formats/pdb_records.h"
 #include "core/trajectory/formats/binary_file.h"
+#include "core/trajectory/formats/cell.h"
 #include "core/trajectory/trajectory.h"
 
 namespace meniscus {

@@ -10,7 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/base/module_file.h"
-#include "core/base/text_lines.h"
+#include "core/base/text_file.h"
 #include "core/structure/formats/structure_formats.h"
 #include "core/trajectory/formats/binary_file.h"
 #include "core/trajectory/formats/read_h5md.h"

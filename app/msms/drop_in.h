@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The spheres of a run, and the balls that a surface is made of.
+// What the drop-in programs have in common: the spheres they read, and the files they write.
 #pragma once
 
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "core/base/output_file.h"
 #include "core/math/ball.h"
 #include "exporters/msms/msms_files.h"
 
@@ -26,5 +29,19 @@ Spheres spheres_of(std::vector<Ball> balls, std::vector<std::string> names, cons
 
 /// -noh: takes out the balls of radius 1.2 Å, as MSMS tells hydrogens. Throws InputError where no other is there.
 void leave_out_hydrogens(Spheres& spheres);
+
+class OutputFiles {
+ public:
+  /// Begins a file, which replaces one of that name in the end. Throws OutputError: also where its folder is missing.
+  void begin(const std::string& path);
+  /// Writes all of a file; begins it if it has not begun.
+  void write(const std::string& path, const std::string& text);
+  /// Gives all files their names.
+  void commit();
+
+ private:
+  std::map<std::string, std::unique_ptr<OutputFolder>> folders_;
+  std::map<std::string, OutputFile*> files_;
+};
 
 }  // namespace meniscus::msms

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads by the reader of XYZR, leaving out nothing and changing no order.
-#include "app/msms/spheres.h"
+// Reads spheres of xyzr files or of molecules, and writes all files of a run or none.
+#include "app/msms/drop_in.h"
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
-#include "core/structure/formats/structure_formats.h"
 #include "core/base/parse_number.h"
+#include "core/base/text.h"
 #include "core/base/text_file.h"
+#include "core/structure/formats/structure_formats.h"
 
 namespace meniscus::msms {
 namespace {
@@ -83,6 +85,26 @@ Spheres read_spheres(const std::string& file) {
     names.push_back(std::move(atom.name));
   }
   return spheres_of(std::move(balls), std::move(names), text.path);
+}
+
+void OutputFiles::begin(const std::string& path) {
+  if (files_.contains(path)) return;
+  namespace fs = std::filesystem;
+  const fs::path target(path), parent = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  std::error_code none;
+  if (!fs::is_directory(parent, none)) throw OutputError(path, "its folder does not exist; make it first");
+  std::unique_ptr<OutputFolder>& folder = folders_[parent.string()];
+  if (!folder) folder = std::make_unique<OutputFolder>(parent, Existing::replace);
+  files_[path] = &folder->file(target.filename().string());
+}
+
+void OutputFiles::write(const std::string& path, const std::string& text) {
+  begin(path);
+  files_.at(path)->write(text);
+}
+
+void OutputFiles::commit() {
+  for (auto& [name, folder] : folders_) folder->commit();
 }
 
 }  // namespace meniscus::msms

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Asks the system and its control groups for limits, and sets the handlers that speak up when memory is short.
+#include "app/process/memory.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <climits>
+#include <csignal>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <new>
+#include <string>
+#include <string_view>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "app/process/program_error.h"
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+namespace meniscus {
+namespace {
+
+/// The number in a file of a control group; unlimited if there is no such file, or "max" in it.
+std::uint64_t read_limit(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::uint64_t bytes = 0;
+  return in >> bytes ? bytes : UINT64_MAX;
+}
+
+/// The smallest limit of a group and of those it lies in.
+std::uint64_t limit_of_group(const std::filesystem::path& root, std::filesystem::path group, const char* file) {
+  std::uint64_t limit = UINT64_MAX;
+  for (group = group.relative_path(); !group.empty(); group = group.parent_path())
+    limit = std::min(limit, read_limit(root / group / file));
+  return std::min(limit, read_limit(root / file));
+}
+
+}  // namespace
+
+std::uint64_t memory_limit(std::istream& groups, const std::filesystem::path& mounted) {
+  std::uint64_t limit = UINT64_MAX;
+  for (std::string line; std::getline(groups, line);) {
+    const std::size_t first = line.find(':'), second = line.find(':', first + 1);
+    if (first == std::string::npos || second == std::string::npos) continue;
+    const std::string controllers = line.substr(first + 1, second - first - 1), group = line.substr(second + 1);
+    // Version 2 has one tree, which names no controllers; version 1 has one for each.
+    if (controllers.empty()) limit = std::min(limit, limit_of_group(mounted, group, "memory.max"));
+    if (controllers == "memory")
+      limit = std::min(limit, limit_of_group(mounted / "memory", group, "memory.limit_in_bytes"));
+  }
+  return limit;
+}
+
+std::uint64_t memory_size() {
+  const std::uint64_t physical =
+      static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+  std::ifstream groups("/proc/self/cgroup");
+  return std::min(physical, memory_limit(groups, "/sys/fs/cgroup"));
+}
+
+namespace {
+
+constexpr unsigned kSecondsToLoad = 60;
+
+/// Nothing but what a signal handler may do.
+[[noreturn]] void give_up() {
+  constexpr std::string_view kLine =
+      "meniscus: error: not enough memory under the limit on address space; raise it (ulimit -v), or use fewer "
+      "--threads\n";
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kLine.data(), kLine.size());
+  ::_exit(kExitCapacity);
+}
+
+void handle(int) { give_up(); }
+
+void watch() {
+  if (!memory_is_limited()) return;
+  static std::array<char, 1 << 16> stack;  // the other one may be what could not grow
+  stack_t alternative{};
+  alternative.ss_sp = stack.data();
+  alternative.ss_size = stack.size();
+  ::sigaltstack(&alternative, nullptr);
+  struct sigaction action {};
+  action.sa_handler = handle;
+  action.sa_flags = SA_ONSTACK;
+  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGALRM}) ::sigaction(signal, &action, nullptr);
+  std::set_terminate(give_up);
+  ::alarm(kSecondsToLoad);
+}
+
+__attribute__((section(".preinit_array"), used)) void (*const watch_from_the_beginning)() = watch;
+
+}  // namespace
+
+void libraries_are_loaded() { ::alarm(0); }
+
+bool memory_is_limited() {
+  rlimit limit{};
+  return ::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+}
+
+namespace {
+
+std::atomic<bool> failed{false};
+
+[[noreturn]] void remember() {
+  failed = true;
+  throw std::bad_alloc();
+}
+
+}  // namespace
+
+void remember_failed_allocations() { std::set_new_handler(remember); }
+
+bool memory_ran_out() noexcept { return failed; }
+
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int kOwnMapping = 32 << 20;  // bytes, the most that malloc takes
+  ::mallopt(M_MMAP_THRESHOLD, kOwnMapping);
+  ::mallopt(M_TRIM_THRESHOLD, INT_MAX);
+#endif
+}
+
+}  // namespace meniscus
