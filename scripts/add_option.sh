@@ -12,7 +12,7 @@ cd "$work"
 row='number("look.sparkle", "--sparkle", "F", "Strength of a light that only this test knows").from(0, 5)'
 row+='.initially("0").in(kLight, kLook),'
 sed -i "0,/number(\"look.light_strength\"/s//$row\n&/" core/properties/look_properties.cpp
-sed -i 's/^  bool linear_alpha = false;/  std::optional<float> sparkle{};\n&/' core/render/look_presets.h
+sed -i 's/^  bool linear_alpha = false;/  std::optional<float> sparkle{};\n&/' core/render/look.h
 binding='plain("look.sparkle", [](auto\& s) -> auto\& { return s.look.sparkle; }),'
 sed -i "0,/{\"look.light\", read_light/s//$binding\n&/" core/scene/picture_values.cpp
 

@@ -12,11 +12,10 @@
 
 #include "app/film/film_format.h"
 #include "app/process/program_error.h"
-#include "core/properties/properties.h"
-#include "core/render/look_presets.h"
-#include "core/scene/scene_values.h"
 #include "core/base/parse_number.h"
+#include "core/properties/properties.h"
 #include "core/render/look.h"
+#include "core/scene/scene_values.h"
 
 namespace meniscus {
 namespace {

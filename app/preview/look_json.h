@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/preview/command_reader.h"
-#include "core/render/look_presets.h"
+#include "core/render/look.h"
 
 namespace meniscus {
 

@@ -16,7 +16,7 @@
 #include "core/camera/camera.h"
 #include "core/color/color_schemes.h"
 #include "core/render/legend.h"
-#include "core/render/look_presets.h"
+#include "core/render/look.h"
 #include "core/scene/figure.h"
 #include "core/scene/surface_kind.h"
 #include "core/structure/selection/selection.h"

@@ -1,17 +1,176 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Places the camera that a request for a view describes.
+// Finds the axes of pictures, of inertia, symmetry or the file, and places the camera that a request describes.
 #include "core/camera/view_request.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
+#include "core/base/parse_number.h"
 #include "core/camera/camera_json.h"
 #include "core/camera/foreign_cameras.h"
 #include "core/math/ball.h"
+#include "core/math/rigid_motion.h"
 
 namespace meniscus {
+namespace {
+
+using Frame = ViewDirection::Frame;
+
+struct NamedDirection {
+  std::string_view name;
+  ViewDirection direction;
+  bool has_opposite;  ///< may stand behind a minus sign
+};
+
+constexpr std::array<NamedDirection, 14> kDirections{{
+    {"front", {Frame::inertia, 2, false}, false},
+    {"back", {Frame::inertia, 2, true}, false},
+    {"top", {Frame::inertia, 1, false}, false},
+    {"bottom", {Frame::inertia, 1, true}, false},
+    {"right", {Frame::inertia, 0, false}, false},
+    {"left", {Frame::inertia, 0, true}, false},
+    {"x", {Frame::file, 0, false}, true},
+    {"y", {Frame::file, 1, false}, true},
+    {"z", {Frame::file, 2, false}, true},
+    {"1", {Frame::inertia, 0, false}, true},
+    {"2", {Frame::inertia, 1, false}, true},
+    {"3", {Frame::inertia, 2, false}, true},
+    {"symmetry", {Frame::symmetry, 2, false}, true},
+    {"symmetry-side", {Frame::beside, 2, false}, true},
+}};
+
+/// Seen from where `toward` points, with `up` made perpendicular to it.
+ViewBasis facing(const glm::dvec3& toward, const glm::dvec3& up) {
+  const glm::dvec3 right = glm::normalize(glm::cross(up, toward));
+  return {right, glm::cross(toward, right), -toward};
+}
+
+/// A unit vector at a right angle to the axis: y of the file where that is one, else as near to it as can be, or z.
+glm::dvec3 across(const glm::dvec3& axis) {
+  const glm::dvec3 y(0.0, 1.0, 0.0), z(0.0, 0.0, 1.0);
+  constexpr double kTooNear = 0.9;  // cosine
+  const glm::dvec3 wanted = std::abs(glm::dot(axis, y)) < kTooNear ? y : z;
+  return glm::normalize(wanted - axis * glm::dot(axis, wanted));
+}
+
+ViewBasis view_from(const ViewDirection& direction, std::span<const Ball> balls, const glm::dvec3& symmetry) {
+  const double sign = direction.opposite ? -1.0 : 1.0;
+  const glm::dvec3 y(0.0, 1.0, 0.0), z(0.0, 0.0, 1.0);
+  if (direction.frame == Frame::symmetry) return facing(sign * symmetry, across(symmetry));
+  if (direction.frame == Frame::beside) return facing(sign * across(symmetry), symmetry);
+  glm::dvec3 toward(0.0);
+  if (direction.frame == Frame::file) {
+    toward[direction.axis] = sign;
+    return facing(toward, direction.axis == 1 ? -sign * z : y);
+  }
+  const ViewBasis broad = broad_side(balls);
+  if (direction.axis == 0) return facing(sign * broad.right, broad.up);
+  if (direction.axis == 1) return facing(sign * broad.up, sign * broad.forward);
+  return facing(-sign * broad.forward, broad.up);
+}
+
+/// An axis and how many rotations turn about it.
+struct AxisCount {
+  glm::dvec3 axis;
+  std::size_t count = 0;
+};
+
+/// The axis of a rotation, upwards: towards +z, then +y, +x. Nothing if it does not turn.
+std::optional<glm::dvec3> axis_of(const glm::dmat3& r) {
+  constexpr double kNoTurn = 1e-3;  // radians; motions of files are rounded
+  const double cosine = std::clamp(0.5 * (r[0][0] + r[1][1] + r[2][2] - 1.0), -1.0, 1.0);
+  if (std::acos(cosine) < kNoTurn) return {};
+  // (R + R^T)/2 - cos I is (1 - cos) times the axis' outer product: its longest column.
+  const glm::dmat3 outer = 0.5 * (r + glm::transpose(r)) - cosine * glm::dmat3(1.0);
+  glm::dvec3 axis = outer[0];
+  for (int column = 1; column < 3; ++column)
+    if (glm::length(outer[column]) > glm::length(axis)) axis = outer[column];
+  axis = glm::normalize(axis);
+  constexpr double kZero = 1e-6;
+  const double sign = std::abs(axis.z) > kZero ? axis.z : std::abs(axis.y) > kZero ? axis.y : axis.x;
+  return sign < 0.0 ? -axis : axis;
+}
+
+}  // namespace
+
+std::optional<ViewDirection> parse_view_direction(std::string_view text) {
+  const bool opposite = text.starts_with('-');
+  if (opposite) text.remove_prefix(1);
+  for (const NamedDirection& known : kDirections) {
+    if (known.name != text || (opposite && !known.has_opposite)) continue;
+    ViewDirection direction = known.direction;
+    direction.opposite = direction.opposite != opposite;
+    return direction;
+  }
+  return {};
+}
+
+std::vector<std::string> view_direction_words() {
+  std::vector<std::string> words;
+  for (const NamedDirection& known : kDirections) {
+    words.emplace_back(known.name);
+    if (known.has_opposite) words.push_back("-" + std::string(known.name));
+  }
+  return words;
+}
+
+ViewBasis view_basis(const ViewDirection& direction, std::span<const Ball> balls,
+                     const std::optional<glm::dvec3>& symmetry) {
+  return view_from(direction, balls, symmetry.value_or(glm::dvec3(0.0, 0.0, 1.0)));
+}
+
+std::optional<glm::dvec3> symmetry_axis(std::span<const RigidMotion> motions) {
+  // Relative to a few of the motions only: they are a group as a rule, and capsids have 60, filaments thousands.
+  constexpr std::size_t kReferences = 4;
+  constexpr double kSameAxis = 1e-2;  // sine
+  std::vector<AxisCount> axes;
+  for (std::size_t first = 0; first < std::min(kReferences, motions.size()); ++first) {
+    const glm::dmat3 back = glm::transpose(motions[first].rotation);
+    for (const RigidMotion& motion : motions) {
+      const std::optional<glm::dvec3> axis = axis_of(motion.rotation * back);
+      if (!axis) continue;
+      const auto same = std::ranges::find_if(
+          axes, [&](const AxisCount& known) { return glm::length(glm::cross(known.axis, *axis)) < kSameAxis; });
+      if (same == axes.end())
+        axes.push_back({*axis, 1});
+      else
+        ++same->count;
+    }
+  }
+  if (axes.empty()) return {};
+  const auto best = std::ranges::max_element(axes, [](const AxisCount& a, const AxisCount& b) {
+    return a.count != b.count ? a.count < b.count : a.axis.z < b.axis.z;
+  });
+  return best->axis;
+}
+
+std::optional<Turn> parse_turn(std::string_view text) {
+  constexpr std::string_view kAxes = "xyz";
+  if (text.size() < 2 || kAxes.find(text.front()) == std::string_view::npos || text[1] == ' ') return {};
+  Turn turn{static_cast<int>(kAxes.find(text.front())), 0.0};
+  constexpr double kMost = 1e6;
+  if (!parse_number(text.substr(1), turn.degrees) || std::abs(turn.degrees) > kMost) return {};
+  return turn;
+}
+
+ViewBasis turned(ViewBasis basis, std::span<const Turn> turns) {
+  for (const Turn& turn : turns) {
+    const double angle = turn.degrees * (std::numbers::pi / 180.0), c = std::cos(angle), s = std::sin(angle);
+    // The camera turns the other way round than what it sees.
+    const glm::dvec3 right = basis.right, up = basis.up, toward = -basis.forward;
+    if (turn.axis == 0) basis = {right, c * up - s * toward, -(c * toward + s * up)};
+    if (turn.axis == 1) basis = {c * right + s * toward, up, -(c * toward - s * right)};
+    if (turn.axis == 2) basis = {c * right - s * up, c * up + s * right, -toward};
+  }
+  return basis;
+}
+
 namespace {
 
 glm::dvec3 middle_of(std::span<const Ball> balls) {

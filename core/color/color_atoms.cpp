@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "core/color/color_key.h"
-#include "core/color/named_colors.h"
-#include "core/color/volume_paint.h"
-#include "core/structure/structure.h"
+#include "core/color/color_scale.h"
 #include "core/color/coloring.h"
+#include "core/color/named_colors.h"
+#include "core/structure/structure.h"
 
 namespace meniscus {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The numbers atoms are coloured by, and the colours that they have.
+// The numbers that atoms or a volume map have, and the colours of these numbers.
 #pragma once
 
 #include <array>
@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/color/color_schemes.h"
+#include "core/volume/volume_grid.h"
 
 namespace meniscus {
 
@@ -30,6 +31,18 @@ struct ColorScale {
   glm::vec3 color(double number) const;
   /// How many colours there are, where these are steps; 0: they run into each other.
   std::size_t steps() const { return own_map ? 0 : map_steps(map); }
+};
+
+/// The map, where it is sampled, and what colours its values have.
+struct VolumePaint {
+  VolumeGrid grid;
+  ColorScale scale;     ///< without numbers of atoms
+  double offset = 0.0;  ///< Å outside of the surface, along its normal
+
+  /// NaN where the map does not reach. point: Å; normal: of length 1, towards the solvent.
+  double value(const glm::dvec3& point, const glm::dvec3& normal) const { return grid.sample(point + offset * normal); }
+  /// sRGB.
+  glm::vec3 color(const glm::dvec3& point, const glm::dvec3& normal) const { return scale.color(value(point, normal)); }
 };
 
 }  // namespace meniscus

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Between sRGB and linear light (IEC 61966-2-1), and from gathered light to the colour of a pixel on a screen.
+// sRGB (IEC 61966-2-1): from and to linear light, from gathered light to the screen, and the profile that pictures
+// carry.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -42,5 +44,9 @@ void display_bytes(std::span<const glm::vec4> pixels, const std::optional<glm::v
 
 /// The four bytes of layout_color() of each pixel.
 void layout_bytes(std::span<const glm::vec4> pixels, std::uint8_t* bytes);
+
+/// A display profile of version 4.3 (ISO 15076-1:2010): the primaries of IEC 61966-2-1 adapted to D50 (Bradford) and
+/// its transfer function as a parametric curve. The same bytes each time.
+const std::vector<std::uint8_t>& srgb_profile();
 
 }  // namespace meniscus

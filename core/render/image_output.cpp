@@ -20,14 +20,13 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "core/base/constants.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/image/image_codec.h"
-#include "core/image/png_file.h"
 #include "core/image/color_space.h"
+#include "core/image/image_codec.h"
 #include "core/image/memory_file.h"
-#include "core/image/srgb_profile.h"
-#include "core/base/constants.h"
+#include "core/image/png_file.h"
 
 namespace meniscus {
 namespace {

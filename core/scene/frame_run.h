@@ -11,13 +11,12 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/structure/structure.h"
-#include "core/trajectory/prepared_frames.h"
-#include "core/trajectory/read_ahead.h"
-#include "core/trajectory/trajectory.h"
 #include "core/scene/molecule.h"
 #include "core/scene/representations.h"
 #include "core/structure/selection/selection.h"
+#include "core/structure/structure.h"
+#include "core/trajectory/prepared_frames.h"
+#include "core/trajectory/trajectory.h"
 
 namespace meniscus {
 

@@ -8,17 +8,17 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/color/color_atoms.h"
+#include "core/color/color_scale.h"
+#include "core/math/box.h"
+#include "core/queries/copies.h"
 #include "core/scene/hidden_atoms.h"
 #include "core/scene/map_reach.h"
 #include "core/scene/surface_objects.h"
-#include "core/base/error.h"
-#include "core/base/text.h"
-#include "core/math/box.h"
-#include "core/queries/copies.h"
-#include "core/color/color_atoms.h"
-#include "core/color/volume_paint.h"
-#include "core/volume/read_volume.h"
 #include "core/trajectory/formats/trajectory_formats.h"
+#include "core/volume/read_volume.h"
 
 namespace meniscus {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/camera/view_request.h"
-#include "core/render/look_presets.h"
+#include "core/render/look.h"
 #include "core/scene/annotations.h"
 #include "core/scene/figure.h"
 #include "core/scene/frame_run.h"

@@ -16,9 +16,9 @@
 #include <gemmi/metadata.hpp>
 #include <gemmi/resinfo.hpp>
 
-#include "core/structure/residue_names.h"
-#include "core/structure/chain_links.h"
 #include "core/structure/plausibility.h"
+#include "core/structure/residue_names.h"
+#include "core/structure/residues.h"
 
 namespace meniscus {
 namespace {

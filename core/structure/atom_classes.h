@@ -27,7 +27,7 @@ bool is_tabulated_residue(const std::string& residue_name);
 
 /// Sets `kind` of all atoms, residue by residue. What the file states decides; then names: amino acids and nucleotides
 /// of the wwPDB's chemical components and of force fields are polymer unless they are heteroatoms or bare bases. Those,
-/// and residues of any other name, are polymer if they are linked to another residue (chain_links.h); heteroatoms with
+/// and residues of any other name, are polymer if they are linked to another residue (residues.h); heteroatoms with
 /// the name of an amino acid or nucleotide also where a chain is drawn by one atom a residue, or is missing on both
 /// their sides. All else is a ligand: free amino acids and nucleotides, cofactors, sugars.
 ///

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The residues of a file, though numbers wrap, repeat and come in pieces, and which alternate location of each is kept.
+// The residues of a file, though numbers wrap and repeat: their numbers, the alternates that are kept, the links of
+// chains.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
+
+#include "core/structure/structure.h"
 
 namespace meniscus {
 
@@ -58,5 +62,11 @@ std::optional<AltlocChoice> parse_altloc_choice(std::string_view text);
 
 /// The letter to keep by residue (Atom::residue), blank for residues without alternatives. Not for Rule::all.
 std::vector<char> kept_altlocs(const std::vector<Atom>& atoms, const AltlocChoice& choice);
+
+/// For each residue (Atom::residue): does a peptide bond, C to N of two residues with CA or caps of chains, or a
+/// phosphodiester, O3' to P of two residues with C4', join it to another residue of its model? By distance, 1.0 to
+/// 2.2 Å (bonds are 1.33 and 1.6 Å long, strangers never nearer than 2.5 Å), or by `bonds`, for topologies without
+/// coordinates; atoms at the origin count as such. O(n) for molecules.
+std::vector<bool> linked_residues(std::span<const Atom> atoms, std::span<const Bond> bonds);
 
 }  // namespace meniscus

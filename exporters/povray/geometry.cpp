@@ -11,8 +11,8 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/color/color_key_json.h"
-#include "core/color/volume_paint.h"
+#include "core/color/color_key.h"
+#include "core/color/color_scale.h"
 #include "exporters/povray/patch_objects.h"
 #include "exporters/povray/scene_names.h"
 

@@ -12,8 +12,8 @@
 #include <glm/vec3.hpp>
 
 #include "core/camera/camera.h"
+#include "core/color/color_scale.h"
 #include "core/math/box.h"
-#include "core/color/volume_paint.h"
 #include "exporters/povray/palette.h"
 #include "exporters/povray/scene_options.h"
 

@@ -10,14 +10,14 @@
 #include <nlohmann/json.hpp>
 #include <zlib.h>
 
-#include "core/color/color_key_json.h"
 #include "core/base/error.h"
 #include "core/base/output_file.h"
+#include "core/base/text.h"
+#include "core/color/color_key.h"
 #include "exporters/povray/cap_objects.h"
 #include "exporters/povray/geometry.h"
 #include "exporters/povray/scene_files.h"
 #include "exporters/povray/scene_report.h"
-#include "core/base/text.h"
 #include "exporters/povray/scene_text.h"
 #include "exporters/povray/shape_objects.h"
 #include "exporters/povray/volume_map.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Picture files read back: channels, alpha, colour space; and what is refused.
+#include "core/image/color_space.h"
 #include "core/render/image_output.h"
-#include "core/image/srgb_profile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,11 +17,10 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "core/base/constants.h"
 #include "core/base/error.h"
-#include "core/image/color_space.h"
 #include "core/image/image_codec.h"
 #include "core/image/png_file.h"
-#include "core/base/constants.h"
 
 namespace meniscus {
 namespace {

@@ -13,11 +13,10 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/structure/formats/read_structure.h"
 #include "core/structure/bonds.h"
+#include "core/structure/formats/read_structure.h"
 #include "core/structure/periodic_cell.h"
 #include "core/trajectory/prepared_frames.h"
-#include "core/trajectory/read_ahead.h"
 
 namespace meniscus {
 namespace {

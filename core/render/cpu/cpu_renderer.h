@@ -14,7 +14,6 @@
 #include <glm/vec4.hpp>
 #include <tbb/enumerable_thread_specific.h>
 
-#include "core/render/cpu/cpu_tile_lists.h"
 #include "core/render/cpu/host_scene.h"
 #include "core/render/cpu/lane_kernels.h"
 #include "core/render/cpu/layered_scene.h"

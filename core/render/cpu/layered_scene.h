@@ -15,7 +15,6 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include "core/math/ball_grid.h"
-#include "core/render/cpu/cpu_tile_lists.h"
 #include "core/render/cpu/host_scene.h"
 #include "core/render/picture_block.h"
 #include "core/render/picture_object.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Asks a volume map for the colour of a point that a ray met.
-#include "core/color/volume_paint.h"
+#include "core/color/color_scale.h"
 #include "core/image/color_space.h"
 #include "core/render/cpu/lane_kernels.h"
 

@@ -19,7 +19,6 @@
 
 #include "core/math/geometry.h"
 #include "core/queries/surface_object.h"
-#include "core/render/cpu/cpu_tile_lists.h"
 #include "core/render/cpu/host_scene.h"
 #include "core/render/cpu/ray_depths.h"
 #include "core/render/picture_block.h"

@@ -1,14 +1,113 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Looks radii up by name, from the exact one to the general.
+// Looks radii up by name, from the exact one to the general; a name walks a pattern in all ways at once.
 #include "core/structure/radii/radii_file.h"
 
 #include <cctype>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/structure/residue_names.h"
 #include "core/structure/structure.h"
 
 namespace meniscus {
+namespace {
+
+constexpr std::size_t kLongestPattern = 200;
+
+[[noreturn]] void refuse(std::string_view text, const char* why) {
+  throw Error(fmt::format("the pattern {} {}", in_quotes(text), why));
+}
+
+/// The characters of "[...]", whose bracket opens at `place`, which moves to the closing one.
+std::bitset<256> set_at(std::string_view text, std::size_t& place) {
+  const std::size_t close = text.find(']', place + 2);
+  if (close == std::string_view::npos) refuse(text, "has a bracket that is not closed");
+  std::bitset<256> characters;
+  const bool inverted = text[place + 1] == '^';
+  for (std::size_t n = place + (inverted ? 2 : 1); n < close; ++n) {
+    const auto first = static_cast<unsigned char>(text[n]);
+    unsigned char last = first;
+    if (n + 2 < close && text[n + 1] == '-') {
+      last = static_cast<unsigned char>(text[n + 2]);
+      n += 2;
+    }
+    for (unsigned c = first; c <= last; ++c) characters.set(c);
+  }
+  place = close;
+  return inverted ? ~characters : characters;
+}
+
+}  // namespace
+
+NamePattern::NamePattern(std::string_view text) {
+  if (text.size() > kLongestPattern) refuse(text, "is too long");
+  if (text == "*") text = ".*";
+  std::size_t first = 0;
+  for (std::size_t n = 0; n <= text.size(); ++n) {
+    if (n + 1 < text.size() && text[n] == '\\') {
+      ++n;
+    } else if (n == text.size() || text[n] == '|') {
+      alternatives_.push_back(pieces_of(text.substr(first, n - first)));
+      first = n + 1;
+    }
+  }
+}
+
+std::vector<NamePattern::Piece> NamePattern::pieces_of(std::string_view alternative) {
+  std::vector<Piece> pieces;
+  for (std::size_t n = 0; n < alternative.size(); ++n) {
+    const char c = alternative[n];
+    if (c == '*' || c == '+' || c == '?') {
+      if (pieces.empty()) refuse(alternative, "begins with a sign of repetition");
+      pieces.back().optional |= c != '+';
+      pieces.back().repeated |= c != '?';
+      continue;
+    }
+    Piece piece;
+    if (c == '[') {
+      piece.characters = set_at(alternative, n);
+    } else if (c == '.') {
+      piece.characters.set();
+    } else if (c == '(' || c == ')' || c == '{' || c == '^' || c == '$') {
+      refuse(alternative, "uses brackets or anchors, which are not read");
+    } else {
+      if (c == '\\' && ++n == alternative.size()) refuse(alternative, "ends in a backslash");
+      piece.characters.set(static_cast<unsigned char>(alternative[n]));
+    }
+    pieces.push_back(piece);
+  }
+  return pieces;
+}
+
+bool NamePattern::matches(std::string_view name) const {
+  for (const std::vector<Piece>& pieces : alternatives_) {
+    if (matches(pieces, name)) return true;
+  }
+  return false;
+}
+
+bool NamePattern::matches(const std::vector<Piece>& pieces, std::string_view name) {
+  std::vector<bool> at(pieces.size() + 1);  // behind how many pieces the name so far may end
+  at[0] = true;
+  const auto skip_optional = [&] {
+    for (std::size_t p = 0; p < pieces.size(); ++p) at[p + 1] = at[p + 1] || (at[p] && pieces[p].optional);
+  };
+  skip_optional();
+  for (const char c : name) {
+    std::vector<bool> next(at.size());
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+      if (!pieces[p].characters[static_cast<unsigned char>(c)]) continue;
+      if (at[p] || (at[p + 1] && pieces[p].repeated)) next[p + 1] = true;
+    }
+    at = std::move(next);
+    skip_optional();
+  }
+  return at.back();
+}
+
 namespace {
 
 std::string key(const std::string& residue, const std::string& atom) { return residue + ' ' + atom; }

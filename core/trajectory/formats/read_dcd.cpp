@@ -10,7 +10,6 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/trajectory/formats/binary_file.h"
-#include "core/trajectory/formats/cell.h"
 #include "core/trajectory/formats/trajectory_formats.h"
 #include "core/trajectory/trajectory.h"
 

@@ -10,12 +10,11 @@
 
 #include <fmt/format.h>
 
+#include "core/base/constants.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/base/constants.h"
-#include "core/trajectory/formats/binary_file.h"
-#include "core/trajectory/formats/cell.h"
 #include "core/structure/structure.h"
+#include "core/trajectory/formats/binary_file.h"
 #include "core/trajectory/trajectory.h"
 
 namespace meniscus {

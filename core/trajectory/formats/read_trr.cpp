@@ -6,13 +6,12 @@
 
 #include <fmt/format.h>
 
+#include "core/base/constants.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/base/constants.h"
 #include "core/trajectory/formats/binary_file.h"
-#include "core/trajectory/formats/cell.h"
-#include "core/trajectory/formats/trajectory_formats.h"
 #include "core/trajectory/formats/frame_index.h"
+#include "core/trajectory/formats/trajectory_formats.h"
 #include "core/trajectory/trajectory.h"
 
 namespace meniscus {

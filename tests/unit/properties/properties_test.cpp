@@ -8,12 +8,11 @@
 
 #include "app/farm/command_options.h"
 #include "core/base/error.h"
+#include "core/mesh/mesh_objects.h"
 #include "core/pockets/pockets.h"
 #include "core/properties/properties.h"
-#include "core/render/look_presets.h"
-#include "exporters/mesh_files/mesh_formats.h"
-#include "core/mesh/mesh_objects.h"
 #include "core/render/look.h"
+#include "exporters/mesh_files/mesh_formats.h"
 
 namespace meniscus {
 namespace {

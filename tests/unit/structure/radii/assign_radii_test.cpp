@@ -6,11 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/structure/radii/assign_radii.h"
-#include "core/structure/residue_names.h"
-#include "core/structure/radii/name_pattern.h"
-#include "core/structure/radii/radii_file.h"
 #include "core/structure/formats/read_structure.h"
+#include "core/structure/radii/assign_radii.h"
+#include "core/structure/radii/radii_file.h"
+#include "core/structure/residue_names.h"
 #include "tests/support/run_program.h"
 
 namespace meniscus {

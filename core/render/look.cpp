@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lists what each preset of a look is made of, and applies what is asked for instead of single parts.
-#include "core/render/look_presets.h"
 #include "core/render/look.h"
-#include "core/color/color_schemes.h"
 
 #include <algorithm>
+
+#include "core/color/color_schemes.h"
 
 namespace meniscus {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lists, on the CPU, the primitives that may show in each tile of a picture.
-#include "core/render/cpu/cpu_tile_lists.h"
+#include "core/render/cpu/host_scene.h"
 
 #include <algorithm>
 #include <atomic>
