@@ -13,8 +13,8 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/figure_run.h"
-#include "app/options/scene_options.h"
 #include "app/options/property_options.h"
+#include "app/options/scene_options.h"
 #include "app/process/program_error.h"
 #include "app/reports/notes.h"
 #include "core/base/text.h"
@@ -23,7 +23,6 @@
 #include "core/queries/copies.h"
 #include "exporters/blender/capped_mesh.h"
 #include "exporters/path_tracers/scene_folder.h"
-#include "exporters/path_tracers/scene_items.h"
 
 namespace meniscus {
 namespace {

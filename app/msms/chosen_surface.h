@@ -11,7 +11,7 @@
 #include "core/mesh/triangle_mesh.h"
 #include "core/surface/atom_areas.h"
 #include "core/surface/reduced_components.h"
-#include "exporters/msms/numbered_mesh.h"
+#include "exporters/msms/msms_files.h"
 
 namespace meniscus::msms {
 

@@ -25,7 +25,6 @@
 #include "core/mesh/triangle_mesh.h"
 #include "core/surface/compute_surface.h"
 #include "exporters/msms/msms_files.h"
-#include "exporters/msms/numbered_mesh.h"
 
 namespace meniscus::msms {
 namespace {

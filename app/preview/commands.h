@@ -8,12 +8,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/preview/command_reader.h"
-#include "app/preview/exporter.h"
+#include "app/preview/command_json.h"
 #include "app/preview/key_table.h"
 #include "app/preview/preview_state.h"
 #include "app/preview/shown_molecule.h"
 #include "app/preview/view_cache.h"
+#include "app/preview/view_export.h"
 
 namespace meniscus {
 

@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/preview/command_reader.h"
+#include "app/preview/command_json.h"
 #include "core/render/look.h"
 
 namespace meniscus {

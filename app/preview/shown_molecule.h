@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The molecule as a state of the preview shows it: the atoms of a frame, their colours, what stands beside them.
+// The molecule as a state of the preview shows it: the atoms of a frame, their colours, what stands beside them; and
+// the legend, laid out once for a size.
 #pragma once
 
 #include <cstddef>
@@ -14,15 +15,34 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "app/preview/legend_strip.h"
 #include "app/preview/preview_state.h"
 #include "core/camera/camera_path.h"
 #include "core/color/coloring.h"
+#include "core/render/legend.h"
 #include "core/scene/figure.h"
 #include "core/structure/atom_groups.h"
 #include "core/structure/structure.h"
 
 namespace meniscus {
+
+class LegendStrip {
+ public:
+  /// Throws as Legend does.
+  LegendStrip(const ColorKey& key, glm::ivec2 size, const LegendStyle& style, const glm::vec3& background);
+
+  /// Pixels left for the molecule, at the top left.
+  glm::ivec2 molecule_size() const { return molecule_size_; }
+
+  /// The whole picture: 8 bit sRGB and alpha per pixel, rows from the top. molecule: of molecule_size(), or of half of
+  /// it in both directions; then the picture is half as large, too.
+  std::vector<std::uint8_t> around(std::span<const std::uint8_t> molecule, glm::ivec2 size) const;
+  /// Of the picture around a molecule of this size.
+  glm::ivec2 whole_size(glm::ivec2 size) const;
+
+ private:
+  glm::ivec2 size_, molecule_size_;
+  std::vector<std::uint8_t> picture_;  ///< of size_, without a molecule
+};
 
 /// Where atoms are at the frames of a trajectory.
 struct TrajectoryPositions {

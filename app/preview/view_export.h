@@ -1,29 +1,65 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// "Export this view": what a preview shows as a picture, a scene, a file for Blender, or a camera.
+// What a session needs of the program around it, and "Export this view": as a picture, a scene, a file for Blender or a
+// camera.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <glm/vec2.hpp>
+#include <nlohmann/json.hpp>
 
+#include "app/preview/preview_state.h"
+#include "app/preview/shown_molecule.h"
 #include "core/base/output_file.h"
-#include "core/color/color_schemes.h"
-#include "core/structure/structure.h"
 #include "core/camera/camera.h"
 #include "core/camera/camera_path.h"
-#include "app/preview/export_job.h"
-#include "app/preview/preview_state.h"
+#include "core/color/color_schemes.h"
 #include "core/color/coloring.h"
 #include "core/render/annotation.h"
 #include "core/scene/figure.h"
 #include "core/scene/picture_device.h"
+#include "core/scene/scene.h"
+#include "core/structure/structure.h"
 
 namespace meniscus {
+
+/// Told of an export while it is made: the word for its stage and the share of that which is done, from 0 to 1. What it
+/// throws ends the export, which leaves nothing behind.
+using ExportWatch = std::function<void(const char* stage, double share)>;
+
+/// Works on a thread of its own from the beginning. The other functions are for one thread.
+class ExportJob {
+ public:
+  /// The reply to the export; what it throws is that of result().
+  using Work = std::function<nlohmann::json(const ExportWatch& watch)>;
+
+  /// path: where it goes, for those who ask.
+  ExportJob(std::string path, Work work);
+  /// Ends it, and waits for that.
+  ~ExportJob();
+
+  /// It ends soon, unless it is done before.
+  void cancel();
+  bool running() const;
+  /// Waits for the end. Throws what the work threw; RequestError where that is a GpuError, which is the export's alone,
+  /// and where it was cancelled.
+  nlohmann::json result();
+  /// {"running", "path", "seconds"}, while it runs "stage" and "share"; then the reply, or "error".
+  nlohmann::json told();
+
+ private:
+  struct Shared;
+
+  std::shared_ptr<Shared> shared_;
+  std::thread thread_;
+};
 
 /// A view to be exported, whatever becomes of the session that showed it.
 struct ExportedView {
@@ -72,5 +108,30 @@ void export_camera_path(const std::vector<CameraKey>& keys, const ExportTarget& 
 /// The path in `folder` of a file with this plain name: letters, digits, '.', '_' and '-', the first no '.' or '-', at
 /// most 100 of them. Throws RequestError.
 std::filesystem::path export_path(const std::filesystem::path& folder, const std::string& name);
+
+/// A figure that a scene file says, of the molecule that is shown.
+struct OpenedScene {
+  PreviewFigure figure;
+  ExportWishes wishes;
+  int frame = 0;  ///< of a file of several models, from 0
+};
+
+/// What a session needs of the program around it; all of it may be missing.
+struct SessionContext {
+  ReadShown read_shown;
+  std::optional<Scene> scene;     ///< that the preview began with; nothing: it writes no scenes
+  MakePictureDevice make_device;  ///< of exported pictures
+  /// What is written into exported pictures of the molecule, as it is at a frame.
+  std::function<Annotations(const Structure& structure)> annotations;
+  /// Reads a scene. Throws InputError, UsageError; RequestError where it is one of another molecule.
+  std::function<OpenedScene(const std::filesystem::path& path)> open_scene;
+};
+
+/// What exports go to; the latest of them may still be written, beside the pictures.
+struct Exporter {
+  std::filesystem::path folder;
+  SessionContext context;
+  std::unique_ptr<ExportJob> job{};  ///< nullptr: none yet
+};
 
 }  // namespace meniscus

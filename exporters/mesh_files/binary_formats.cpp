@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes the mesh formats that are rows of bytes: PLY and STL.
+// Writes the mesh formats that are rows of bytes: PLY, STL, and VTP, whose XML says where each array begins.
+
 #include <array>
 #include <limits>
 
@@ -54,6 +55,106 @@ void write_stl(OutputFile& file, const MeshFile& mesh) {
     rows.put(std::uint16_t{0});
   }
   file.write(rows.bytes());
+}
+
+namespace {
+
+class Arrays {
+ public:
+  template <class Row>
+  std::string of_numbers(const char* type, const std::string& name, int columns, std::span<const Row> rows) {
+    std::string line = begin(type, name, columns);
+    bytes_.put(std::uint64_t{rows.size_bytes()});
+    bytes_.put_all(rows);
+    return line;
+  }
+
+  /// Words with a zero behind each; they may hold anything else, for no XML is read here.
+  std::string of_words(const std::string& name, std::span<const std::string> words) {
+    std::string line = begin("String", name, 1);
+    std::uint64_t size = 0;
+    for (const std::string& word : words) size += word.size() + 1;
+    bytes_.put(size);
+    for (const std::string& word : words) {
+      bytes_.put_text(word);
+      bytes_.put('\0');
+    }
+    return line;
+  }
+
+  std::span<const std::byte> bytes() const { return bytes_.bytes(); }
+
+ private:
+  std::string begin(const char* type, const std::string& name, int columns) const {
+    return fmt::format(
+        "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n", type,
+        name, columns, bytes_.size());
+  }
+
+  BinaryRows bytes_;
+};
+
+std::string plain(const std::string& text) { return text.substr(0, text.find('\0')); }
+
+/// A word of the atom of each vertex.
+std::vector<std::string> words_of(const MeshFile& mesh, const FileObject& object, std::string FileAtom::*word) {
+  std::vector<std::string> words;
+  words.reserve(object.atom.size());
+  for (const std::uint32_t a : object.atom) words.push_back(plain(mesh.atoms[a].*word));
+  return words;
+}
+
+template <class Row>
+std::span<const Row> rows_of(const std::vector<Row>& rows) {
+  return rows;
+}
+
+std::string point_arrays(const MeshFile& mesh, const FileObject& object, Arrays& arrays) {
+  std::string text = arrays.of_numbers("Float32", "normal", 3, rows_of(object.normals));
+  text += arrays.of_numbers("UInt8", "color", 3, rows_of(object.colors));
+  for (const VertexNumbers& column : object.numbers)
+    text += arrays.of_numbers("Float32", column.name, 1, rows_of(column.values));
+  text += arrays.of_words("atom_name", words_of(mesh, object, &FileAtom::name));
+  text += arrays.of_words("residue_name", words_of(mesh, object, &FileAtom::residue_name));
+  text += arrays.of_words("chain", words_of(mesh, object, &FileAtom::chain));
+  return text;
+}
+
+std::string polygon_arrays(const FileObject& object, Arrays& arrays) {
+  if (3 * object.triangles.size() > std::numeric_limits<std::int32_t>::max())
+    throw CapacityError("VTP is written with 32-bit indices, which these triangles exceed; ask for a coarser mesh");
+  std::vector<std::int32_t> ends;
+  ends.reserve(object.triangles.size());
+  for (std::size_t t = 1; t <= object.triangles.size(); ++t) ends.push_back(static_cast<std::int32_t>(3 * t));
+  return arrays.of_numbers("Int32", "connectivity", 1, rows_of(object.triangles)) +
+         arrays.of_numbers("Int32", "offsets", 1, rows_of(ends));
+}
+
+}  // namespace
+
+void write_vtp(OutputFile& file, const MeshFile& mesh) {
+  const FileObject& object = mesh.objects.front();
+  Arrays arrays;
+  std::string text = fmt::format(
+      "<?xml version=\"1.0\"?>\n<!-- {} -->\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\">\n<PolyData>\n<FieldData>\n",
+      xml_text(mesh.about));
+  text += fmt::format(
+      "<DataArray type=\"Float64\" Name=\"units_per_angstrom\" NumberOfTuples=\"1\" format=\"ascii\">{}"
+      "</DataArray>\n</FieldData>\n",
+      mesh.scale);
+  text += fmt::format(
+      "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+      "NumberOfPolys=\"{}\">\n",
+      object.positions.size(), object.triangles.size());
+  text += "<Points>\n" + arrays.of_numbers("Float32", "points", 3, rows_of(object.positions)) + "</Points>\n";
+  text += "<Polys>\n" + polygon_arrays(object, arrays) + "</Polys>\n";
+  text += "<PointData Normals=\"normal\">\n" + point_arrays(mesh, object, arrays) + "</PointData>\n";
+  text += "<CellData>\n" + arrays.of_numbers("UInt32", "component", 1, rows_of(object.component)) + "</CellData>\n";
+  text += "</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
+  file.write(text);
+  file.write(arrays.bytes());
+  file.write("\n</AppendedData>\n</VTKFile>\n");
 }
 
 }  // namespace meniscus

@@ -1,16 +1,232 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes .vert, .face and .area files as columns of text.
+// Numbers vertices, triangles and faces as MSMS 2.6 does, and writes them column by column.
 #include "exporters/msms/msms_files.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include "core/base/constants.h"
+#include "core/math/ball_grid.h"
+#include "core/mesh/triangle_mesh.h"
+#include "core/mesh/weld.h"
 #include "exporters/mesh_files/writers.h"
 
 namespace meniscus {
+namespace {
+
+/// An equilateral triangle mesh of edge h has 2/(sqrt(3) h²) vertices per area; pieces of lattices between borders that
+/// have vertices of their own have a fifth more.
+const double kEdgeAtDensityOne = 1.1 * std::sqrt(2.0 / std::sqrt(3.0));
+
+MsmsFaceKind kind_of(const Face& face) {
+  switch (face.kind) {
+    case PatchKind::convex:
+      return MsmsFaceKind::contact;
+    case PatchKind::toroidal:
+      return MsmsFaceKind::toric;
+    default:
+      return MsmsFaceKind::reentrant;
+  }
+}
+
+/// What the last column of .vert says of vertices inside a face.
+std::uint8_t level_inside(MsmsFaceKind kind) {
+  return kind == MsmsFaceKind::contact ? 1 : kind == MsmsFaceKind::reentrant ? 3 : 2;
+}
+
+}  // namespace
+
+void weld_for_files(MsmsMesh& made) {
+  std::vector<glm::dvec3> positions;
+  for (const MsmsVertex& v : made.vertices) positions.push_back(v.position);
+  std::vector<std::array<std::uint32_t, 3>> corners;
+  for (const MsmsTriangle& t : made.triangles) corners.push_back(t.corner);
+  const Welding welding = weld_short_edges(positions, corners, kMsmsStep);
+  std::vector<std::uint32_t> place(positions.size());
+  std::uint32_t next = 0;
+  for (std::uint32_t v = 0; v < place.size(); ++v) {
+    place[v] = next;
+    if (welding.into[v] == v) made.vertices[next++] = made.vertices[v];
+  }
+  made.vertices.resize(next);
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < corners.size(); ++t) {
+    if (welding.gone[t]) continue;
+    made.triangles[kept] = made.triangles[t];
+    for (std::size_t k = 0; k < 3; ++k) made.triangles[kept].corner[k] = place[corners[t][k]];
+    ++kept;
+  }
+  made.triangles.resize(kept);
+}
+
+class MsmsMeshes::Numbering {
+ public:
+  Numbering(const Surface& surface, const TriangleMesh& mesh, const ReducedComponents& components)
+      : s_(surface), mesh_(mesh), components_(components), place_(mesh.positions.size(), kNone) {
+    number_faces();
+    sort_triangles();
+    find_closest_atoms();
+  }
+
+  MsmsMesh of(std::uint32_t component) {
+    MsmsMesh made;
+    std::vector<std::uint32_t> used;
+    for (std::uint32_t n = first_[component]; n < first_[component + 1]; ++n) {
+      const std::uint32_t t = triangles_[n];
+      const std::uint32_t f = mesh_.face[t];
+      made.triangles.push_back({mesh_.triangles[t], kind_of(s_.faces[f]), number_[f]});
+      for (const std::uint32_t v : mesh_.triangles[t])
+        if (place_[v] == kNone) {
+          used.push_back(v);
+          place_[v] = 0;
+        }
+    }
+    std::ranges::sort(used);
+    for (const std::uint32_t v : used) {
+      place_[v] = static_cast<std::uint32_t>(made.vertices.size());
+      made.vertices.push_back(vertex(v));
+    }
+    for (MsmsTriangle& t : made.triangles) {
+      for (std::uint32_t& corner : t.corner) {
+        corner = place_[corner];
+        MsmsVertex& v = made.vertices[corner];
+        if (v.face == kInside) v.level = level_inside(t.kind);
+      }
+    }
+    for (const std::uint32_t v : used) place_[v] = kNone;
+    weld_for_files(made);
+    name_faces(made);
+    return made;
+  }
+
+ private:
+  static bool is_contact(const Face& face) { return face.kind == PatchKind::convex; }
+
+  // From 1 in each component, contact faces last.
+  void number_faces() {
+    number_.assign(s_.faces.size(), 0);
+    std::vector<std::uint32_t> next(components_.count, 0);
+    for (const bool contact : {false, true})
+      for (std::size_t f = 0; f < s_.faces.size(); ++f)
+        if (is_contact(s_.faces[f]) == contact) number_[f] = ++next[components_.of_face[f]];
+  }
+
+  // By component, then by face.
+  void sort_triangles() {
+    first_.assign(components_.count + 1, 0);
+    for (const std::uint32_t f : mesh_.face) ++first_[components_.of_face[f] + 1];
+    for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
+    triangles_.resize(mesh_.triangles.size());
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    for (const bool contact : {false, true})
+      for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
+        if (const std::uint32_t f = mesh_.face[t]; is_contact(s_.faces[f]) == contact)
+          triangles_[next[components_.of_face[f]]++] = t;
+    for (std::uint32_t c = 0; c < components_.count; ++c)
+      std::stable_sort(
+          triangles_.begin() + first_[c], triangles_.begin() + first_[c + 1],
+          [&](std::uint32_t x, std::uint32_t y) { return number_[mesh_.face[x]] < number_[mesh_.face[y]]; });
+  }
+
+  // First of the atoms that a vertex's faces touch, for a vertex of a contact face lies on the face's own sphere,
+  // whatever rounding says of others.
+  void find_closest_atoms() {
+    atom_of_vertex_.assign(mesh_.positions.size(), 0);
+    std::vector<double> distance(mesh_.positions.size(), std::numeric_limits<double>::infinity());
+    std::vector<std::uint32_t> touched;
+    std::uint32_t known = kNone;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const std::uint32_t f = mesh_.face[t];
+      if (f != known) list_touched(s_.faces[known = f], touched);
+      for (const std::uint32_t v : mesh_.triangles[t])
+        for (const std::uint32_t atom : touched) {
+          const double d = glm::distance(mesh_.positions[v], s_.atoms[atom].center) - s_.atoms[atom].radius;
+          if (d >= distance[v] - kSame) continue;
+          distance[v] = d;
+          atom_of_vertex_[v] = atom;
+        }
+    }
+    look_farther(distance);
+  }
+
+  // Between two atoms, near a third one that only the next face touches, that one may be closest.
+  void look_farther(std::vector<double>& distance) {
+    double largest = 0;
+    for (const Ball& atom : s_.atoms) largest = std::max(largest, atom.radius);
+    const BallGrid grid(s_.atoms, largest + s_.probe_radius);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, distance.size(), 256), [&](const auto& range) {
+      for (std::size_t v = range.begin(); v != range.end(); ++v) {
+        if (distance[v] < kOnSphere) continue;
+        grid.for_each_near(mesh_.positions[v], distance[v] + largest, [&](std::uint32_t atom) {
+          const double d = glm::distance(mesh_.positions[v], s_.atoms[atom].center) - s_.atoms[atom].radius;
+          const bool closer = d < distance[v] - kSame || (d < distance[v] + kSame && atom < atom_of_vertex_[v]);
+          if (!closer) return;
+          distance[v] = std::min(d, distance[v]);
+          atom_of_vertex_[v] = atom;
+        });
+      }
+    });
+  }
+
+  void list_touched(const Face& face, std::vector<std::uint32_t>& touched) const {
+    touched.clear();
+    if (face.kind == PatchKind::convex) touched.push_back(s_.convex[face.patch].atom);
+    if (face.kind == PatchKind::toroidal)
+      touched.assign(s_.toroidal[face.patch].atom.begin(), s_.toroidal[face.patch].atom.end());
+    if (face.kind == PatchKind::concave) {
+      const ConcavePatch& patch = s_.concave[face.patch];
+      const auto contacts = std::span(s_.contacts).subspan(patch.first_contact, patch.contact_count);
+      touched.assign(contacts.begin(), contacts.end());
+    }
+  }
+
+  // All but the number of its face, and its level where it is inside one.
+  MsmsVertex vertex(std::uint32_t v) const {
+    const bool corner = v < mesh_.corner_count, on_edge = v < mesh_.corner_count + mesh_.border_point_count;
+    return {mesh_.positions[v], mesh_.normals[v], corner ? 0 : on_edge ? kOnEdge : kInside, atom_of_vertex_[v], 2};
+  }
+
+  // By the triangles that are left: welding may have taken all of a face.
+  static void name_faces(MsmsMesh& made) {
+    std::vector<bool> named(made.vertices.size(), false);
+    for (const MsmsTriangle& t : made.triangles)
+      for (const std::uint32_t v : t.corner) {
+        if (named[v]) continue;
+        named[v] = true;
+        made.vertices[v].face *= static_cast<std::int32_t>(t.face);
+      }
+  }
+
+  static constexpr std::int32_t kOnEdge = -1, kInside = 1;  // times the number of the face
+  static constexpr double kOnSphere = 1e-6;                 // Å: no other sphere can be closer
+  static constexpr double kSame = 1e-9;  // Å: rounding does not decide between two atoms, their order does
+
+  const Surface& s_;
+  const TriangleMesh& mesh_;
+  const ReducedComponents& components_;
+  std::vector<std::uint32_t> number_;     // per face of the surface
+  std::vector<std::uint32_t> triangles_;  // of the mesh, component by component
+  std::vector<std::uint32_t> first_;      // per component, and one more, into triangles_
+  std::vector<std::uint32_t> atom_of_vertex_;
+  std::vector<std::uint32_t> place_;  // of each vertex of the mesh in the component at work; kNone between two
+};
+
+MsmsMeshes::MsmsMeshes(const Surface& surface, const TriangleMesh& mesh, const ReducedComponents& components)
+    : numbering_(std::make_unique<Numbering>(surface, mesh, components)) {}
+MsmsMeshes::~MsmsMeshes() = default;
+
+MsmsMesh MsmsMeshes::of(std::uint32_t component) { return numbering_->of(component); }
+
+double msms_edge(double density) { return kEdgeAtDensityOne / std::sqrt(density); }
+
 namespace {
 
 /// Without the sign of what rounds to nothing, which some readers take for a field of its own.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Camera, lights, materials, then the things, those with copies as groups.
-#include "exporters/path_tracers/mitsuba_scene.h"
+#include "exporters/path_tracers/scene.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Camera, then the world: lights, materials, and the things, those with copies as objects.
-#include "exporters/path_tracers/pbrt_scene.h"
+#include "exporters/path_tracers/scene.h"
 
 #include <algorithm>
 #include <array>

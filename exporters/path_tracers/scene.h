@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scene for a path tracer holds, whatever its format: meshes, spheres and cylinders with their paint, and a
-// camera.
+// What a scene for a path tracer holds, whatever its format, and its text for Mitsuba 3 and for pbrt-v4.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -77,5 +77,13 @@ struct Scene {
   int width = 1280, height = 960;  ///< pixels
   Material material = Material::matte;
 };
+
+/// The scene for Mitsuba 3 (W. Jakob et al., "Mitsuba 3 renderer", 2022; its documentation, "Scene XML file format").
+/// Mesh n of the scene, from 1, counted over all items, is the file <name>_<n>.ply with colours.
+std::string mitsuba_text(const Scene& scene, const std::string& name);
+
+/// The same for pbrt-v4 (M. Pharr, W. Jakob & G. Humphreys, "Physically based rendering", 4th edition, 2023; its
+/// documentation, "pbrt-v4 input file format"); each mesh has one colour.
+std::string pbrt_text(const Scene& scene, const std::string& name);
 
 }  // namespace meniscus::path_tracers

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The schedule of drafts and full pictures: what is given up for what, and how films are drawn.
-#include "app/preview/live_view.h"
+#include "app/preview/session.h"
 
 #include <chrono>
 #include <memory>
@@ -9,7 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include "app/preview/session.h"
 #include "core/structure/formats/read_structure.h"
 #include "tests/preview/two_models.h"
 #include "tests/support/run_program.h"

@@ -13,7 +13,6 @@
 #include "app/preview/window/gestures.h"
 #include "app/preview/window/latency.h"
 #include "app/preview/window/panel.h"
-#include "app/preview/window/questions.h"
 #include "app/preview/window/session_link.h"
 #include "app/preview/window/widgets.h"
 

@@ -9,7 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/preview/server/mailbox.h"
+#include "app/preview/server/clients.h"
 
 namespace meniscus {
 

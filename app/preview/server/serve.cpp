@@ -13,9 +13,9 @@
 
 #include <turbojpeg.h>
 
-#include "app/preview/live_view.h"
-#include "app/preview/server/mailbox.h"
+#include "app/preview/server/clients.h"
 #include "app/preview/server/network.h"
+#include "app/preview/session.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/image/png_file.h"

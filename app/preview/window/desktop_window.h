@@ -7,7 +7,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "app/preview/window/input_event.h"
+#include "app/preview/window/gestures.h"
 #include "core/gpu/egl_context.h"
 
 struct GLFWwindow;

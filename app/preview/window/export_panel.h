@@ -6,7 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/preview/window/questions.h"
 #include "app/preview/window/session_link.h"
 
 namespace meniscus {

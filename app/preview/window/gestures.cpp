@@ -1,16 +1,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Drags are told in heights of the picture, so that they mean the same in a picture of another size.
+// Turns drags, the wheel, clicks and keys into commands, without inertia.
 #include "app/preview/window/gestures.h"
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <glm/geometric.hpp>
 
 #include "app/preview/command_json.h"
 
 namespace meniscus {
+
+KeyMeaning event_meaning(const InputEvent& event, const nlohmann::json& state) {
+  if (event.kind == InputEvent::Kind::text && event.letter < 0x80)
+    return key_meaning(std::string(1, static_cast<char>(event.letter)), state);
+  if (event.kind != InputEvent::Kind::key) return {};
+  switch (event.key) {
+    case GLFW_KEY_ESCAPE:
+      return key_meaning("Escape", state);
+    case GLFW_KEY_LEFT:
+      return key_meaning("ArrowLeft", state);
+    case GLFW_KEY_RIGHT:
+      return key_meaning("ArrowRight", state);
+    case GLFW_KEY_UP:
+      return key_meaning("ArrowUp", state);
+    case GLFW_KEY_DOWN:
+      return key_meaning("ArrowDown", state);
+    default:
+      return {};
+  }
+}
+
 namespace {
 
 constexpr double kSlack = 3.0;                // pixels; a hand that clicks moves that much

@@ -16,7 +16,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/preview/live_view.h"
 #include "app/preview/session.h"
 #include "app/preview/window/pictures.h"
 #include "core/gpu/egl_context.h"

@@ -19,7 +19,6 @@
 #include "app/preview/window/gui.h"
 #include "app/preview/window/panel.h"
 #include "app/preview/window/pictures.h"
-#include "app/preview/window/questions.h"
 #include "app/preview/window/session_link.h"
 #include "app/preview/window/widgets.h"
 

@@ -4,14 +4,13 @@
 #include <optional>
 
 #include "app/preview/command_json.h"
-#include "app/preview/command_reader.h"
 #include "app/preview/look_json.h"
-#include "app/preview/server/mailbox.h"
+#include "app/preview/server/clients.h"
 #include "core/base/error.h"
 #include "core/camera/camera.h"
 #include "core/camera/camera_json.h"
-#include "tests/fuzz/target.h"
 #include "core/render/look.h"
+#include "tests/fuzz/target.h"
 
 namespace meniscus::fuzz {
 namespace {
