@@ -18,11 +18,11 @@
 #include "core/base/text.h"
 #include "core/mesh/mesh_colors.h"
 #include "core/mesh/mesh_objects.h"
+#include "core/mesh/section_mesh.h"
 #include "core/mesh/shape_mesh.h"
 #include "core/mesh/velocity.h"
 #include "core/queries/copies.h"
 #include "exporters/blender/atom_arrays.h"
-#include "exporters/blender/capped_mesh.h"
 #include "exporters/blender/sequence_manifest.h"
 #include "exporters/blender/surface_file.h"
 #include "exporters/blender/surface_numbers.h"
@@ -62,7 +62,7 @@ std::vector<blender::MeshedObject> cut_objects(const SceneCommand& command, Mole
   std::vector<blender::MeshedObject> objects;
   bool any = may_be_empty;
   for (const SurfaceObject& object : molecule.objects) {
-    blender::CappedMesh made = blender::capped_mesh(object, cut.planes, cut.style.color.has_value(), tolerance);
+    CappedMesh made = capped_mesh(object, cut.planes, cut.style.color.has_value(), tolerance);
     any = any || !made.mesh.triangles.empty();
     objects.push_back({object,
                        std::move(made.mesh),
@@ -113,8 +113,7 @@ void add_more(const SceneCommand& command, const Figure& figure, const Camera& c
     if (!object.surface) {
       made.push_back(shape_object(shown.atoms, object.shapes, tolerance));
     } else {
-      blender::CappedMesh capped =
-          blender::capped_mesh(*object.surface, asked.clip, asked.cap.color.has_value(), tolerance);
+      CappedMesh capped = capped_mesh(*object.surface, asked.clip, asked.cap.color.has_value(), tolerance);
       cap_plane = std::move(capped.cap_plane);
       made.push_back({*object.surface, std::move(capped.mesh)});
     }

@@ -18,10 +18,9 @@
 #include "app/process/program_error.h"
 #include "app/reports/notes.h"
 #include "core/base/text.h"
-#include "core/mesh/mesh_fineness.h"
 #include "core/mesh/mesh_objects.h"
+#include "core/mesh/section_mesh.h"
 #include "core/queries/copies.h"
-#include "exporters/blender/capped_mesh.h"
 #include "exporters/path_tracers/scene_folder.h"
 
 namespace meniscus {
@@ -56,7 +55,7 @@ glm::dvec3 middle_of(std::span<const Ball> balls) {
 // What is shown of a surface, with caps where planes cut it.
 path_tracers::SceneItem item_of(const SurfaceObject& object, std::span<const ClipPlane> planes, const CapStyle& cap,
                                 double tolerance, const glm::dvec3& origin) {
-  const blender::CappedMesh shown = blender::capped_mesh(object, planes, cap.color.has_value(), tolerance);
+  const CappedMesh shown = capped_mesh(object, planes, cap.color.has_value(), tolerance);
   std::optional<path_tracers::CapRows> caps;
   if (!planes.empty()) caps = {shown.cap_plane.size(), cap.color};
   return path_tracers::surface_item(object, shown.mesh, origin, caps);

@@ -11,7 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/options/scene_options.h"
-#include "app/preview/rendered_scene.h"
+#include "app/preview/preview_state.h"
 #include "app/preview/session.h"
 
 namespace meniscus {

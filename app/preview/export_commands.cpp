@@ -7,7 +7,7 @@
 
 #include "app/options/scene_words.h"
 #include "app/preview/commands.h"
-#include "app/preview/rendered_scene.h"
+#include "app/preview/preview_state.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/color_scale.h"

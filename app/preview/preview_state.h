@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a preview shows, as one value: the figure that undo brings back, and around it what belongs to the session.
+// All that commands of a preview change, as it was before each step, and as a scene that `meniscus render` draws.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -18,6 +19,7 @@
 #include "core/render/legend.h"
 #include "core/render/look.h"
 #include "core/scene/figure.h"
+#include "core/scene/scene.h"
 #include "core/scene/surface_kind.h"
 #include "core/structure/selection/selection.h"
 
@@ -104,5 +106,23 @@ class EditHistory {
   std::deque<PreviewFigure> past_, future_;
   std::string kind_;  ///< of the last step; empty: it is ended
 };
+
+/// A picture of a preview.
+struct RenderedView {
+  const PreviewFigure& figure;
+  glm::ivec2 size;  ///< pixels, with the legend
+  int samples = 1;
+  bool transparent = false;                    ///< instead of the background
+  std::optional<std::int32_t> model;           ///< that is shown, if the file has several
+  std::optional<std::uint64_t> frame;          ///< of a trajectory
+  std::optional<std::array<double, 2>> range;  ///< of numbers, where those of one model alone would have another
+  double dots_per_inch = 0.0;                  ///< of the printed picture; 0: not said
+};
+
+/// begun: the scene that the preview began with, which says what it does not change: the molecule, its run.
+Scene rendered_scene(const Scene& begun, const RenderedView& view);
+
+/// What commands change, as a scene has it; no camera. color: with the numbers of its file.
+PreviewFigure figure_of(const Scene& scene, const ColorScheme& color);
 
 }  // namespace meniscus

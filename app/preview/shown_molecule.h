@@ -16,7 +16,7 @@
 #include <glm/vec3.hpp>
 
 #include "app/preview/preview_state.h"
-#include "core/camera/camera_path.h"
+#include "core/camera/camera.h"
 #include "core/color/coloring.h"
 #include "core/render/legend.h"
 #include "core/scene/figure.h"

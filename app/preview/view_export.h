@@ -19,7 +19,6 @@
 #include "app/preview/shown_molecule.h"
 #include "core/base/output_file.h"
 #include "core/camera/camera.h"
-#include "core/camera/camera_path.h"
 #include "core/color/color_schemes.h"
 #include "core/color/coloring.h"
 #include "core/render/annotation.h"

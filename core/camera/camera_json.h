@@ -9,7 +9,6 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "core/camera/camera.h"
-#include "core/camera/camera_path.h"
 
 namespace meniscus {
 

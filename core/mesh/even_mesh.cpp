@@ -18,7 +18,6 @@
 #include "core/mesh/mesh_crossings.h"
 #include "core/mesh/mesh_mender.h"
 #include "core/mesh/mesh_nearness.h"
-#include "core/mesh/mesh_objects.h"
 #include "core/mesh/remesher.h"
 
 namespace meniscus {

@@ -79,7 +79,7 @@ struct RemeshTuning {
   /// Edges that are asked to be shorter than this share of what they were at first would not help either.
   static constexpr float finest_scale = 0.25f;
 
-  // --- How much triangles may lean (triangle_quality.h): cosines between their normal and the surface's at a vertex
+  // --- How much triangles may lean (mesh_on_surface.h): cosines between their normal and the surface's at a vertex
   /// The least and the most asked for. In between it is 1 - cosine_fall (edge / radius of curvature)²: short edges bend
   /// little.
   static constexpr double least_cosine = 0.05, most_cosine = 0.7, cosine_fall = 1.5;

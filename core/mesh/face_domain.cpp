@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Maps faces to the plane by stereographic or toroidal conformal coordinates, and measures how far flat triangles
 // are from spheres and tori.
-#include "core/mesh/face_domain.h"
+#include "core/mesh/face_mesh.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes the surfaces of several objects, and turns a tolerance in pixels into Å.
+// Makes meshes as fine as asked for, and guesses beforehand how many triangles they get.
 #include "core/mesh/mesh_objects.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
+
+#include <glm/geometric.hpp>
 
 #include "core/base/error.h"
 #include "core/camera/camera.h"
+#include "core/mesh/border_samples.h"
+#include "core/mesh/even_mesh.h"
+#include "core/mesh/mesh_colors.h"
 #include "core/mesh/tessellate.h"
 
 namespace meniscus {
@@ -41,6 +48,64 @@ std::vector<TriangleMesh> mesh_objects(std::span<const SurfaceObject> objects, d
 std::size_t triangle_count(std::span<const TriangleMesh> meshes) {
   return std::accumulate(meshes.begin(), meshes.end(), std::size_t{0},
                          [](std::size_t sum, const TriangleMesh& mesh) { return sum + mesh.triangles.size(); });
+}
+
+namespace {
+
+/// Of an even mesh by tolerance, as measured: vertices per Å² times tolerance times radius of curvature.
+constexpr double kEvenVertices = 0.36;
+/// Triangles of an even mesh beside each vertex.
+constexpr double kTrianglesAVertex = 2.0;
+/// Of a mesh that keeps to patches, as measured: triangles a segment of a border, on both sides together.
+constexpr double kTrianglesASegment = 2.3;
+
+double patch_aligned_triangles(const Surface& surface, double tolerance) {
+  const EdgeRule rule(MeshOptions{tolerance, true});
+  double triangles = 0.0;
+  for (const Border& border : surface.borders)
+    if (border.radius > 0.0)
+      triangles += kTrianglesASegment * std::max(1.0, border.sweep * border.radius / rule.chord(border.radius));
+  for (const Face& face : surface.faces) {
+    const double edge = rule.edge(tube_radius(surface, face));
+    triangles += 4.0 / std::numbers::sqrt3 * face.area / (edge * edge);
+  }
+  return triangles;
+}
+
+double even_triangles(const Surface& surface, const MeshFineness& fineness) {
+  double vertices = fineness.density * surface.area;
+  if (fineness.density == 0.0)
+    for (const Face& face : surface.faces)
+      vertices += kEvenVertices * face.area / (fineness.tolerance * std::max(tube_radius(surface, face), 0.1));
+  return kTrianglesAVertex * vertices;
+}
+
+}  // namespace
+
+MeshFineness fineness_of(const MeshRequest& request, bool even, double density, glm::ivec2 size, const Camera& camera,
+                         std::span<const Ball> balls) {
+  MeshFineness fineness{tolerance_of(request, size, camera, balls), {}, density, even};
+  if (request.tolerance_pixels == 0.0 || camera.projection == Projection::orthographic) return fineness;
+  const double wanted = request.tolerance_pixels * 2.0 * half_extent(camera, double(size.x) / size.y).y / size.y;
+  fineness.tolerance_at = [wanted, position = camera.position, forward = view_basis(camera).forward,
+                           smallest = fineness.tolerance](const glm::dvec3& x) {
+    return std::clamp(wanted * glm::dot(x - position, forward), smallest, kLargestTolerance);
+  };
+  return fineness;
+}
+
+double estimated_triangles(const Surface& surface, const MeshFineness& fineness) {
+  return fineness.even || fineness.density > 0.0 ? even_triangles(surface, fineness)
+                                                 : patch_aligned_triangles(surface, fineness.tolerance);
+}
+
+FineMesh fine_mesh(const Surface& surface, const MeshFineness& fineness) {
+  if (fineness.even || fineness.density > 0.0)
+    return even_mesh(surface, {fineness.density, fineness.tolerance, fineness.tolerance_at});
+  FineMesh made{tessellate(surface, {fineness.tolerance, true}), {}, {}};
+  made.vertex_face = vertex_faces(made.mesh);
+  made.vertex_atom = vertex_atoms(made.mesh);
+  return made;
 }
 
 }  // namespace meniscus

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The meshes of a molecule's objects, as fine as a picture needs them.
+// The meshes of a molecule's objects: how fine they are to be, in Å or by a camera, and how many triangles that makes.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
+#include "core/math/ball.h"
 #include "core/queries/surface_object.h"
 
 namespace meniscus {
 
 struct Camera;
+struct FineMesh;
 struct TriangleMesh;
-
-/// What a mesh may be asked for. With a smaller tolerance one of a protein no longer fits into memory, and float
-/// coordinates could not hold it.
-inline constexpr double kSmallestTolerance = 1e-5, kLargestTolerance = 1.0;  // Å
-inline constexpr double kSmallestDensity = 0.005, kLargestDensity = 1000.0;  // vertices per Å², of even meshes
 
 /// What a camera is for: nothing finer than this many pixels can be seen.
 inline constexpr double kPixelsOfACamera = 0.5;
@@ -38,5 +38,25 @@ std::vector<TriangleMesh> mesh_objects(std::span<const SurfaceObject> objects, d
 
 /// Of all of them.
 std::size_t triangle_count(std::span<const TriangleMesh> meshes);
+
+/// What a mesh is to be like.
+struct MeshFineness {
+  double tolerance = 0.05;  ///< Å; the smallest, where it depends on the place
+  /// Å at a point, for even meshes; empty: the same everywhere.
+  std::function<double(const glm::dvec3&)> tolerance_at;
+  double density = 0.0;  ///< > 0: vertices per Å², of an even mesh
+  bool even = false;     ///< nearly equilateral triangles, which reach over borders of patches
+};
+
+/// Of a picture of this size (pixels). Pixels are those at each point, for an even mesh; for one that keeps to patches,
+/// those at the nearest of the balls.
+MeshFineness fineness_of(const MeshRequest& request, bool even, double density, glm::ivec2 size, const Camera& camera,
+                         std::span<const Ball> balls);
+
+/// About how many triangles the mesh of a surface gets, to a factor of two, without making it.
+double estimated_triangles(const Surface& surface, const MeshFineness& fineness);
+
+/// Throws what tessellate() or even_mesh() throw.
+FineMesh fine_mesh(const Surface& surface, const MeshFineness& fineness);
 
 }  // namespace meniscus

@@ -14,6 +14,11 @@ namespace meniscus {
 
 struct Coloring;
 
+/// What a mesh may be asked for. With a smaller tolerance one of a protein no longer fits into memory, and float
+/// coordinates could not hold it.
+inline constexpr double kSmallestTolerance = 1e-5, kLargestTolerance = 1.0;  // Å
+inline constexpr double kSmallestDensity = 0.005, kLargestDensity = 1000.0;  // vertices per Å², of even meshes
+
 struct MeshOptions {
   double tolerance = 0.01;   ///< Å: no point of the mesh is farther from the exact surface
   bool split_colors = true;  ///< cut triangles where the nearest contact changes, so colours change along edges

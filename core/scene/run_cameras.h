@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "core/camera/camera.h"
+#include "core/camera/view_request.h"
 #include "core/math/box.h"
 #include "core/scene/frame_run.h"
 #include "core/structure/selection/selection.h"
-#include "core/camera/camera_path.h"
-#include "core/camera/view_request.h"
 
 namespace meniscus {
 

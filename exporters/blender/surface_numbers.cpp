@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/mesh/mesh_fineness.h"
 #include "core/mesh/mesh_objects.h"
 #include "core/mesh/smoothed_curvature.h"
 #include "core/queries/surface_point.h"

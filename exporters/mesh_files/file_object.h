@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "core/mesh/mesh_fineness.h"
 #include "core/mesh/mesh_objects.h"
 #include "core/mesh/shape_mesh.h"
 #include "core/mesh/weld.h"

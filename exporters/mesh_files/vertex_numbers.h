@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/color/coloring.h"
-#include "core/mesh/mesh_fineness.h"
 #include "core/mesh/mesh_objects.h"
 #include "core/surface/primitives.h"
 #include "exporters/mesh_files/mesh_file.h"

@@ -9,17 +9,17 @@
 
 #include "core/base/error.h"
 #include "core/base/text_file.h"
-#include "core/structure/assembly.h"
-#include "core/structure/radii/radii_file.h"
-#include "core/structure/formats/structure_formats.h"
+#include "core/camera/camera.h"
 #include "core/camera/camera_json.h"
-#include "core/camera/camera_path.h"
+#include "core/structure/assembly.h"
+#include "core/structure/formats/structure_formats.h"
+#include "core/structure/radii/radii_file.h"
 #include "core/trajectory/formats/trajectory_formats.h"
 #include "core/trajectory/frame_list.h"
+#include "core/trajectory/trajectory.h"
 #include "tests/fuzz/target.h"
 #include "tests/support/sanitized.h"
 #include "tests/trajectory/byte_writer.h"
-#include "core/trajectory/trajectory.h"
 
 namespace meniscus::fuzz {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "app/preview/session.h"
 #include "core/base/error.h"
+#include "core/camera/camera.h"
 #include "core/camera/camera_json.h"
-#include "core/camera/camera_path.h"
 #include "core/structure/formats/read_structure.h"
 #include "tests/preview/two_models.h"
 #include "tests/support/run_program.h"

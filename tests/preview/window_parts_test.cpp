@@ -11,10 +11,10 @@
 
 #include "app/preview/command_json.h"
 #include "app/preview/window/gestures.h"
+#include "app/preview/window/gui.h"
 #include "app/preview/window/latency.h"
 #include "app/preview/window/panel.h"
 #include "app/preview/window/session_link.h"
-#include "app/preview/window/widgets.h"
 
 namespace meniscus {
 namespace {

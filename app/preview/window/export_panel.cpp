@@ -12,7 +12,7 @@
 #include <imgui_stdlib.h>
 
 #include "app/preview/command_json.h"
-#include "app/preview/window/widgets.h"
+#include "app/preview/window/gui.h"
 
 namespace meniscus {
 

@@ -9,7 +9,6 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "app/preview/window/widgets.h"
 #include "app/preview/window/gui.h"
 #include "core/color/color_schemes.h"
 #include "core/color/named_colors.h"

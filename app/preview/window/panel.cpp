@@ -12,7 +12,6 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "app/preview/window/widgets.h"
 #include "app/preview/window/gui.h"
 #include "core/base/text.h"
 #include "core/color/color_maps.h"

@@ -20,7 +20,6 @@
 #include "app/preview/window/panel.h"
 #include "app/preview/window/pictures.h"
 #include "app/preview/window/session_link.h"
-#include "app/preview/window/widgets.h"
 
 namespace meniscus {
 namespace {

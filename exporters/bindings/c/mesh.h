@@ -4,7 +4,6 @@
 
 #include <memory>
 
-#include "core/mesh/mesh_fineness.h"
 #include "core/mesh/mesh_objects.h"
 #include "core/mesh/triangle_mesh.h"
 #include "exporters/bindings/c/counted.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Camera paths: every camera between the keys is one that can be used.
 #include "core/base/error.h"
+#include "core/camera/camera.h"
 #include "core/camera/camera_json.h"
-#include "core/camera/camera_path.h"
 #include "tests/fuzz/camera_checks.h"
 #include "tests/fuzz/target.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cameras that move: through their keys, smoothly, around, along; and frames that hold every moment of a run.
+#include "core/camera/camera.h"
 #include "core/camera/camera_json.h"
-#include "core/camera/camera_path.h"
 
 #include <cmath>
 #include <numbers>
