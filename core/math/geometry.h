@@ -35,7 +35,6 @@ inline constexpr double kUnitRoundoff = 0x1p-53;
 #include "gpu_shaders/geometry/patch_bounds.glsl"
 #include "gpu_shaders/geometry/polygon_reach.glsl"
 #include "gpu_shaders/geometry/rolling_arc.glsl"
-#include "gpu_shaders/geometry/tie_key.glsl"
 #include "gpu_shaders/geometry/triple.glsl"
 
 }  // namespace meniscus::geometry

@@ -18,7 +18,7 @@ T select(bool condition, T yes, T no) {
 inline bool some(bool condition) { return condition; }
 
 #include "gpu_shaders/geometry/patch_membership.glsl"
-#include "gpu_shaders/geometry/ray_sphere.glsl"
+#include "gpu_shaders/geometry/ray_shapes.glsl"
 #include "gpu_shaders/geometry/torus_hits.glsl"
 
 }  // namespace meniscus::geometry

@@ -6,7 +6,7 @@ layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"
 #include "gpu_shaders/shared/probe_record.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
-#include "gpu_shaders/geometry/tie_key.glsl"
+#include "gpu_shaders/geometry/triple.glsl"
 #include "gpu_shaders/paper_selection/face_table.glsl"
 
 void main() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds the RS face of a triple of atoms: a hash table with linear probing.
-// To be included below probe_record.glsl and tie_key.glsl.
+// To be included below probe_record.glsl and triple.glsl.
 #include "gpu_shaders/shared/constants.glsl"
 #include "gpu_shaders/paper_selection/parameters.glsl"
 

@@ -12,7 +12,7 @@ layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/constants.glsl"
 #include "gpu_shaders/reduced_surface/precision.glsl"
 #include "gpu_shaders/shared/probe_record.glsl"
-#include "gpu_shaders/geometry/tie_key.glsl"
+#include "gpu_shaders/geometry/triple.glsl"
 #include "gpu_shaders/paper_selection/face_table.glsl"
 
 layout(binding = 0) uniform usamplerBuffer arcs;  // i, j, begin_by, end_by

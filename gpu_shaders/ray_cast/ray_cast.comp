@@ -14,7 +14,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "gpu_shaders/shared/loop_guard.glsl"
 
 #include "gpu_shaders/reduced_surface/precision.glsl"
-#include "gpu_shaders/geometry/ray_sphere.glsl"
+#include "gpu_shaders/geometry/ray_shapes.glsl"
 #include "gpu_shaders/geometry/ray_torus.glsl"
 #include "gpu_shaders/geometry/patch_membership.glsl"
 #include "gpu_shaders/ray_cast/depth_slices.glsl"

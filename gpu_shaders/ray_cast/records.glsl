@@ -21,7 +21,7 @@ struct Primitive {
   uint patch_index;   // into the table of its kind
   uint atom;          // convex: the atom; toroidal, cylinder: the first; concave: contact_count
   uint second_atom;   // toroidal; cylinder: the one that the axis points to
-  uint tie_key;       // tie_key.glsl: which of two patches of a kind a ray shows that meets both at once
+  uint tie_key;       // triple.glsl: which of two patches of a kind a ray shows that meets both at once
 };
 
 // Where the ray through a pixel's centre ends.

@@ -4,7 +4,7 @@
 #include "gpu_shaders/shared/constants.glsl"
 #include "gpu_shaders/geometry/circle.glsl"
 #include "gpu_shaders/geometry/fixed_probe.glsl"
-#include "gpu_shaders/geometry/tie_key.glsl"
+#include "gpu_shaders/geometry/triple.glsl"
 
 layout(std430, binding = 0) readonly buffer Atoms { dvec4 atoms[]; };   // centre, decision weight
 layout(std430, binding = 1) readonly buffer Radii { double radii[]; };  // van der Waals

@@ -5,7 +5,7 @@ layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/linear_index.glsl"
 
 #include "gpu_shaders/reduced_surface/precision.glsl"
-#include "gpu_shaders/geometry/ray_sphere.glsl"
+#include "gpu_shaders/geometry/ray_shapes.glsl"
 #include "gpu_shaders/geometry/torus_hits.glsl"
 #include "gpu_shaders/geometry/patch_membership.glsl"
 #include "gpu_shaders/test_support/parameters.glsl"

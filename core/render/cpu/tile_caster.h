@@ -25,10 +25,8 @@ using ray_cast::Primitive;
 inline uint floatBitsToUint(float a) { return std::bit_cast<uint>(a); }
 
 #include "gpu_shaders/geometry/patch_membership.glsl"
-#include "gpu_shaders/geometry/ray_cylinder.glsl"
-#include "gpu_shaders/geometry/ray_sphere.glsl"
+#include "gpu_shaders/geometry/ray_shapes.glsl"
 #include "gpu_shaders/geometry/ray_torus.glsl"
-#include "gpu_shaders/geometry/ray_triangle.glsl"
 
 inline constexpr int kBundleEdge = 4;  // pixels
 inline constexpr int kPixelPackets = kBundleEdge * kBundleEdge / kLanes;
