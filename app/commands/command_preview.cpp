@@ -77,7 +77,8 @@ Shown read_run(PreviewCommand& command) {
                                  [frames](std::size_t frame) { return frames->positions(frames->chunk()[frame]); }};
   if (frames->atoms_change()) {
     trajectory.structure = [frames](std::size_t frame) { return frames->at(frames->chunk()[frame]); };
-    measure_colors(color, *frames);
+    ShownFrames shown(scene.molecule, *frames);
+    measure_colors(color, shown);
   }
   return {std::move(scene), frames->structure(), std::move(trajectory), {}};
 }

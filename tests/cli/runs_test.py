@@ -29,6 +29,19 @@ def models(count):
     return "\n".join(lines + ["END", ""])
 
 
+def pairs(count, apart=None):
+    """Two slabs, chains A and B, that touch, but in the model `apart`; from model to model B slides and leans out."""
+    lines = []
+    for model in range(count):
+        lines.append(f"MODEL     {model + 1:4d}")
+        for n in range(24):
+            chain, (layer, row, column) = "AB"[n // 12], (n // 12, n % 12 // 4, n % 4)
+            x, y, z = 2.6 * column + 0.3 * model * layer, 2.7 * row, (33.3 if model == apart else 3.3) * layer + 0.1 * model * layer * column
+            lines.append(f"ATOM  {n + 1:5d}  CA  ALA {chain}{n % 12 + 1:4d}    {x:8.3f}{y:8.3f}{z:8.3f}  1.00 10.00           C")
+        lines.append("ENDMDL")
+    return "\n".join(lines + ["END", ""])
+
+
 class RunsLikePictures(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -78,6 +91,46 @@ class RunsLikePictures(unittest.TestCase):
         shapes = [(self.folder / path).read_text().count("<shape") for path in ("mitsuba/surface_00001.xml", "one/surface.xml")]
         self.assertEqual(shapes[0], shapes[1])
         self.assertGreater(shapes[0], 1)
+
+    def check_meshes(self, *words):
+        """Of each frame the mesh is that of its model."""
+        self.run_program("export", "mesh", *words, "--frames", "all", "-o", "mesh_#.ply", "-q", "--force")
+        for n in range(3):
+            self.run_program("export", "mesh", *words, "--model", str(n + 1), "-o", "one.ply", "-q", "--force")
+            self.assertEqual((self.folder / f"mesh_{n}.ply").read_bytes(), (self.folder / "one.ply").read_bytes(), n)
+
+    def test_an_interface_opens_in_each_frame(self):
+        (self.folder / "pair.pdb").write_text(pairs(3))
+        self.check_meshes("pair.pdb", "--interface", "A:B", "--color-range", "0:20")
+        size = ["--interface", "A:B", "--size", "160x120", "--samples", "1", "-q"]
+        camera = ["--camera", json.dumps({**CAMERA, "position": [0.0, 0.0, 60.0], "target": [0.0, 0.0, 0.0], "height": 30.0})]
+        words = size + camera + ["--color-range", "0:20"]
+        self.run_program("render", "pair.pdb", "--frames", "all", "-o", "f_#.png", *words)
+        for n in range(3):
+            self.run_program("render", "pair.pdb", "--model", str(n + 1), "-o", f"one_{n}.png", *words)
+            self.assertTrue((self.pixels(f"f_{n}.png") == self.pixels(f"one_{n}.png")).all(), n)
+        self.assertFalse((self.pixels("one_0.png") == self.pixels("one_2.png")).all())
+        # One scale for all frames, up to the most that any has, and one camera that sees the pages of all.
+        self.run_program("render", "pair.pdb", "--frames", "2", "-o", "alone_#.png", *size)
+        self.run_program("render", "pair.pdb", "--model", "3", "-o", "alone.png", *size)
+        self.assertTrue((self.pixels("alone_2.png") == self.pixels("alone.png")).all())
+        self.run_program("render", "pair.pdb", "--frames", "all", "-o", "g_#.png", *size)
+        # The workers of a bundle are given both.
+        self.run_program("farm", "bundle", "bundle", "--engine", "make", "--chunk-frames", "1", "--", "render", "pair.pdb",
+                         "--frames", "all", *size[:-1])
+        self.assertIn("--color-range", (self.folder / "bundle/bundle.json").read_text())
+        self.run_program("work", "bundle")
+        for n in range(3):
+            self.assertEqual(self.pixels(f"g_{n}.png")[:, [0, 1, -2, -1], 3].max(), 0, n)
+            self.assertTrue((self.pixels(f"g_{n}.png") == self.pixels(f"bundle/images/frame_{n:05}.png")).all(), n)
+
+    def test_a_frame_whose_sides_do_not_touch_fails_alone(self):
+        (self.folder / "pair.pdb").write_text(pairs(3, apart=1))
+        done = subprocess.run([PROGRAM, "render", "pair.pdb", "--frames", "all", "-o", "f_#.png", "--interface", "A:B", "--size",
+                               "80x60", "--samples", "1"], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("do not touch", done.stderr)
+        self.assertEqual(sorted(path.name for path in self.folder.glob("f_*.png")), ["f_0.png", "f_2.png"])
 
     def test_a_surface_that_is_hidden(self):
         words = ["--hide-surface", "--sticks", "all", "--camera", json.dumps(CAMERA), "-q"]
