@@ -63,6 +63,8 @@ Shown read_run(PreviewCommand& command) {
     reading.scene.molecule = command.read_molecule_request();
     return {std::move(scene), read_and_tell(reading), {}, {}};
   }
+  if (scene.molecule.division.instances != InstanceMode::none)
+    throw UsageError("--instances: copies in the preview stand still; leave it away, or the frames");
   MoleculeRequest molecule = scene.molecule;
   settle_selections(molecule, scene.frames, {.figure = &scene.figure, .view = &scene.picture});
   const auto frames = std::make_shared<FrameRun>(molecule, scene.frames);

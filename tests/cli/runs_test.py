@@ -42,6 +42,18 @@ def pairs(count, apart=None):
     return "\n".join(lines + ["END", ""])
 
 
+#: Chain A stands twice: as it is, and turned half around z, 40 Å aside.
+ASSEMBLY = """REMARK 350 BIOMOLECULE: 1
+REMARK 350 APPLY THE FOLLOWING TO CHAINS: A
+REMARK 350   BIOMT1   1  1.000000  0.000000  0.000000        0.00000
+REMARK 350   BIOMT2   1  0.000000  1.000000  0.000000        0.00000
+REMARK 350   BIOMT3   1  0.000000  0.000000  1.000000        0.00000
+REMARK 350   BIOMT1   2 -1.000000  0.000000  0.000000       40.00000
+REMARK 350   BIOMT2   2  0.000000 -1.000000  0.000000        2.00000
+REMARK 350   BIOMT3   2  0.000000  0.000000  1.000000        0.00000
+"""
+
+
 class RunsLikePictures(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -131,6 +143,39 @@ class RunsLikePictures(unittest.TestCase):
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertIn("do not touch", done.stderr)
         self.assertEqual(sorted(path.name for path in self.folder.glob("f_*.png")), ["f_0.png", "f_2.png"])
+
+    def test_assemblies(self):
+        """Copies go where their motions take each frame, as atoms or as one surface that stands twice."""
+        (self.folder / "twice.pdb").write_text(ASSEMBLY + models(3))
+        wide = {**CAMERA, "position": [20.0, 1.0, 60.0], "target": [20.0, 1.0, 0.0], "height": 36.0}
+        shown = []
+        for kind, words in ("atoms", []), ("exact", ["--instances", "exact"]):
+            options = ["twice.pdb", "--assembly", "1", *words]
+            self.check_meshes(*options)
+            size = [*options, "--size", "160x120", "-q"]
+            view = [*size, "--camera", json.dumps(wide)]
+            self.run_program("render", "--frames", "all", "-o", f"{kind}_#.png", *view)
+            for n in range(3):
+                self.run_program("render", "--model", str(n + 1), "-o", f"{kind}_one_{n}.png", *view)
+                self.assertTrue((self.pixels(f"{kind}_{n}.png") == self.pixels(f"{kind}_one_{n}.png")).all(), (kind, n))
+            self.run_program("render", "--frames", "2", "-o", f"{kind}_alone_#.png", *size)
+            self.run_program("render", "--model", "3", "-o", f"{kind}_alone.png", *size)
+            self.assertTrue((self.pixels(f"{kind}_alone_2.png") == self.pixels(f"{kind}_alone.png")).all(), kind)
+            shown.append(self.pixels(f"{kind}_2.png"))
+            self.run_program("export", "blender", "--frames", "all", "-o", f"blender_{kind}", *view)
+            self.run_program("export", "pbrt", "--frames", "2", "-o", f"pbrt_{kind}", *view)
+            self.run_program("export", "pbrt", "--model", "3", "-o", f"pbrt_{kind}_one", *view)
+            texts = [(self.folder / path).read_text() for path in (f"pbrt_{kind}/surface_00002.pbrt", f"pbrt_{kind}_one/surface.pbrt")]
+            self.assertEqual(texts[0].count("ObjectInstance"), texts[1].count("ObjectInstance"))
+            self.run_program("export", "povray", "--frames", "all", "-o", f"povray_{kind}", *view)
+            placed = (self.folder / f"povray_{kind}/surface_geometry_00002.inc").read_text().count("object{object_1")
+            self.assertEqual(placed, 2 if kind == "exact" else 0)
+        self.assertTrue((shown[0] == shown[1]).all())
+        sizes = [(self.folder / f"blender_{kind}/surface_00000.mns").stat().st_size for kind in ("atoms", "exact")]
+        self.assertLess(sizes[1], sizes[0])
+        areas = [self.run_program("surface", "twice.pdb", "--assembly", "1", "--frames", "all", *words, "--csv-series", "-", "-q")
+                 for words in ([], ["--instances", "separate"])]
+        self.assertEqual(areas[0], areas[1])
 
     def test_a_surface_that_is_hidden(self):
         words = ["--hide-surface", "--sticks", "all", "--camera", json.dumps(CAMERA), "-q"]
