@@ -63,6 +63,8 @@ Shown read_run(PreviewCommand& command) {
     reading.scene.molecule = command.read_molecule_request();
     return {std::move(scene), read_and_tell(reading), {}, {}};
   }
+  if (scene.molecule.division.instances != InstanceMode::none)
+    throw UsageError("--instances: copies in the preview stand still; leave it away, or the frames");
   MoleculeRequest molecule = scene.molecule;
   settle_selections(molecule, scene.frames, {.figure = &scene.figure, .view = &scene.picture});
   const auto frames = std::make_shared<FrameRun>(molecule, scene.frames);
@@ -77,7 +79,8 @@ Shown read_run(PreviewCommand& command) {
                                  [frames](std::size_t frame) { return frames->positions(frames->chunk()[frame]); }};
   if (frames->atoms_change()) {
     trajectory.structure = [frames](std::size_t frame) { return frames->at(frames->chunk()[frame]); };
-    measure_colors(color, *frames);
+    ShownFrames shown(scene.molecule, *frames);
+    measure_colors(color, shown);
   }
   return {std::move(scene), frames->structure(), std::move(trajectory), {}};
 }

@@ -65,7 +65,6 @@ void check_scene(const RenderCommand& command) {
   const Scene& scene = command.scene;
   const bool is_run = scene.frames.asked();
   if (is_run && command.stats) throw UsageError("--stats: of one picture only; leave --frames away");
-  if (is_run && scene.molecule.interface) throw UsageError("--interface: of one picture only; leave --frames away");
   if (!is_run) check_image_path(scene.output);
   if (scene.image.aovs && !holds_aovs(scene.output))
     throw UsageError("--aovs needs an .exr output; other formats hold colour only");

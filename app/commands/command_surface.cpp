@@ -100,8 +100,10 @@ void check_outputs(const SurfaceCommand& command) {
     if (command.scene.molecule.surface.kind != SurfaceKind::ses || command.scene.molecule.surface.probe_radius == 0.0)
       throw UsageError(
           "--csv-cavities follows cavities of solvent-excluded surfaces; choose --surface ses and a probe");
-    if (division.groups || division.components || division.cavities == Cavities::drop)
-      throw UsageError("--csv-cavities follows the cavities of one surface; leave --by and --cavities drop away");
+    if (division.groups || division.components || division.cavities == Cavities::drop ||
+        division.instances != InstanceMode::none)
+      throw UsageError(
+          "--csv-cavities follows the cavities of one surface; leave --by, --cavities drop and --instances away");
     if (!command.scene.frames.only.empty())
       throw UsageError(
           "--csv-cavities needs all frames of the run, as numbers go on from one to the next; leave --only away");

@@ -22,6 +22,7 @@
 #include "core/mesh/shape_mesh.h"
 #include "core/mesh/velocity.h"
 #include "core/queries/copies.h"
+#include "core/scene/copied_atoms.h"
 #include "exporters/blender/atom_arrays.h"
 #include "exporters/blender/sequence_manifest.h"
 #include "exporters/blender/surface_file.h"
@@ -46,7 +47,7 @@ blender::SequenceManifest manifest_of(FigureRun& run) {
   manifest.origin = run.framing().origin();
   manifest.fps = scene.film.frames_per_second;
   manifest.probe_radius = scene.molecule.surface.probe_radius;
-  manifest.tolerance = tolerance_of(scene.mesh, scene.picture.size(), run.camera(0), balls_of(frames.structure()));
+  manifest.tolerance = tolerance_of(scene.mesh, scene.picture.size(), run.camera(0), standing_balls(run.structure()));
   manifest.atom_count = frames.structure().atoms.size();
   return manifest;
 }

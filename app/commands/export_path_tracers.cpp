@@ -21,6 +21,7 @@
 #include "core/mesh/mesh_objects.h"
 #include "core/mesh/section_mesh.h"
 #include "core/queries/copies.h"
+#include "core/scene/copied_atoms.h"
 #include "exporters/path_tracers/scene_folder.h"
 
 namespace meniscus {
@@ -123,7 +124,7 @@ void run(const PathTracerCommand& command) {
   if (run.is_run()) save_camera(command, run.camera(0));
   const auto make = [&](FigureFrame frame) -> FinishFrame {
     Figure& figure = frame.figure;
-    const std::vector<Ball> balls = run.is_run() ? balls_of(run.structure()) : figure.balls();
+    const std::vector<Ball> balls = run.is_run() ? standing_balls(run.structure()) : figure.balls();
     const double tolerance = tolerance_of(asked.mesh, asked.picture.size(), run.camera(0), balls);
     path_tracers::Scene scene =
         empty_scene(command, frame.camera, run.is_run() ? run.framing().origin() : middle_of(balls));

@@ -38,9 +38,12 @@ FigureRun::FigureRun(const SceneCommand& command, bool velocities)
 }
 
 void FigureRun::open_run(bool velocities) {
-  frames_ = std::make_unique<FrameRun>(command_.scene.molecule, command_.scene.frames, velocities);
+  MoleculeRequest& molecule = command_.scene.molecule;
+  // Where pages open, atoms do not go on from where they were.
+  frames_ = std::make_unique<FrameRun>(molecule, command_.scene.frames, velocities && !molecule.interface);
+  shown_ = std::make_unique<ShownFrames>(molecule, *frames_);
   tell_run(command_, *frames_);
-  measure_colors(command_.scene.molecule.color, *frames_);
+  measure_colors(molecule.color, *shown_);
 }
 
 void FigureRun::make_one_figure() {
@@ -54,9 +57,9 @@ void FigureRun::aim(const ViewRequest& picture, bool extent) {
   if (!frames_) {
     framing_.cameras = {aim_->camera(picture, given_.still, figure_->molecule.objects)};
   } else if (extent) {
-    framing_ = run_framing(picture, scene().molecule.show, scene().run_camera, given_, *frames_);
+    framing_ = run_framing(picture, scene().run_camera, given_, *shown_);
   } else {
-    framing_.cameras = run_cameras(picture, scene().molecule.show, scene().run_camera, given_, *frames_);
+    framing_.cameras = run_cameras(picture, scene().run_camera, given_, *shown_);
   }
   tell_idle_cuts();
 }

@@ -21,6 +21,7 @@
 #include "core/scene/figure.h"
 #include "core/scene/frame_run.h"
 #include "core/scene/run_framing.h"
+#include "core/scene/shown_frames.h"
 #include "core/scene/view_aim.h"
 
 namespace meniscus {
@@ -65,8 +66,8 @@ class FigureRun {
   const Camera& camera(std::uint64_t place) const { return framing_.cameras[framing_.cameras.size() == 1 ? 0 : place]; }
   /// Of one molecule: must be.
   const Figure& figure() const { return *figure_; }
-  /// Of the molecule, or at the first frame of the run.
-  const Structure& structure() const { return frames_ ? frames_->structure() : figure_->molecule.structure; }
+  /// Of the molecule, or at the first frame of the run; as it is shown.
+  const Structure& structure() const { return frames_ ? shown_->first_shown() : figure_->molecule.structure; }
   /// What the colours of all figures mean.
   ColorKey key() const;
 
@@ -85,6 +86,7 @@ class FigureRun {
   SceneCommand command_;
   GivenCameras given_;  ///< by files
   std::unique_ptr<FrameRun> frames_;
+  std::unique_ptr<ShownFrames> shown_;
   RunFraming framing_;
   std::optional<Figure> figure_;  ///< of one molecule
   std::optional<ViewAim> aim_;

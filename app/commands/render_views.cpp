@@ -112,6 +112,7 @@ std::string stats_text(const ViewStats& n, const std::vector<StageTime>& times, 
 /// The atoms of the molecule, or of the first frame of a run, and the cameras that see them.
 struct Viewed {
   std::unique_ptr<FrameRun> run;
+  std::unique_ptr<ShownFrames> frames;
   ColoredAtoms atoms;
   GivenCameras given;
   std::optional<ViewAim> aim;
@@ -124,8 +125,9 @@ struct Viewed {
       return;
     }
     run = std::make_unique<FrameRun>(scene.molecule, scene.frames);
+    frames = std::make_unique<ShownFrames>(scene.molecule, *run);
     tell_run(command, *run);
-    measure_colors(scene.molecule.color, *run);
+    measure_colors(scene.molecule.color, *frames);
     if (scene.molecule.color.changes_with_frames())
       throw UsageError("colours that change from frame to frame need the complete surface; leave --extent away");
     if (selects_by_positions(scene.molecule))
@@ -141,7 +143,7 @@ struct Viewed {
 
   std::vector<Camera> cameras(const Scene& scene, const ViewRequest& size) {
     if (!run) return {aim->camera(size, given.still, atoms.balls)};
-    return run_cameras(size, scene.molecule.show, scene.run_camera, given, *run);
+    return run_cameras(size, scene.run_camera, given, *frames);
   }
 };
 

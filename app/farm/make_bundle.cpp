@@ -46,9 +46,18 @@ std::vector<Step> steps_with_arguments(const BundledCommand& command) {
 
 /// The camera that shows all of every frame, so that no worker has to read all frames for it. Nothing if the command
 /// has its own, or frames the molecule beside a legend.
-std::optional<Camera> default_camera(const Scene& scene, const GivenCameras& given, FrameRun& frames) {
+std::optional<Camera> default_camera(const Scene& scene, const GivenCameras& given, ShownFrames& frames) {
   if (given.any() || scene.legend.within) return {};
-  return run_cameras(scene.picture, scene.molecule.show, scene.run_camera, given, frames).front();
+  return run_cameras(scene.picture, scene.run_camera, given, frames).front();
+}
+
+/// The range of buried areas in all frames, so that no worker has to compute the surfaces of all for it. Nothing if the
+/// command has its own, or none.
+std::optional<std::array<double, 2>> buried_range(const ColorScheme& color, ShownFrames& frames) {
+  if (color.by != ColorScheme::By::buried || color.range) return {};
+  const double most = frames.most_buried();
+  if (most <= 0.0) return {};
+  return std::array{0.0, most};
 }
 
 void add_addon(const fs::path& addon, BundleInputs& inputs) {
@@ -57,10 +66,11 @@ void add_addon(const fs::path& addon, BundleInputs& inputs) {
   for (const DriverFile& file : driver_files()) inputs.add_file_as("blender/" + file.path, addon / file.path);
 }
 
-/// The words of the command with paths in the bundle, and with the camera.
+/// The words of the command with paths in the bundle, and with the camera and the range of colours.
 std::vector<std::string> bundled_words(const BundledCommand& command, const std::optional<Camera>& camera,
-                                       BundleInputs& inputs) {
+                                       const std::optional<std::array<double, 2>>& range, BundleInputs& inputs) {
   Scene scene = command.command.scene;
+  if (range) scene.molecule.color.range = range;
   // Where it is computed is said for each step.
   scene.molecule.surface.cpu = false;
   scene.molecule.surface.gl = {};
@@ -210,7 +220,9 @@ Bundle described(const BundleOptions& options, const BundledCommand& asked, Bund
   if (options.film)
     check_film_size(film_encoder(options.film->file, options.film->format), {bundle.width, bundle.height});
   bundle.film = options.film;
-  bundle.command = bundled_words(asked, default_camera(scene, cameras, frames), inputs);
+  ShownFrames shown(scene.molecule, frames);
+  const std::optional<std::array<double, 2>> range = buried_range(scene.molecule.color, shown);
+  bundle.command = bundled_words(asked, default_camera(scene, cameras, shown), range, inputs);
   if (bundle.steps.back().maker == Maker::blender) add_addon(options.addon, inputs);
   bundle.inputs = inputs.measured();
   bundle.chunking = options.chunking;

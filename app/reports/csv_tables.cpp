@@ -102,13 +102,14 @@ std::string frame_cells(const FrameNote& note) {
 std::vector<SeriesValue> series_values(const Molecule& molecule, const std::vector<AreaColumn>& columns) {
   double volume = 0.0, components = 0.0, cavities = 0.0, cavity_area = 0.0, cavity_volume = 0.0;
   for (const SurfaceObject& object : molecule.objects) {
-    volume += object.surface.volume;
-    components += static_cast<double>(object.surface.components.size());
+    const auto copies = static_cast<double>(object.copies.size());
+    volume += object.surface.volume * copies;
+    components += static_cast<double>(object.surface.components.size()) * copies;
     for (const Component& component : object.surface.components) {
       if (component.kind != ComponentKind::cavity) continue;
-      cavities += 1.0;
-      cavity_area += component.area;
-      cavity_volume -= component.volume;
+      cavities += copies;
+      cavity_area += component.area * copies;
+      cavity_volume -= component.volume * copies;
     }
   }
   constexpr const char *kArea = "Å²", *kVolume = "Å³";

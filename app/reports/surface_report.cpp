@@ -223,7 +223,8 @@ std::string report_row_header(const MoleculeRequest& options) {
 std::string report_row(const SurfaceReport& report, const FrameNote& note) {
   const Totals totals = totals_of(report.molecule.objects);
   std::size_t components = 0;
-  for (const SurfaceObject& object : report.molecule.objects) components += object.surface.components.size();
+  for (const SurfaceObject& object : report.molecule.objects)
+    components += object.surface.components.size() * object.copies.size();
   std::string row =
       fmt::format("{:>9} {:>12} {:>13.3f} {:>15.3f} {:>10}", note.frame,
                   note.time ? fmt::format("{:.3f}", *note.time) : "-", totals.area, totals.volume, components);

@@ -142,7 +142,7 @@ ScaleWords words_of(By by) {
     case By::rmsf:
       throw RequestError("--color rmsf needs a run of frames to take the fluctuations from: add --frames all");
     case By::buried:
-      throw RequestError("--color buried is for single pictures and exports; of frames the areas change");
+      throw RequestError("buried areas colour the whole surface; choose --color buried, or another colour for EXPR");
     case By::hydrophobicity:
       throw InputError(structure.file, 0,
                        "has no amino acids, which the hydrophobicity scale is for; choose another --color");

@@ -84,7 +84,7 @@ bool ColorScheme::uses_frames() const {
 }
 
 bool ColorScheme::changes_with_frames() const {
-  return uses_frames() || by == By::radial ||
+  return uses_frames() || by == By::radial || by == By::buried ||
          std::ranges::any_of(rules, [](const ColorRule& rule) { return rule.paint.by == By::radial; });
 }
 

@@ -78,7 +78,7 @@ struct ColorScheme {
   bool uses_file() const;
   /// Whether these differ from frame to frame of a run.
   bool uses_frames() const;
-  /// The same, or that this or a rule colours by where atoms are.
+  /// The same, or that this or a rule colours by where atoms are or what they bury.
   bool changes_with_frames() const;
   /// Numbers, for this and for all rules. Those of frames have one scale: without a range that of all of them. Throws
   /// RequestError for them where the map gives each number a colour of its own.

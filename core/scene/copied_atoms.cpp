@@ -66,6 +66,21 @@ Coloring coloring_of(const Coloring& coloring, std::span<const std::uint32_t> at
   return of;
 }
 
+std::vector<Ball> standing_balls(const Structure& structure, const std::vector<bool>& picked) {
+  const std::vector<Ball> balls = balls_of(structure);
+  const auto is_out = [&picked](std::uint32_t atom) { return !picked.empty() && !picked[atom]; };
+  if (!structure.instances.empty()) {
+    std::vector<Instances> copies = structure.instances;
+    for (Instances& group : copies) std::erase_if(group.atoms, is_out);
+    std::erase_if(copies, [](const Instances& group) { return group.atoms.empty(); });
+    return reaching_balls(balls, copies);
+  }
+  std::vector<Ball> standing;
+  for (std::uint32_t a = 0; a < balls.size(); ++a)
+    if (!is_out(a)) standing.push_back(balls[a]);
+  return standing;
+}
+
 std::vector<Ball> reaching_balls(std::span<const Ball> balls, std::span<const Instances> copies) {
   if (placed_count(copies) <= kMostListed) return placed_balls(balls, copies);
   std::vector<Instances> outer(copies.begin(), copies.end());

@@ -27,6 +27,10 @@ std::vector<CopiedAtom> placed_atoms(std::span<const Instances> copies);
 /// Where these stand. balls: of the atoms, where the groups' first copy is not moved.
 std::vector<Ball> placed_balls(std::span<const Ball> balls, std::span<const Instances> copies);
 
+/// The balls of a structure's atoms, one each, or of all copies as reaching_balls() has them. picked: per atom, whether
+/// it counts; empty: all do.
+std::vector<Ball> standing_balls(const Structure& structure, const std::vector<bool>& picked = {});
+
 /// The colours of some atoms, in their order; each may be there several times.
 Coloring coloring_of(const Coloring& coloring, std::span<const std::uint32_t> atoms);
 

@@ -18,6 +18,7 @@
 #include "core/base/text.h"
 #include "core/structure/selection/selection.h"
 #include "core/trajectory/atom_order.h"
+#include "core/structure/assembly.h"
 #include "core/structure/bonds.h"
 #include "core/trajectory/frame_list.h"
 #include "core/base/error.h"
@@ -27,9 +28,6 @@ namespace meniscus {
 namespace {
 
 void check_options(const MoleculeRequest& molecule, const RunRequest& request) {
-  if (!molecule.reading.assembly.empty()) throw RequestError("--assembly: runs of frames are as the file has them");
-  if (molecule.division.instances != InstanceMode::none)
-    throw RequestError("--instances: runs of frames have no copies");
   if (molecule.reading.model.all || molecule.reading.model.number != 1)
     throw RequestError("--model and --frames: the models of a file are its frames, counted from 0; leave --model away");
   if (request.trajectories.empty() && request.trajectory_atoms)
@@ -175,6 +173,8 @@ void FrameRun::read_atoms(const MoleculeRequest& molecule, const RunRequest& req
   MoleculeRequest reading = molecule;
   reading.reading.keep_topology = true;
   reading.reading.trajectory_atoms = request.trajectory_atoms;
+  const bool copies_atoms = !molecule.reading.assembly.empty() && molecule.division.instances == InstanceMode::none;
+  reading.reading.list_assemblies = copies_atoms;
   Frame first;
   if (!request.trajectories.empty()) {
     trajectory_->read(source(run_.front()), first);
@@ -190,6 +190,7 @@ void FrameRun::read_atoms(const MoleculeRequest& molecule, const RunRequest& req
     structure_ = read_molecule(reading);
     if (request.context) together_ = read_molecule(with_context(reading, *request.context));
   }
+  if (copies_atoms) assembly_ = find_assembly(structure_.assemblies, molecule.reading.assembly, structure_.file);
   const std::size_t atoms = structure_.topology->atoms.size();
   if (atoms != trajectory_->atom_count()) {
     throw InputError(trajectory_->path(), 0,
@@ -267,9 +268,15 @@ void FrameRun::prepare(const MoleculeRequest& molecule, const RunRequest& reques
   frames_ = std::make_unique<PreparedFrames>(*trajectory_, std::move(preparation));
 }
 
+/// Where an atom stands, which may be one of a copy.
+glm::dvec3 FrameRun::position_of(const Atom& atom, const std::vector<glm::dvec3>& positions) const {
+  const glm::dvec3& position = positions[atom.index];
+  return assembly_ ? copy_motion(*assembly_, atom)(position) : position;
+}
+
 void FrameRun::place(const std::vector<glm::dvec3>& positions, Structure& structure) const {
-  for (Atom& atom : structure.atoms) atom.position = positions[atom.index];
-  for (Atom& atom : structure.beside) atom.position = positions[atom.index];
+  for (Atom& atom : structure.atoms) atom.position = position_of(atom, positions);
+  for (Atom& atom : structure.beside) atom.position = position_of(atom, positions);
 }
 
 Structure FrameRun::structure_at(const Frame& frame, std::uint64_t number) const {
@@ -291,7 +298,7 @@ std::vector<glm::dvec3> FrameRun::positions(std::uint64_t number) {
   Frame frame;
   frames_->read(source(number), frame);
   std::vector<glm::dvec3> positions;
-  for (const Atom& atom : structure_.atoms) positions.push_back(frame.positions[atom.index]);
+  for (const Atom& atom : structure_.atoms) positions.push_back(position_of(atom, frame.positions));
   return positions;
 }
 
@@ -351,8 +358,11 @@ std::optional<RunFrame> FrameRun::next() {
     frame.together = *together_;
     place(read->frame.positions, frame.together);
   }
-  if (velocities_)
-    for (const Atom& atom : shown_atoms(frame.structure)) frame.velocities.push_back(read->velocities[atom.index]);
+  if (!velocities_) return frame;
+  for (const Atom& atom : shown_atoms(frame.structure)) {
+    const glm::dvec3& velocity = read->velocities[atom.index];
+    frame.velocities.push_back(assembly_ ? copy_motion(*assembly_, atom).rotation * velocity : velocity);
+  }
   return frame;
 }
 

@@ -112,6 +112,7 @@ class FrameRun {
   void read_velocities(ReadFrame& read);
   void read_atoms(const MoleculeRequest& molecule, const RunRequest& request);
   void prepare(const MoleculeRequest& molecule, const RunRequest& request);
+  glm::dvec3 position_of(const Atom& atom, const std::vector<glm::dvec3>& positions) const;
   void place(const std::vector<glm::dvec3>& positions, Structure& structure) const;
   Structure structure_at(const Frame& frame, std::uint64_t number) const;
 
@@ -121,6 +122,7 @@ class FrameRun {
   std::unique_ptr<StructureFile> file_, file_together_;  ///< if atoms are chosen anew in each frame
   Structure structure_;
   std::optional<Structure> together_;
+  std::optional<Assembly> assembly_;  ///< that the atoms are copied by
   std::vector<std::uint64_t> run_, chunk_;
   std::unordered_map<std::uint64_t, std::uint64_t> place_;  ///< in the run, by number
   std::size_t taken_ = 0;

@@ -120,6 +120,16 @@ void require_colors_shared(const Structure& structure, const ColorScheme& color)
     throw RequestError("--color copy needs copies with colours of their own; leave --instances away");
 }
 
+Burial burial_of(const MoleculeRequest& request, const Structure& structure, SurfaceComputer& computer) {
+  if (!structure.instances.empty())
+    throw RequestError("areas buried between copies need copies made of atoms; leave --instances away");
+  Burial burial;
+  burial.groups = request.interface ? interface_groups(structure, *request.interface)
+                                    : group_atoms(structure, request.division.groups.value_or(Grouping::chain));
+  burial.areas = buried_areas(structure, burial.groups, computer, request.surface.kind);
+  return burial;
+}
+
 MoleculeBuilder::MoleculeBuilder(const MoleculeRequest& request, const EglContext* context)
     : request_(request), color_(color_of(request)), division_(request.division), computer_(request.surface, context) {
   if (color_.by == ColorScheme::By::component && !division_.groups) division_.components = true;
@@ -128,14 +138,9 @@ MoleculeBuilder::MoleculeBuilder(const MoleculeRequest& request, const EglContex
 /// Numbers for By::buried, and both sides of an interface where they can be seen.
 void MoleculeBuilder::measure_burial(Molecule& molecule) {
   Structure& structure = molecule.structure;
-  if (!structure.instances.empty())
-    throw RequestError("areas buried between copies need copies made of atoms; leave --instances away");
-  const std::vector<AtomGroup> groups =
-      request_.interface ? interface_groups(structure, *request_.interface)
-                         : group_atoms(structure, division_.groups.value_or(Grouping::chain));
-  const std::vector<double> buried = buried_areas(structure, groups, computer_, request_.surface.kind);
-  if (color_.by == ColorScheme::By::buried) molecule.color.file = {.path = structure.file, .numbers = buried};
-  if (request_.interface) open_book(structure, groups, buried);
+  const Burial burial = burial_of(request_, structure, computer_);
+  if (color_.by == ColorScheme::By::buried) molecule.color.file = {.path = structure.file, .numbers = burial.areas};
+  if (request_.interface) open_book(structure, burial.groups, open_pages(structure, burial.groups, burial.areas));
 }
 
 Molecule MoleculeBuilder::build(Structure structure) {

@@ -62,6 +62,16 @@ ColorScheme color_of(const MoleculeRequest& request);
 /// What the colours of its objects mean.
 ColorKey key_of(const Molecule& molecule);
 
+/// What groups of atoms bury of each other.
+struct Burial {
+  std::vector<AtomGroup> groups;  ///< the sides of the interface, else those of the division, else chains
+  std::vector<double> areas;      ///< buried_areas(), of each atom
+};
+
+/// Of a structure, in which an interface is closed. Throws what buried_areas and interface_groups throw, RequestError
+/// for copies as instances.
+Burial burial_of(const MoleculeRequest& request, const Structure& structure, SurfaceComputer& computer);
+
 /// Throws RequestError for colours by copy where copies share one surface.
 void require_colors_shared(const Structure& structure, const ColorScheme& color);
 

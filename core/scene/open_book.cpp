@@ -100,7 +100,7 @@ std::vector<AtomGroup> interface_groups(const Structure& structure, const Interf
   return groups;
 }
 
-void open_book(Structure& structure, std::span<const AtomGroup> groups, std::span<const double> buried) {
+OpenPages open_pages(const Structure& structure, std::span<const AtomGroup> groups, std::span<const double> buried) {
   std::vector<Ball> page;
   std::array<glm::dvec3, 2> middle{};
   for (std::size_t side = 0; side < 2; ++side)
@@ -109,23 +109,34 @@ void open_book(Structure& structure, std::span<const AtomGroup> groups, std::spa
       middle[side] += atom.position / static_cast<double>(groups[side].atoms.size());
       if (buried[a] > 0.0) page.push_back({atom.position, atom.radius});
     }
-  if (page.empty()) throw RequestError("--interface: these atoms do not touch: nothing is buried between them");
+  if (page.empty())
+    throw InputError(structure.file, 0, "--interface: these atoms do not touch: nothing is buried between them");
   const ViewBasis flat = broad_side(page);
-  glm::dvec3 center(0.0);
-  for (const Ball& ball : page) center += ball.center / static_cast<double>(page.size());
+  OpenPages pages;
+  for (const Ball& ball : page) pages.middle += ball.center / static_cast<double>(page.size());
   const glm::dvec3 across = glm::dot(middle[1] - middle[0], flat.forward) < 0.0 ? -flat.forward : flat.forward;
-  const std::array<glm::dmat3, 2> turn{page_rotation(across, flat.right), page_rotation(-across, flat.right)};
+  pages.turn = {page_rotation(across, flat.right), page_rotation(-across, flat.right)};
   // The left page ends where the gap begins, the right one begins where it ends.
   for (std::size_t side = 0; side < 2; ++side) {
     double inner = -std::numeric_limits<double>::infinity();
     const double towards = side == 0 ? 1.0 : -1.0;
     for (const std::uint32_t a : groups[side].atoms) {
-      Atom& atom = structure.atoms[a];
-      atom.position = turn[side] * (atom.position - center);
-      inner = std::max(inner, towards * atom.position.x + atom.radius);
+      const Atom& atom = structure.atoms[a];
+      const glm::dvec3 turned = pages.turn[side] * (atom.position - pages.middle);
+      inner = std::max(inner, towards * turned.x + atom.radius);
     }
-    for (const std::uint32_t a : groups[side].atoms) structure.atoms[a].position.x -= towards * (inner + 0.5 * kGap);
+    pages.step[side] = -towards * (inner + 0.5 * kGap);
   }
+  return pages;
+}
+
+void open_book(Structure& structure, std::span<const AtomGroup> groups, const OpenPages& pages) {
+  for (std::size_t side = 0; side < 2; ++side)
+    for (const std::uint32_t a : groups[side].atoms) {
+      glm::dvec3& position = structure.atoms[a].position;
+      position = pages.turn[side] * (position - pages.middle);
+      position.x += pages.step[side];
+    }
 }
 
 }  // namespace meniscus

@@ -2,10 +2,14 @@
 // The interface of two groups of atoms, opened like a book: both sides face the viewer, next to each other.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
 
 #include "core/scene/surface_computer.h"
 #include "core/structure/atom_groups.h"
@@ -32,9 +36,19 @@ std::vector<double> buried_areas(const Structure& structure, std::span<const Ato
 /// The two groups; atoms in neither are in none. Throws InputError for a group without atoms or an atom in both.
 std::vector<AtomGroup> interface_groups(const Structure& structure, const InterfaceRequest& interface);
 
-/// Moves both groups: seen against +z the buried atoms of either face the viewer, the plane that fits them best is the
-/// page, its longest axis upright; the left group stands at the left, with a gap. buried: of each atom. Throws
-/// RequestError where nothing is buried.
-void open_book(Structure& structure, std::span<const AtomGroup> groups, std::span<const double> buried);
+/// Where the two groups go: each is turned about one point and moved to its side.
+struct OpenPages {
+  glm::dvec3 middle{0.0};  ///< Å
+  std::array<glm::dmat3, 2> turn{glm::dmat3(1.0), glm::dmat3(1.0)};
+  std::array<double, 2> step{};  ///< Å along x, behind the turn
+};
+
+/// Seen against +z the buried atoms of either group face the viewer, the plane that fits them best is the page, its
+/// longest axis upright; the left group stands at the left, with a gap. buried: of each atom. Throws InputError where
+/// nothing is buried.
+OpenPages open_pages(const Structure& structure, std::span<const AtomGroup> groups, std::span<const double> buried);
+
+/// Moves both groups there.
+void open_book(Structure& structure, std::span<const AtomGroup> groups, const OpenPages& pages);
 
 }  // namespace meniscus

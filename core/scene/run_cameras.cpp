@@ -2,6 +2,7 @@
 // Puts together the camera of each frame of a run.
 #include "core/scene/run_cameras.h"
 
+#include <algorithm>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include "core/camera/camera_json.h"
 #include "core/base/text.h"
 #include "core/base/error.h"
+#include "core/scene/copied_atoms.h"
 #include "core/scene/view_aim.h"
 
 namespace meniscus {
@@ -25,23 +27,24 @@ glm::dvec3 middle_of(std::span<const Ball> balls) {
 class CameraCourse {
  public:
   /// pivot: what the camera turns about, Å.
-  CameraCourse(const CameraMotionRequest& motion, const FrameRun& frames, const glm::dvec3& pivot)
+  CameraCourse(const CameraMotionRequest& motion, ShownFrames& frames, const glm::dvec3& pivot)
       : motion_(motion), pivot_(pivot) {
-    count_ = static_cast<double>(frames.numbers().size());
-    if (motion.turns != 0.0 && frames.numbers().size() == 1)
+    const FrameRun& run = frames.run();
+    count_ = static_cast<double>(run.numbers().size());
+    if (motion.turns != 0.0 && run.numbers().size() == 1)
       throw RequestError(
           "--turntable: the camera turns from frame to frame, and this run has one frame; --repeat N shows a frame N "
           "times");
     if (!motion.follow) return;
-    followed_ = followed_of(frames.structure());
-    start_ = middle_of(frames.structure(), followed_);
-    follows_others_ = frames.atoms_change() || motion.follow->uses_positions();
+    followed_ = followed_of(frames.first());
+    start_ = middle_of(standing_balls(frames.first_shown(), followed_));
+    follows_others_ = run.atoms_change() || motion.follow->uses_positions();
   }
 
   bool follows() const { return !followed_.empty(); }
-  glm::dvec3 shift(const Structure& structure) const {
+  glm::dvec3 shift(const Structure& read, const Structure& shown) const {
     if (!follows()) return glm::dvec3(0.0);
-    return middle_of(structure, follows_others_ ? followed_of(structure) : followed_) - start_;
+    return middle_of(standing_balls(shown, follows_others_ ? followed_of(read) : followed_)) - start_;
   }
   double angle(std::uint64_t place) const {
     return 2.0 * std::numbers::pi * motion_.turns * static_cast<double>(place) / count_;
@@ -49,26 +52,17 @@ class CameraCourse {
   const glm::dvec3& pivot() const { return pivot_; }
 
  private:
-  std::vector<std::size_t> followed_of(const Structure& structure) const {
-    const std::vector<bool> selected = motion_.follow->evaluate(structure.atoms);
-    std::vector<std::size_t> followed;
-    for (std::size_t n = 0; n < selected.size(); ++n)
-      if (selected[n]) followed.push_back(n);
-    if (followed.empty())
+  std::vector<bool> followed_of(const Structure& structure) const {
+    std::vector<bool> followed = motion_.follow->evaluate(structure.atoms);
+    if (std::ranges::find(followed, true) == followed.end())
       throw RequestError(fmt::format("--follow {}: selects none of the {} atoms of the surface{}",
-                                     in_quotes(motion_.follow->text()), with_thousands(selected.size()),
+                                     in_quotes(motion_.follow->text()), with_thousands(followed.size()),
                                      structure.frame ? fmt::format(" in frame {}", *structure.frame) : ""));
     return followed;
   }
 
-  static glm::dvec3 middle_of(const Structure& structure, const std::vector<std::size_t>& places) {
-    glm::dvec3 sum(0.0);
-    for (const std::size_t n : places) sum += structure.atoms[n].position;
-    return sum / static_cast<double>(places.size());
-  }
-
   const CameraMotionRequest& motion_;
-  std::vector<std::size_t> followed_;
+  std::vector<bool> followed_;   // per atom; empty: the camera follows none
   bool follows_others_ = false;  // from frame to frame
   glm::dvec3 pivot_{0.0}, start_{0.0};
   double count_ = 1.0;
@@ -87,10 +81,10 @@ std::vector<Ball> before_camera(std::span<const Ball> balls, const glm::dvec3& s
 }
 
 /// Of a frame the balls that fill the picture, which may be others than in the first; none where nothing is shown.
-std::vector<Ball> framed_there(const ViewRequest& view, const std::optional<Selection>& show,
-                               const Structure& structure) {
+std::vector<Ball> framed_there(const ViewRequest& view, const std::optional<Selection>& show, const Structure& read,
+                               const Structure& shown) {
   try {
-    return ViewAim(view, show, structure).framed(balls_of(structure));
+    return ViewAim(view, show, read).framed(shown);
   } catch (const InputError&) {
   } catch (const RequestError&) {
   }
@@ -113,12 +107,12 @@ GivenCameras given_cameras(const ViewRequest& view, const CameraMotionRequest& m
   return given;
 }
 
-std::vector<Camera> run_cameras(const ViewRequest& view, const std::optional<Selection>& show,
-                                const CameraMotionRequest& motion, const GivenCameras& given, FrameRun& frames,
-                                Box* extent) {
-  const std::vector<Ball> first = balls_of(frames.structure());
-  const ViewAim aim(view, show, frames.structure());
-  const std::vector<Ball> shown = aim.shown(first), framed = aim.framed(first);
+std::vector<Camera> run_cameras(const ViewRequest& view, const CameraMotionRequest& motion, const GivenCameras& given,
+                                ShownFrames& frames, Box* extent) {
+  const std::optional<Selection>& show = frames.molecule().show;
+  const std::vector<std::uint64_t>& numbers = frames.run().numbers();
+  const ViewAim aim(view, show, frames.first());
+  const std::vector<Ball> shown = aim.shown(frames.first_shown()), framed = aim.framed(frames.first_shown());
   const ViewedBalls seen{shown, framed, aim.symmetry()};
   const CameraCourse course(motion, frames, middle_of(framed));
 
@@ -127,17 +121,16 @@ std::vector<Camera> run_cameras(const ViewRequest& view, const std::optional<Sel
   lens.projection = view.projection;
   DecisiveBalls decisive(basis, view.aspect(), given.still.value_or(lens));
   decisive.add(framed);
-  std::vector<glm::dvec3> shifts(frames.numbers().size(), glm::dvec3(0.0));
+  std::vector<glm::dvec3> shifts(numbers.size(), glm::dvec3(0.0));
   const bool frames_all = !given.path && (!given.still || view.zoom_to);
   if (frames_all || course.follows() || extent) {
-    const bool aims_anew =
-        frames.chooses_anew() || (show && show->uses_positions()) || (view.zoom_to && view.zoom_to->uses_positions());
-    frames.survey([&](std::uint64_t place, const Structure& structure) {
-      const std::vector<Ball> balls = balls_of(structure);
-      if (extent) include(balls, *extent);
-      shifts[place] = course.shift(structure);
+    const bool aims_anew = frames.run().chooses_anew() || (show && show->uses_positions()) ||
+                           (view.zoom_to && view.zoom_to->uses_positions());
+    frames.survey([&](std::uint64_t place, const Structure& read, const Structure& shown) {
+      if (extent) include(standing_balls(shown), *extent);
+      shifts[place] = course.shift(read, shown);
       if (!frames_all) return;
-      const std::vector<Ball> filling = aims_anew ? framed_there(view, show, structure) : aim.framed(balls);
+      const std::vector<Ball> filling = aims_anew ? framed_there(view, show, read, shown) : aim.framed(shown);
       if (filling.empty()) return;
       decisive.add(motion.moves() ? before_camera(filling, shifts[place], course.pivot(), basis.up, course.angle(place))
                                   : filling);
@@ -145,8 +138,8 @@ std::vector<Camera> run_cameras(const ViewRequest& view, const std::optional<Sel
   }
   const Camera still = given.path ? Camera{} : frames_all ? decisive.frame() : view_camera(view, given.still, seen);
   std::vector<Camera> cameras;
-  for (std::uint64_t place = 0; place < frames.numbers().size(); ++place) {
-    Camera camera = given.path ? given.path->at(static_cast<double>(frames.numbers()[place])) : still;
+  for (std::uint64_t place = 0; place < numbers.size(); ++place) {
+    Camera camera = given.path ? given.path->at(static_cast<double>(numbers[place])) : still;
     if (motion.turns != 0.0) camera = turned(camera, course.pivot(), view_basis(camera).up, course.angle(place));
     cameras.push_back(shifted(camera, shifts[place]));
   }

@@ -9,7 +9,7 @@
 #include "core/camera/camera.h"
 #include "core/camera/view_request.h"
 #include "core/math/box.h"
-#include "core/scene/frame_run.h"
+#include "core/scene/shown_frames.h"
 #include "core/structure/selection/selection.h"
 
 namespace meniscus {
@@ -35,11 +35,10 @@ struct GivenCameras {
 GivenCameras given_cameras(const ViewRequest& view, const CameraMotionRequest& motion);
 
 /// A camera for each frame of the run, by its place. Without a camera from a file, and where it is asked to fill the
-/// picture with some atoms, all frames are read once, so that these are seen in every frame. show: the atoms whose part
-/// of the surface is shown; nothing: all. extent: gets all atoms at all frames included, in the same pass; nullptr: not
-/// asked for. Throws InputError, RequestError.
-std::vector<Camera> run_cameras(const ViewRequest& view, const std::optional<Selection>& show,
-                                const CameraMotionRequest& motion, const GivenCameras& given, FrameRun& frames,
-                                Box* extent = nullptr);
+/// picture with some atoms, all frames are read once, so that these are seen in every frame. extent: gets all atoms at
+/// all frames included, in the same pass; nullptr: not asked for. Throws InputError, RequestError, and what opening an
+/// interface throws.
+std::vector<Camera> run_cameras(const ViewRequest& view, const CameraMotionRequest& motion, const GivenCameras& given,
+                                ShownFrames& frames, Box* extent = nullptr);
 
 }  // namespace meniscus

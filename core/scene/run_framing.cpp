@@ -19,11 +19,11 @@ glm::dvec3 RunFraming::origin() const { return glm::round((low + high) * 0.5e3) 
 namespace {
 
 /// Of By::radial in all frames that can be read.
-std::optional<std::array<double, 2>> radial_range(FrameRun& frames) {
+std::optional<std::array<double, 2>> radial_range(ShownFrames& frames) {
   std::optional<std::array<double, 2>> range;
-  frames.survey([&range](std::uint64_t, const Structure& structure) {
+  frames.survey([&range](std::uint64_t, const Structure&, const Structure& shown) {
     std::vector<glm::dvec3> centers;
-    for (const Atom& atom : structure.atoms) centers.push_back(atom.position);
+    for (const Atom& atom : shown.atoms) centers.push_back(atom.position);
     const std::vector<double> distances = distances_from_middle(centers);
     const auto [low, high] = std::ranges::minmax(distances);
     range = range ? std::array{std::min((*range)[0], low), std::max((*range)[1], high)} : std::array{low, high};
@@ -35,8 +35,13 @@ std::optional<std::array<double, 2>> radial_range(FrameRun& frames) {
 /// range of numbers that atoms have by themselves.
 void share_colors(ColorScheme& color, const FrameRun& frames) {
   if (color.by == ColorScheme::By::chain && frames.chooses_anew()) color.chains = chains_of(frames.reach());
+  const bool is_categorical = color.map == ColorMap::categorical && !color.own_map;
+  if (color.by == ColorScheme::By::buried && is_categorical)
+    throw RequestError(
+        "--map categorical gives each number of a picture a colour of its own, but of frames the buried areas change; "
+        "choose another --map");
   if (!frames.atoms_change() || !color.has_scale() || color.by == ColorScheme::By::volume) return;
-  if (color.map == ColorMap::categorical && !color.own_map)
+  if (is_categorical)
     throw RequestError(
         "--map categorical gives each number of a picture a colour of its own, but --select means other atoms in each "
         "frame; choose another --map, or add --select-once");
@@ -49,25 +54,35 @@ void share_colors(ColorScheme& color, const FrameRun& frames) {
   color.frames_range = color_scale(frames.reach(), color).range;
 }
 
+/// Of a scheme without its rules, but for what is buried.
+void measure_scheme(ColorScheme& color, ShownFrames& frames) {
+  FrameRun& run = frames.run();
+  share_colors(color, run);
+  if (color.by == ColorScheme::By::rmsf) color.file = {.path = run.structure().file, .numbers = fluctuations(run)};
+  if (color.by == ColorScheme::By::radial && !color.range) color.frames_range = radial_range(frames);
+}
+
 }  // namespace
 
-RunFraming run_framing(const ViewRequest& view, const std::optional<Selection>& show, const CameraMotionRequest& motion,
-                       const GivenCameras& given, FrameRun& frames) {
+RunFraming run_framing(const ViewRequest& view, const CameraMotionRequest& motion, const GivenCameras& given,
+                       ShownFrames& frames) {
   RunFraming framing;
   Box box;
-  framing.cameras = run_cameras(view, show, motion, given, frames, &box);
+  framing.cameras = run_cameras(view, motion, given, frames, &box);
   if (!motion.moves()) framing.cameras.resize(1);
   framing.low = box.low;
   framing.high = box.high;
   return framing;
 }
 
-void measure_colors(ColorScheme& color, FrameRun& frames) {
-  share_colors(color, frames);
-  for (ColorRule& rule : color.rules) measure_colors(rule.paint, frames);
-  if (color.by == ColorScheme::By::rmsf)
-    color.file = {.path = frames.structure().file, .numbers = fluctuations(frames)};
-  if (color.by == ColorScheme::By::radial && !color.range) color.frames_range = radial_range(frames);
+void measure_colors(ColorScheme& color, ShownFrames& frames) {
+  measure_scheme(color, frames);
+  for (ColorRule& rule : color.rules) measure_scheme(rule.paint, frames);
+  if (color.by != ColorScheme::By::buried) return;
+  // The numbers come with each frame.
+  const Structure& reach = frames.run().reach();
+  color.file = {.path = reach.file, .numbers = std::vector<double>(reach.atoms.size(), 0.0)};
+  if (!color.range) color.frames_range = std::array{0.0, frames.most_buried()};
 }
 
 std::vector<glm::vec3> run_colors(const Structure& structure, const ColorScheme& scheme, const Coloring& beside) {

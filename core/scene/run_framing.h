@@ -8,7 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/scene/run_cameras.h"
-#include "core/scene/frame_run.h"
+#include "core/scene/shown_frames.h"
 #include "core/color/color_schemes.h"
 #include "core/camera/camera.h"
 
@@ -23,12 +23,12 @@ struct RunFraming {
 };
 
 /// Reads all frames of the run once. Throws what run_cameras throws.
-RunFraming run_framing(const ViewRequest& view, const std::optional<Selection>& show, const CameraMotionRequest& motion,
-                       const GivenCameras& given, FrameRun& frames);
+RunFraming run_framing(const ViewRequest& view, const CameraMotionRequest& motion, const GivenCameras& given,
+                       ShownFrames& frames);
 
 /// Takes from all frames of the run what its colours mean in each of them: fluctuations, and one range of numbers that
 /// change with the places of atoms. Reads the run again for each scheme that needs it. Throws what fluctuations throws.
-void measure_colors(ColorScheme& color, FrameRun& frames);
+void measure_colors(ColorScheme& color, ShownFrames& frames);
 
 /// All colours that a frame of the run may have, in the order of the atoms; of components all there are. Of schemes
 /// that do not change with the frames.

@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/queries/copies.h"
+#include "core/scene/copied_atoms.h"
 #include "core/scene/hidden_atoms.h"
 #include "core/scene/representations.h"
 #include "core/trajectory/prepared_frames.h"
@@ -110,12 +111,12 @@ Camera ViewAim::camera(const ViewRequest& layout, const std::optional<Camera>& g
 
 Camera ViewAim::camera(const ViewRequest& layout, const std::optional<Camera>& given,
                        std::span<const Ball> balls) const {
-  return view_camera(layout, given, {shown(balls), framed(balls), symmetry_});
+  return view_camera(layout, given, {picked(balls, shown_), picked(balls, framed_), symmetry_});
 }
 
-std::vector<Ball> ViewAim::shown(std::span<const Ball> balls) const { return picked(balls, shown_); }
+std::vector<Ball> ViewAim::shown(const Structure& structure) const { return standing_balls(structure, shown_); }
 
-std::vector<Ball> ViewAim::framed(std::span<const Ball> balls) const { return picked(balls, framed_); }
+std::vector<Ball> ViewAim::framed(const Structure& structure) const { return standing_balls(structure, framed_); }
 
 bool sees_nothing(const Camera& camera, double aspect, const Structure& structure, double probe) {
   const std::vector<Ball> balls = balls_of(structure);

@@ -30,9 +30,10 @@ class ViewAim {
   /// Of a picture of the atoms, one ball each.
   Camera camera(const ViewRequest& layout, const std::optional<Camera>& given, std::span<const Ball> balls) const;
 
-  /// Balls of the atoms, one each, that are shown, and that fill the picture.
-  std::vector<Ball> shown(std::span<const Ball> balls) const;
-  std::vector<Ball> framed(std::span<const Ball> balls) const;
+  /// Balls of the atoms that are shown, and that fill the picture, wherever `structure` has the same atoms; those of
+  /// all copies (standing_balls).
+  std::vector<Ball> shown(const Structure& structure) const;
+  std::vector<Ball> framed(const Structure& structure) const;
   const std::optional<glm::dvec3>& symmetry() const { return symmetry_; }
 
  private:

@@ -229,6 +229,16 @@ bool names_chain_of(const Assembly& assembly, const Atom& atom) {
                      [&](const AssemblyPart& part) { return names_chain_of(part, atom); });
 }
 
+RigidMotion copy_motion(const Assembly& assembly, const Atom& atom) {
+  std::size_t copy = atom.copy;
+  for (const AssemblyPart& part : assembly.parts) {
+    if (!names_chain_of(part, atom)) continue;
+    if (copy < part.motions.size()) return part.motions[copy];
+    copy -= part.motions.size();
+  }
+  return {};
+}
+
 void assemble(Structure& structure, const Assembly& assembly, CopyMode mode) {
   std::vector<Instances> groups = group_by_motions(structure.atoms, assembly);
   if (groups.empty()) {

@@ -51,6 +51,9 @@ const Assembly& find_assembly(std::span<const Assembly> assemblies, const std::s
 /// Is the atom in one of the assembly's chains?
 bool names_chain_of(const Assembly& assembly, const Atom& atom);
 
+/// Where assemble() put this atom of one of its copies, from where the file or a frame has it.
+RigidMotion copy_motion(const Assembly& assembly, const Atom& atom);
+
 /// Builds the assembly out of structure.atoms; atoms of chains that it does not name are left out and counted. Copies
 /// beyond the first are chains "A-2", "A-3", as in the assembly files of the wwPDB.
 /// Throws InputError (no such chain, atoms beyond 10 µm), CapacityError (above kMostAssembledAtoms by CopyMode::atoms).

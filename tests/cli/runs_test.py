@@ -29,6 +29,31 @@ def models(count):
     return "\n".join(lines + ["END", ""])
 
 
+def pairs(count, apart=None):
+    """Two slabs, chains A and B, that touch, but in the model `apart`; from model to model B slides and leans out."""
+    lines = []
+    for model in range(count):
+        lines.append(f"MODEL     {model + 1:4d}")
+        for n in range(24):
+            chain, (layer, row, column) = "AB"[n // 12], (n // 12, n % 12 // 4, n % 4)
+            x, y, z = 2.6 * column + 0.3 * model * layer, 2.7 * row, (33.3 if model == apart else 3.3) * layer + 0.1 * model * layer * column
+            lines.append(f"ATOM  {n + 1:5d}  CA  ALA {chain}{n % 12 + 1:4d}    {x:8.3f}{y:8.3f}{z:8.3f}  1.00 10.00           C")
+        lines.append("ENDMDL")
+    return "\n".join(lines + ["END", ""])
+
+
+#: Chain A stands twice: as it is, and turned half around z, 40 Å aside.
+ASSEMBLY = """REMARK 350 BIOMOLECULE: 1
+REMARK 350 APPLY THE FOLLOWING TO CHAINS: A
+REMARK 350   BIOMT1   1  1.000000  0.000000  0.000000        0.00000
+REMARK 350   BIOMT2   1  0.000000  1.000000  0.000000        0.00000
+REMARK 350   BIOMT3   1  0.000000  0.000000  1.000000        0.00000
+REMARK 350   BIOMT1   2 -1.000000  0.000000  0.000000       40.00000
+REMARK 350   BIOMT2   2  0.000000 -1.000000  0.000000        2.00000
+REMARK 350   BIOMT3   2  0.000000  0.000000  1.000000        0.00000
+"""
+
+
 class RunsLikePictures(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -78,6 +103,79 @@ class RunsLikePictures(unittest.TestCase):
         shapes = [(self.folder / path).read_text().count("<shape") for path in ("mitsuba/surface_00001.xml", "one/surface.xml")]
         self.assertEqual(shapes[0], shapes[1])
         self.assertGreater(shapes[0], 1)
+
+    def check_meshes(self, *words):
+        """Of each frame the mesh is that of its model."""
+        self.run_program("export", "mesh", *words, "--frames", "all", "-o", "mesh_#.ply", "-q", "--force")
+        for n in range(3):
+            self.run_program("export", "mesh", *words, "--model", str(n + 1), "-o", "one.ply", "-q", "--force")
+            self.assertEqual((self.folder / f"mesh_{n}.ply").read_bytes(), (self.folder / "one.ply").read_bytes(), n)
+
+    def test_an_interface_opens_in_each_frame(self):
+        (self.folder / "pair.pdb").write_text(pairs(3))
+        self.check_meshes("pair.pdb", "--interface", "A:B", "--color-range", "0:20")
+        size = ["--interface", "A:B", "--size", "160x120", "--samples", "1", "-q"]
+        camera = ["--camera", json.dumps({**CAMERA, "position": [0.0, 0.0, 60.0], "target": [0.0, 0.0, 0.0], "height": 30.0})]
+        words = size + camera + ["--color-range", "0:20"]
+        self.run_program("render", "pair.pdb", "--frames", "all", "-o", "f_#.png", *words)
+        for n in range(3):
+            self.run_program("render", "pair.pdb", "--model", str(n + 1), "-o", f"one_{n}.png", *words)
+            self.assertTrue((self.pixels(f"f_{n}.png") == self.pixels(f"one_{n}.png")).all(), n)
+        self.assertFalse((self.pixels("one_0.png") == self.pixels("one_2.png")).all())
+        # One scale for all frames, up to the most that any has, and one camera that sees the pages of all.
+        self.run_program("render", "pair.pdb", "--frames", "2", "-o", "alone_#.png", *size)
+        self.run_program("render", "pair.pdb", "--model", "3", "-o", "alone.png", *size)
+        self.assertTrue((self.pixels("alone_2.png") == self.pixels("alone.png")).all())
+        self.run_program("render", "pair.pdb", "--frames", "all", "-o", "g_#.png", *size)
+        # The workers of a bundle are given both.
+        self.run_program("farm", "bundle", "bundle", "--engine", "make", "--chunk-frames", "1", "--", "render", "pair.pdb",
+                         "--frames", "all", *size[:-1])
+        self.assertIn("--color-range", (self.folder / "bundle/bundle.json").read_text())
+        self.run_program("work", "bundle")
+        for n in range(3):
+            self.assertEqual(self.pixels(f"g_{n}.png")[:, [0, 1, -2, -1], 3].max(), 0, n)
+            self.assertTrue((self.pixels(f"g_{n}.png") == self.pixels(f"bundle/images/frame_{n:05}.png")).all(), n)
+
+    def test_a_frame_whose_sides_do_not_touch_fails_alone(self):
+        (self.folder / "pair.pdb").write_text(pairs(3, apart=1))
+        done = subprocess.run([PROGRAM, "render", "pair.pdb", "--frames", "all", "-o", "f_#.png", "--interface", "A:B", "--size",
+                               "80x60", "--samples", "1"], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("do not touch", done.stderr)
+        self.assertEqual(sorted(path.name for path in self.folder.glob("f_*.png")), ["f_0.png", "f_2.png"])
+
+    def test_assemblies(self):
+        """Copies go where their motions take each frame, as atoms or as one surface that stands twice."""
+        (self.folder / "twice.pdb").write_text(ASSEMBLY + models(3))
+        wide = {**CAMERA, "position": [20.0, 1.0, 60.0], "target": [20.0, 1.0, 0.0], "height": 36.0}
+        shown = []
+        for kind, words in ("atoms", []), ("exact", ["--instances", "exact"]):
+            options = ["twice.pdb", "--assembly", "1", *words]
+            self.check_meshes(*options)
+            size = [*options, "--size", "160x120", "-q"]
+            view = [*size, "--camera", json.dumps(wide)]
+            self.run_program("render", "--frames", "all", "-o", f"{kind}_#.png", *view)
+            for n in range(3):
+                self.run_program("render", "--model", str(n + 1), "-o", f"{kind}_one_{n}.png", *view)
+                self.assertTrue((self.pixels(f"{kind}_{n}.png") == self.pixels(f"{kind}_one_{n}.png")).all(), (kind, n))
+            self.run_program("render", "--frames", "2", "-o", f"{kind}_alone_#.png", *size)
+            self.run_program("render", "--model", "3", "-o", f"{kind}_alone.png", *size)
+            self.assertTrue((self.pixels(f"{kind}_alone_2.png") == self.pixels(f"{kind}_alone.png")).all(), kind)
+            shown.append(self.pixels(f"{kind}_2.png"))
+            self.run_program("export", "blender", "--frames", "all", "-o", f"blender_{kind}", *view)
+            self.run_program("export", "pbrt", "--frames", "2", "-o", f"pbrt_{kind}", *view)
+            self.run_program("export", "pbrt", "--model", "3", "-o", f"pbrt_{kind}_one", *view)
+            texts = [(self.folder / path).read_text() for path in (f"pbrt_{kind}/surface_00002.pbrt", f"pbrt_{kind}_one/surface.pbrt")]
+            self.assertEqual(texts[0].count("ObjectInstance"), texts[1].count("ObjectInstance"))
+            self.run_program("export", "povray", "--frames", "all", "-o", f"povray_{kind}", *view)
+            placed = (self.folder / f"povray_{kind}/surface_geometry_00002.inc").read_text().count("object{object_1")
+            self.assertEqual(placed, 2 if kind == "exact" else 0)
+        self.assertTrue((shown[0] == shown[1]).all())
+        sizes = [(self.folder / f"blender_{kind}/surface_00000.mns").stat().st_size for kind in ("atoms", "exact")]
+        self.assertLess(sizes[1], sizes[0])
+        areas = [self.run_program("surface", "twice.pdb", "--assembly", "1", "--frames", "all", *words, "--csv-series", "-", "-q")
+                 for words in ([], ["--instances", "separate"])]
+        self.assertEqual(areas[0], areas[1])
 
     def test_a_surface_that_is_hidden(self):
         words = ["--hide-surface", "--sticks", "all", "--camera", json.dumps(CAMERA), "-q"]

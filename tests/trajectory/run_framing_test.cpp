@@ -44,7 +44,8 @@ TEST_F(RunFramings, ReadEachFrameOnce) {
   FrameRun frames(molecule_, request_);
   ASSERT_EQ(frames.numbers().size(), kFrames);
   const std::uint64_t before = bytes_read();
-  const RunFraming framing = run_framing({}, {}, {}, {}, frames);
+  ShownFrames shown(molecule_, frames);
+  const RunFraming framing = run_framing({}, {}, {}, shown);
   const std::uint64_t read = bytes_read() - before, size = std::filesystem::file_size(request_.trajectories.front());
   EXPECT_GT(read, size * 9 / 10);
   EXPECT_LT(read, size * 3 / 2);
@@ -58,7 +59,8 @@ TEST_F(RunFramings, ReadEachFrameOnce) {
 TEST_F(RunFramings, HaveTheBoxBesideACameraOfTheirOwn) {
   FrameRun frames(molecule_, request_);
   const Camera camera{.position = {0, 0, 50}};
-  const RunFraming framing = run_framing({}, {}, {}, {.still = camera, .path = {}}, frames);
+  ShownFrames shown(molecule_, frames);
+  const RunFraming framing = run_framing({}, {}, {.still = camera, .path = {}}, shown);
   EXPECT_EQ(framing.cameras.front().position, camera.position);
   EXPECT_EQ(framing.low.z, -21.5);
   EXPECT_EQ(framing.high.x, 0.375 + 1.5 + kFrames - 1);

@@ -155,6 +155,8 @@ class Figure(unittest.TestCase):
 
     def test_interface(self):
         self.check("an interface", "--interface", "resi 1-35:resi 36-76")
+        pictures = self.check_run("an interface in frames", "--interface", "resi 1-20:resi 21-40")
+        self.assertGreater(self.difference("the third", pictures[0], pictures[2]), 0.1)
 
     def test_materials(self):
         """An object that lights itself has its colours whatever the lamps are."""

@@ -72,7 +72,7 @@ TEST(OpenBook, ShowsBothSidesOfTheContact) {
     SurfaceComputer computer(on_cpu());
     const std::vector<double> buried = buried_areas(structure, groups, computer, SurfaceKind::ses);
     const Structure before = structure;
-    open_book(structure, groups, buried);
+    open_book(structure, groups, open_pages(structure, groups, buried));
     std::array<double, 2> edge{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     for (std::size_t side = 0; side < 2; ++side) {
       double page = std::numeric_limits<double>::infinity(), back = -page, low = page, high = -page, left = page,
@@ -112,7 +112,7 @@ TEST(OpenBook, FaultsAreNamed) {
   EXPECT_THROW(interface_groups(structure, parse_interface("index 0:all ")), InputError);
   EXPECT_THROW(interface_groups(structure, parse_interface("index 0:index 7")), InputError);
   const std::vector<AtomGroup> groups = interface_groups(structure, parse_interface("index 0:index 1"));
-  EXPECT_THROW(open_book(structure, groups, std::vector<double>{0.0, 0.0}), RequestError);
+  EXPECT_THROW(open_pages(structure, groups, std::vector<double>{0.0, 0.0}), InputError);
 }
 
 }  // namespace
