@@ -50,7 +50,6 @@ void take_preview(DeclaredPreview& declared, const std::vector<std::string>& nam
   Scene& scene = state.scene;
   require_probe_of_kind(scene.molecule.surface);
   const bool is_scene = !options.file().empty();
-  if (!is_scene && !options.is_given("look.preset")) scene.look.preset = LookPreset::classic;
   if (!is_scene && !options.is_given("image.background")) scene.image.background = glm::vec3(1.0f);
   state.models = !is_scene && !options.is_given("molecule.model") && !scene.frames.asked();
   state.aims = is_scene || scene.picture.direction || scene.picture.zoom_to || !scene.picture.turns.empty();

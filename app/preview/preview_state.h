@@ -35,7 +35,7 @@ struct PreviewFigure {
   ColorScheme color;
   bool patch_kinds = false;  ///< coloured by kind of patch, whatever the scheme (figure 2 of Krone et al. 2010)
   FigureRequest figure;
-  LookRequest look{.preset = LookPreset::classic};
+  LookRequest look;
   glm::vec3 background{1.0f};  ///< sRGB
   bool legend = false;
   LegendStyle legend_style;

@@ -33,7 +33,7 @@ std::string program_log(GLuint program) {
 }
 
 /// Uniform blocks are whole rows of 16 bytes, and some drivers count the last one whole.
-std::size_t in_rows(std::size_t byte_count) { return (byte_count + 15) / 16 * 16; }
+std::size_t in_vectors(std::size_t byte_count) { return (byte_count + 15) / 16 * 16; }
 
 /// Names a kernel in one of its forms.
 std::string form_of(std::string_view path, const ShaderDefines& defines) {
@@ -97,7 +97,7 @@ void Program::find_blocks() {
     constexpr GLenum kAsked[] = {GL_BUFFER_BINDING, GL_BUFFER_DATA_SIZE};
     GLint found[2] = {};
     glGetProgramResourceiv(name_, GL_UNIFORM_BLOCK, n, 2, kAsked, 2, nullptr, found);
-    blocks_.push_back({static_cast<std::uint32_t>(found[0]), 0, std::vector<std::byte>(in_rows(found[1]))});
+    blocks_.push_back({static_cast<std::uint32_t>(found[0]), 0, std::vector<std::byte>(in_vectors(found[1]))});
   }
 }
 
@@ -106,9 +106,9 @@ void Program::set_block(int binding, const void* bytes, std::size_t byte_count) 
       std::find_if(blocks_.begin(), blocks_.end(), [&](const Block& b) { return int(b.binding) == binding; });
   if (block == blocks_.end()) throw GpuError(fmt::format("{} has no parameters at binding {}", path_, binding));
   std::vector<std::byte>& content = block->content;
-  if (in_rows(byte_count) != content.size())
+  if (in_vectors(byte_count) != content.size())
     throw GpuError(fmt::format("{}: {} bytes of parameters at binding {} are given, {} wanted", path_,
-                               in_rows(byte_count), binding, content.size()));
+                               in_vectors(byte_count), binding, content.size()));
   if (block->buffer && std::memcmp(content.data(), bytes, byte_count) == 0) return;
   std::memcpy(content.data(), bytes, byte_count);
   const auto size = static_cast<GLsizeiptr>(content.size());

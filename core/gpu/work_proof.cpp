@@ -15,7 +15,6 @@
 namespace meniscus {
 namespace {
 
-constexpr std::size_t kWord = sizeof(std::uint32_t);
 constexpr std::uint32_t kMostIndirect = 64;  // dispatches between two proofs; a frame of one sample makes two
 
 /// The GL buffer as the host reads it.

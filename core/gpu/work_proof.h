@@ -8,6 +8,9 @@
 
 namespace meniscus {
 
+/// Bytes of a word, in which kernels count.
+inline constexpr std::size_t kWord = sizeof(std::uint32_t);
+
 /// The account of one GL context. A driver may drop a dispatch, or a part of it, without an error; buffers then hold
 /// what they held before, and sums of zeros agree with each other. So each kernel counts its groups at its end
 /// (gpu_shaders/shared/finished_groups.glsl), Program adds up what it starts, and whatever leaves the GPU is looked at

@@ -124,7 +124,9 @@ void add_word(Bytes& bytes, std::uint32_t word) {
   for (const int shift : {24, 16, 8, 0}) bytes.push_back(static_cast<std::uint8_t>(word >> shift));
 }
 
-void add_text(Bytes& bytes, std::string_view text) { bytes.insert(bytes.end(), text.begin(), text.end()); }
+void add_text(Bytes& bytes, std::string_view text) {
+  for (const char letter : text) bytes.push_back(static_cast<std::uint8_t>(letter));
+}
 
 /// A type and four bytes that are zero.
 Bytes tag(std::string_view type) {

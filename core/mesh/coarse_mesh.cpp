@@ -27,10 +27,10 @@ constexpr double kAnyEdge = 10.0;
 constexpr double kFineAngle = 1.2;
 /// A fan's triangles see its middle from no farther than the cosine of this many radian (1.9) away.
 constexpr double kWidestFan = -0.32;
-/// Corners of a saddle that is a fan: longer ones bend too much.
+/// FaceCorners of a saddle that is a fan: longer ones bend too much.
 constexpr std::size_t kMostSaddleCorners = 6;
 
-using Corners = std::vector<BorderPoint>;
+using FaceCorners = std::vector<BorderPoint>;
 
 class CoarseMeshing {
  public:
@@ -68,8 +68,8 @@ class CoarseMeshing {
   };
 
   /// The corners of a face with one loop, the face on their left.
-  Corners corners_of(const Face& face) const {
-    Corners corners;
+  FaceCorners corners_of(const Face& face) const {
+    FaceCorners corners;
     for (const HalfBorder half : half_borders_of(surface_, loops_of(surface_, face)[0])) {
       const std::uint32_t border = border_of(half), n = samples_.segment_count(border);
       for (std::uint32_t k = 0; k < n; ++k) corners.push_back(samples_.point(border, is_backwards(half) ? n - k : k));
@@ -119,7 +119,7 @@ class CoarseMeshing {
   std::optional<Part> simple_part(std::uint32_t f) const {
     const Face& face = surface_.faces[f];
     if (face.loop_count != 1 || face.tip != kNone) return std::nullopt;
-    const Corners corners = corners_of(face);
+    const FaceCorners corners = corners_of(face);
     Part part;
     part.corners = static_cast<std::uint32_t>(corners.size());
     if (corners.size() < 3) return part;  // shrunk to a point or to one line
@@ -127,7 +127,7 @@ class CoarseMeshing {
       part.cut = Cut::triangle;
       return part;
     }
-    Corners sorted = corners;
+    FaceCorners sorted = corners;
     std::sort(sorted.begin(), sorted.end());
     if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return std::nullopt;
     std::vector<glm::dvec3> at;

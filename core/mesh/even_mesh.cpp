@@ -22,16 +22,14 @@
 
 namespace meniscus {
 
-using Tuning = RemeshTuning;
-
 namespace {
 
 /// Those that may do, the fastest first.
 std::vector<Beginning> beginnings(const Surface& surface, const EvenMeshOptions& options) {
   std::vector<Beginning> all;
   const double edge = edge_of_density(options.density);
-  if (surface.probe_radius > 0.0 && edge >= Tuning::long_contracted) all.push_back(Beginning::contracted);
-  if (surface.probe_radius > 0.0 && edge >= Tuning::long_edge) all.push_back(Beginning::coarse);
+  if (surface.probe_radius > 0.0 && edge >= RemeshTuning::long_contracted) all.push_back(Beginning::contracted);
+  if (surface.probe_radius > 0.0 && edge >= RemeshTuning::long_edge) all.push_back(Beginning::coarse);
   all.push_back(Beginning::patches);
   return all;
 }
@@ -143,23 +141,23 @@ class EvenMeshing {
         follow_creases_(follow_creases),
         contracted_(beginning == Beginning::contracted),
         walk_(surface),
-        base_(base_mesh(surface, walk_, beginning, Tuning::coarser_base * sizes_.tolerance())),
+        base_(base_mesh(surface, walk_, beginning, RemeshTuning::coarser_base * sizes_.tolerance())),
         nearness_(surface, walk_, sizes_) {}
 
   FineMesh run() {
     std::vector<Ball> watched;
     for (int attempt = 1;; ++attempt) {
-      if (attempt == Tuning::first_frozen && !sizes_.by_density())
-        base_ = base_mesh(surface_, walk_, Beginning::patches, Tuning::kept_base * options_.tolerance);
+      if (attempt == RemeshTuning::first_frozen && !sizes_.by_density())
+        base_ = base_mesh(surface_, walk_, Beginning::patches, RemeshTuning::kept_base * options_.tolerance);
       start(watched);
-      if (attempt >= Tuning::first_frozen && !contracted_) freeze_watched();
+      if (attempt >= RemeshTuning::first_frozen && !contracted_) freeze_watched();
       const std::vector<std::uint32_t> bad = even_out();
       if (bad.empty()) break;
-      if (attempt == (contracted_ ? Tuning::contracted_attempts : Tuning::attempts))
+      if (attempt == (contracted_ ? RemeshTuning::contracted_attempts : RemeshTuning::attempts))
         throw OpenSurfaceError(
             fmt::format("no even mesh was found: {} triangles stay in others' way or too far away; ask for a finer one",
                         bad.size()));
-      for (Ball& place : watched) place.radius *= Tuning::wider;
+      for (Ball& place : watched) place.radius *= RemeshTuning::wider;
       for (const std::uint32_t t : bad) watched.push_back(around(mesh_->placed(t)));
     }
     FineMesh even = rows_of(*mesh_, sizes_.by_density() ? 0.0 : options_.tolerance);
@@ -188,11 +186,12 @@ class EvenMeshing {
   std::vector<std::uint32_t> even_out() {
     Remesher remesher(*mesh_);
     if (sizes_.by_density()) remesher.approach();
-    for (int round = 0; round < Tuning::rounds; ++round) {
+    for (int round = 0; round < RemeshTuning::rounds; ++round) {
       remesher.even_out(1);
       mesh_->compact();
     }
-    const std::uint32_t most = Tuning::most_growth * mesh_->links().triangle_count() + Tuning::growth_allowed;
+    const std::uint32_t most =
+        RemeshTuning::most_growth * mesh_->links().triangle_count() + RemeshTuning::growth_allowed;
     for (int n = 1;; ++n) {
       if (!sizes_.by_density())
         if (std::vector<std::uint32_t> far = come_near(most); !far.empty()) return far;
@@ -201,7 +200,7 @@ class EvenMeshing {
       if (!bad.empty() || sizes_.by_density()) return bad;
       bad = triangles_of(nearness_.too_far(*mesh_));
       if (bad.empty() && nearness_.reaches_all(*mesh_)) return bad;
-      if (n == Tuning::mendings) return bad;
+      if (n == RemeshTuning::mendings) return bad;
     }
   }
 
@@ -217,10 +216,10 @@ class EvenMeshing {
   std::vector<std::uint32_t> come_near(std::uint32_t most) {
     std::vector<PointAtTriangle> far = nearness_.too_far(*mesh_);
     std::size_t fewest = far.size();
-    for (int round = 0, idle = 0; round < Tuning::refinements && idle < Tuning::idle_refinements && !far.empty();
-         ++round) {
+    for (int round = 0, idle = 0;
+         round < RemeshTuning::refinements && idle < RemeshTuning::idle_refinements && !far.empty(); ++round) {
       if (mesh_->links().triangle_count() > most) break;
-      if (far.size() > Tuning::few_far) {
+      if (far.size() > RemeshTuning::few_far) {
         refine(triangles_of(far));
         far = nearness_.too_far(*mesh_);
       } else {
@@ -235,8 +234,8 @@ class EvenMeshing {
   }
   void refine(const std::vector<std::uint32_t>& triangles) {
     Remesher remesher(*mesh_);
-    remesher.refine(triangles, Tuning::finer);
-    remesher.even_out(Tuning::refined_rounds);
+    remesher.refine(triangles, RemeshTuning::finer);
+    remesher.even_out(RemeshTuning::refined_rounds);
     mesh_->compact();
   }
 

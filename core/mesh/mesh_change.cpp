@@ -109,7 +109,6 @@ glm::dvec3 centroid_around(const MeshOnSurface& mesh, std::uint32_t vertex) {
 }
 
 std::optional<SurfacePoint> relaxed(const MeshOnSurface& mesh, std::uint32_t vertex) {
-  using Tuning = RemeshTuning;
   const MeshVertex& v = mesh.vertex(vertex);
   if (v.pinned || v.frozen) return std::nullopt;
   const glm::dvec3& x = mesh.positions()[vertex];
@@ -117,19 +116,19 @@ std::optional<SurfacePoint> relaxed(const MeshOnSurface& mesh, std::uint32_t ver
   if (v.crease != kNone) {
     const auto middle = crease_middle(mesh, vertex);
     if (!middle) return std::nullopt;
-    const auto on = mesh.walk().on_border(x + Tuning::relaxation * (*middle - x), v.crease);
+    const auto on = mesh.walk().on_border(x + RemeshTuning::relaxation * (*middle - x), v.crease);
     if (!on) return std::nullopt;
     target = {*on, v.face};
   } else {
-    glm::dvec3 move = Tuning::relaxation * (centroid_around(mesh, vertex) - x);
+    glm::dvec3 move = RemeshTuning::relaxation * (centroid_around(mesh, vertex) - x);
     move -= glm::dot(move, v.normal) * v.normal;
-    if (glm::length(move) < Tuning::shortest_step * v.size) return std::nullopt;
+    if (glm::length(move) < RemeshTuning::shortest_step * v.size) return std::nullopt;
     const auto at = mesh.walk().below(x + move, v.face);
     if (!at || glm::distance(at->position, x) > v.size) return std::nullopt;
     target = *at;
   }
   const double score = mesh.quality().score_around(vertex, target.position);
-  if (score < Tuning::poor_quality && score < mesh.quality().score_around(vertex)) return std::nullopt;
+  if (score < RemeshTuning::poor_quality && score < mesh.quality().score_around(vertex)) return std::nullopt;
   return target;
 }
 

@@ -116,10 +116,9 @@ void MeshOnSurface::settle(std::uint32_t vertex, const SurfacePoint& at, std::ui
 }
 
 float MeshOnSurface::least_cosine(std::uint32_t vertex) const {
-  using Tuning = RemeshTuning;
   const double turn = vertices_[vertex].size / std::max(walk_.radius(vertices_[vertex].face), 1e-9);
-  return static_cast<float>(std::clamp(1.0 - Tuning::cosine_fall * turn * turn, Tuning::least_cosine,
-                                       may_lean_ ? Tuning::least_cosine : Tuning::most_cosine));
+  return static_cast<float>(std::clamp(1.0 - RemeshTuning::cosine_fall * turn * turn, RemeshTuning::least_cosine,
+                                       may_lean_ ? RemeshTuning::least_cosine : RemeshTuning::most_cosine));
 }
 
 void MeshOnSurface::let_lean(bool as_they_have_to) {

@@ -21,7 +21,7 @@ namespace meniscus {
 namespace {
 
 /// Whole rows of a picture.
-struct Rows {
+struct RowRange {
   int first, end;
 
   bool meet(int low, int high) const { return low < end && high >= first; }
@@ -30,7 +30,7 @@ struct Rows {
 /// Shares of pixels that ink covers, of some rows of a picture. Places are those in the whole picture.
 class InkMask {
  public:
-  InkMask(int width, const Rows& rows)
+  InkMask(int width, const RowRange& rows)
       : rows_(rows), size_(width, rows.end - rows.first), shares_(static_cast<std::size_t>(size_.x) * size_.y, 0.0f) {}
 
   void text(const Font& font, const std::string& text, glm::ivec2 place) {
@@ -101,7 +101,7 @@ class InkMask {
     return result;
   }
 
-  Rows rows_;
+  RowRange rows_;
   glm::ivec2 size_;
   std::vector<float> shares_;
 };
@@ -131,7 +131,7 @@ class AnnotationLayer::Writer {
         small_(std::max(8, side_ / 36)) {}
 
   /// What lies in these rows.
-  InkMask mask(const Rows& rows) const {
+  InkMask mask(const RowRange& rows) const {
     InkMask mask(size_.x, rows);
     for (const Stroke& stroke : strokes_) stroke(mask);
     return mask;
@@ -297,7 +297,7 @@ AnnotationLayer::~AnnotationLayer() = default;
 void AnnotationLayer::lay_over(Framebuffer& rows, int first_row) const {
   if (!writer_) return;
   const int rim = writer_->rim_width();
-  const Rows around{std::max(first_row - rim, 0), std::min(first_row + rows.size.y + rim, writer_->height())};
+  const RowRange around{std::max(first_row - rim, 0), std::min(first_row + rows.size.y + rim, writer_->height())};
   writer_->mask(around).lay_over(rows, first_row, ink_, rim_, rim);
 }
 

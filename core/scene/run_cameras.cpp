@@ -126,11 +126,12 @@ std::vector<Camera> run_cameras(const ViewRequest& view, const CameraMotionReque
   if (frames_all || course.follows() || extent) {
     const bool aims_anew = frames.run().chooses_anew() || (show && show->uses_positions()) ||
                            (view.zoom_to && view.zoom_to->uses_positions());
-    frames.survey([&](std::uint64_t place, const Structure& read, const Structure& shown) {
-      if (extent) include(standing_balls(shown), *extent);
-      shifts[place] = course.shift(read, shown);
+    frames.survey([&](std::uint64_t place, const Structure& read, const Structure& shown_there) {
+      if (extent) include(standing_balls(shown_there), *extent);
+      shifts[place] = course.shift(read, shown_there);
       if (!frames_all) return;
-      const std::vector<Ball> filling = aims_anew ? framed_there(view, show, read, shown) : aim.framed(shown);
+      const std::vector<Ball> filling =
+          aims_anew ? framed_there(view, show, read, shown_there) : aim.framed(shown_there);
       if (filling.empty()) return;
       decisive.add(motion.moves() ? before_camera(filling, shifts[place], course.pivot(), basis.up, course.angle(place))
                                   : filling);

@@ -20,9 +20,8 @@
 namespace meniscus {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kSlack = 1e-9;  // relative, of areas and volumes that may be 0 or whole
-constexpr double kUnbounded = std::numeric_limits<double>::max();
+constexpr double kLargest = std::numeric_limits<double>::max();
 constexpr double kBeside = 1e-5;  // Å for a probe of no size: what merging probes may turn a plane by
 constexpr double kClose = 1e-3;   // Å, half the distance of probes whose bisector rounding may turn
 
@@ -77,8 +76,9 @@ class Examination {
     for (std::size_t c = 0; c < bad.size(); ++c) {
       const Component& component = s_.components[c];
       const double slack = kSlack * (1 + component.area);
-      const double most = component.kind == ComponentKind::cavity ? -4 * kPi / 3 * p * p * p + slack : kUnbounded;
-      const double least = component.kind == ComponentKind::cavity ? -kUnbounded : -slack;
+      const double most =
+          component.kind == ComponentKind::cavity ? -4 * std::numbers::pi / 3 * p * p * p + slack : kLargest;
+      const double least = component.kind == ComponentKind::cavity ? -kLargest : -slack;
       const bool sided = component.volume >= least && component.volume <= most;
       bad[c] = component.euler % 2 != 0 || component.euler > 2 || !sided;
     }
@@ -89,10 +89,11 @@ class Examination {
 
   double largest_area(const Face& face) const {
     const double p = s_.probe_radius;
-    if (face.kind == PatchKind::concave) return 2 * kPi * p * p;
-    if (face.kind == PatchKind::toroidal) return 4 * kPi * kPi * p * (s_.toroidal[face.patch].radius + p);
+    if (face.kind == PatchKind::concave) return 2 * std::numbers::pi * p * p;
+    if (face.kind == PatchKind::toroidal)
+      return 4 * std::numbers::pi * std::numbers::pi * p * (s_.toroidal[face.patch].radius + p);
     const double r = s_.atoms[s_.convex[face.patch].atom].radius;
-    return 4 * kPi * r * r;
+    return 4 * std::numbers::pi * r * r;
   }
 
   void check_faces() {
@@ -108,7 +109,7 @@ class Examination {
     const Ball& atom = s_.atoms[patch.atom];
     double sum = 0;
     for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f) sum += s_.faces[f].area;
-    const double whole = 4 * kPi * atom.radius * atom.radius, share = whole > 0 ? sum / whole : 0;
+    const double whole = 4 * std::numbers::pi * atom.radius * atom.radius, share = whole > 0 ? sum / whole : 0;
     const bool little = share<1e-3, much = share> 1 - 1e-3;
     if (!(sum <= whole * (1 + kSlack)) || (little && leaves_most(convex)) || (much && !leaves_most(convex)))
       open().push_back(patch.atom);
@@ -170,7 +171,7 @@ class Examination {
       doubtful = doubtful || s_.planes[c].offset - glm::dot(s_.planes[c].normal, patch.center) < kClose;
     if (!doubtful && (patch.cut_count == 0 || patch.face_count == 0 || has_cusp(patch))) return;
     const double p = s_.probe_radius, divided = divided_area(s_, patch);
-    if (std::abs(divided - sum) <= 1e-8 * (4 * kPi * p * p)) return;
+    if (std::abs(divided - sum) <= 1e-8 * (4 * std::numbers::pi * p * p)) return;
     add_atoms_of(patch);
   }
 

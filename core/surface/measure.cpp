@@ -20,7 +20,6 @@
 namespace meniscus {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kRounding = 1e-9;  // of a solid angle
 constexpr double kMisfit = 1e-9;    // of a loop, beyond which its turning is not trusted
 constexpr double kShort = 1e-6;  // of an arc, radian on the sphere: the way that corners turn hangs on next to nothing
@@ -87,11 +86,11 @@ class Measurement {
 
   FaceIntegrals measure_spherical(const Face& face, const glm::dvec3& center, double radius, bool seen_from_inside,
                                   std::vector<SphereArc>& loop) const {
-    double area = 4 * kPi, misfit = 0, shortest = 1;
+    double area = 4 * std::numbers::pi, misfit = 0, shortest = 1;
     glm::dvec3 moment(0.0);
     for (std::uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
       walk_loop(s_, s_.loops[l], center, radius, seen_from_inside, loop);
-      area += area_left_of(loop) - 4 * kPi;
+      area += area_left_of(loop) - 4 * std::numbers::pi;
       moment += moment_left_of(loop);
       const double misfit_here = misfit_of(loop);
       if (misfit_here > kMisfit) moment += moment_of_steps(loop);
@@ -111,7 +110,8 @@ class Measurement {
     // What rounding and blurred corners may have taken from nothing or added to everything.
     const double blur = kRounding + 8 * misfit;
     if (area < blur && area > -blur) area = std::max(area, 0.0);
-    if (area > 4 * kPi - blur && area < 4 * kPi + blur) area = std::min(area, 4 * kPi);
+    if (area > 4 * std::numbers::pi - blur && area < 4 * std::numbers::pi + blur)
+      area = std::min(area, 4 * std::numbers::pi);
     integrals.area = area * radius * radius;
     // On the outside of a sphere x·n = (center + radius u)·u; seen from inside the normal is -u.
     const double outward = radius * radius * glm::dot(center - origin_, moment) + radius * integrals.area;
@@ -125,7 +125,7 @@ class Measurement {
                          std::vector<SphereArc>& loop) const {
     const Antipode antipode = face.kind == PatchKind::concave ? beside_concave(s_.concave[face.patch])
                                                               : farthest_known(face, center, radius, loop);
-    double area = antipode.inside ? 4 * kPi : 0;
+    double area = antipode.inside ? 4 * std::numbers::pi : 0;
     for (std::uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
       walk_loop(s_, s_.loops[l], center, radius, seen_from_inside, loop);
       area += area_swept_from(-antipode.direction, loop);

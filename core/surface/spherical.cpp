@@ -15,8 +15,6 @@
 namespace meniscus {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 glm::dvec3 rotated(const SphereArc& arc, double angle) {
   const glm::dvec3 along = arc.axis * arc.height;
   const glm::dvec3 e = arc.from - along;
@@ -51,11 +49,11 @@ bool on_sweep(const SphereArc& arc, const glm::dvec3& point) {
     const double before_end = turn * glm::dot(arc.axis, glm::cross(f, g)), clear = kClear * squared;
     if (std::abs(past_begin) > clear && std::abs(before_end) > clear) {
       const bool past = past_begin > 0, before = before_end > 0;
-      return std::abs(arc.sweep) < kPi ? past && before : past || before;
+      return std::abs(arc.sweep) < std::numbers::pi ? past && before : past || before;
     }
   }
   double angle = std::atan2(past_begin, glm::dot(e, f));
-  if (angle < 0) angle += 2 * kPi;
+  if (angle < 0) angle += 2 * std::numbers::pi;
   return angle < std::abs(arc.sweep);
 }
 
@@ -118,7 +116,7 @@ void walk_loop(const Surface& surface, const Loop& loop, const glm::dvec3& cente
 double area_left_of(std::span<const SphereArc> loop) {
   // The curvature of a circle at height h, walked counter-clockwise, integrates to h times the angle.
   if (loop.size() == 1 && loop[0].whole)
-    return 2 * kPi * (1 - std::clamp(loop[0].height, -1.0, 1.0) * (loop[0].clockwise() ? -1 : 1));
+    return 2 * std::numbers::pi * (1 - std::clamp(loop[0].height, -1.0, 1.0) * (loop[0].clockwise() ? -1 : 1));
   double turning = 0;
   for (std::size_t n = 0; n < loop.size(); ++n) {
     const SphereArc& arc = loop[n];
@@ -126,10 +124,11 @@ double area_left_of(std::span<const SphereArc> loop) {
     const SphereArc& next = loop[n + 1 == loop.size() ? 0 : n + 1];
     const glm::dvec3 in = tangent(arc, arc.to), out = tangent(next, next.from);
     double exterior = std::atan2(glm::dot(arc.to, glm::cross(in, out)), glm::dot(in, out));
-    if (exterior < -0.5 * kPi) exterior += 2 * kPi;  // patches are convex at their corners: no interior angle over pi
+    if (exterior < -0.5 * std::numbers::pi)
+      exterior += 2 * std::numbers::pi;  // patches are convex at their corners: no interior angle over pi
     turning += exterior;
   }
-  return 2 * kPi - turning;
+  return 2 * std::numbers::pi - turning;
 }
 
 double misfit_of(std::span<const SphereArc> loop) {
@@ -167,7 +166,7 @@ double area_swept_from(const glm::dvec3& pole, const SphereCircle& circle, doubl
     const double half = 0.5 * (t - t0);
     // The same quadrant as `half`, and as many turns.
     const double beyond = std::atan2(slope * std::sin(half), (a + b) * std::cos(half)) - half;
-    return half + (std::abs(beyond) < 3 ? beyond : std::remainder(beyond, 2 * kPi));
+    return half + (std::abs(beyond) < 3 ? beyond : std::remainder(beyond, 2 * std::numbers::pi));
   };
   return -circle.height * (to - from) + std::copysign(2.0, circle.height + alpha) * (angle(to) - angle(from));
 }

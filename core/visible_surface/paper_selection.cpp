@@ -11,11 +11,7 @@
 #include "core/reduced_surface/reduced_surface.h"
 
 namespace meniscus {
-namespace {
-
-constexpr std::size_t kWord = sizeof(std::uint32_t);
-
-}  // namespace
+namespace {}  // namespace
 
 void PaperSelection::select(const PictureFrame& frame, const VisibleAtoms& view, const Buffer& atom_balls,
                             std::uint32_t atom_count, double probe_radius, RollingBuffers& rolling) {

@@ -19,7 +19,6 @@
 namespace meniscus {
 namespace {
 
-constexpr std::size_t kWord = sizeof(std::uint32_t);
 constexpr std::size_t kProbeWord = 3 * kWord;  // of GpuScene::counters, as append_primitive.glsl has it
 
 }  // namespace

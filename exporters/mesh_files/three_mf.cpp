@@ -22,7 +22,7 @@
 namespace meniscus {
 namespace {
 
-constexpr std::uint16_t kVersion = 20;          // 2.0: folders and deflate
+constexpr std::uint16_t kZipVersion = 20;       // 2.0: folders and deflate
 constexpr std::uint16_t kDeflated = 8;          // method
 constexpr std::uint16_t kTime = 0, kDate = 33;  // 1980-01-01 00:00
 constexpr int kLevel = 6;
@@ -68,7 +68,7 @@ void ZipArchive::add(const std::string& name, std::string_view content) {
                     static_cast<std::uint32_t>(bytes_.size())};
   BinaryRows header;
   header.put(std::uint32_t{0x04034b50});
-  for (const std::uint16_t word : {kVersion, std::uint16_t{0}, kDeflated, kTime, kDate}) header.put(word);
+  for (const std::uint16_t word : {kZipVersion, std::uint16_t{0}, kDeflated, kTime, kDate}) header.put(word);
   for (const std::uint32_t word : {entry.checksum, entry.packed, entry.size}) header.put(word);
   header.put(static_cast<std::uint16_t>(name.size()));
   header.put(std::uint16_t{0});
@@ -82,7 +82,7 @@ std::vector<std::byte> ZipArchive::finish() {
   BinaryRows directory;
   for (const Entry& entry : entries_) {
     directory.put(std::uint32_t{0x02014b50});
-    for (const std::uint16_t word : {kVersion, kVersion, std::uint16_t{0}, kDeflated, kTime, kDate})
+    for (const std::uint16_t word : {kZipVersion, kZipVersion, std::uint16_t{0}, kDeflated, kTime, kDate})
       directory.put(word);
     for (const std::uint32_t word : {entry.checksum, entry.packed, entry.size}) directory.put(word);
     directory.put(static_cast<std::uint16_t>(entry.name.size()));

@@ -141,7 +141,7 @@ class Page(PageCase):
         camera = await self.downloaded(page, "1tii_camera.json")
         rendered = self.path("rendered.png")
         size = f"{state['width']}x{state['height']}"
-        subprocess.run([PROGRAM, "render", MOLECULE, "--camera", camera, "--size", size, "--probe", "2.5", "--color", "kind", "--preset", "classic", "--samples", "4", "--background", state["look"]["background"],
+        subprocess.run([PROGRAM, "render", MOLECULE, "--camera", camera, "--size", size, "--probe", "2.5", "--color", "kind", "--samples", "4", "--background", state["look"]["background"],
                         "--ambient-occlusion", "0.8", "--silhouettes", "2", "--depth-cue", "0.25", "--light",
                         ",".join(str(x) for x in state["look"]["light_direction"]), "-o", rendered],
                        check=True, capture_output=True)

@@ -14,11 +14,7 @@
 #include "core/math/ball_grid.h"
 
 namespace meniscus {
-namespace {
-
-constexpr std::size_t kWord = sizeof(std::uint32_t);
-
-}  // namespace
+namespace {}  // namespace
 
 BallExtent extent_of(std::span<const Ball> balls) {
   if (balls.empty()) return {};
