@@ -10,13 +10,12 @@ namespace meniscus {
 namespace {
 
 TEST(CApiDefaults, OfPicturesAreThoseOfAScene) {
-  meniscus_picture picture{};
-  picture.size = sizeof picture;
-  ASSERT_EQ(meniscus_default_picture(&picture), MENISCUS_OK);
-  const Scene scene;
-  EXPECT_EQ(glm::ivec2(picture.width, picture.height), scene.picture.size());
-  EXPECT_EQ(picture.samples, scene.image.samples);
-  EXPECT_EQ(picture.opaque != 0, scene.image.background.has_value());
+  meniscus_scene* made = nullptr;
+  ASSERT_EQ(meniscus_scene_new(&made), MENISCUS_OK);
+  std::int32_t width = 0, height = 0;
+  EXPECT_EQ(meniscus_scene_size(made, &width, &height), MENISCUS_OK);
+  meniscus_scene_release(made);
+  EXPECT_EQ(glm::ivec2(width, height), Scene{}.picture.size());
 }
 
 TEST(CApiDefaults, OfSurfacesAndMeshesAreThoseOfAScene) {

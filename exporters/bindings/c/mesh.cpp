@@ -150,7 +150,7 @@ void save(const meniscus_mesh& mesh, const char* path, const meniscus_mesh_file&
   const MeshFormat& format = format_of(file, path);
   const std::vector<std::string> numbers = parse_vertex_numbers(file.attributes, AtomSource::bare);
   const std::vector<Atom> atoms = bare_atoms(finished);
-  const Coloring coloring = coloring_of(file.color, file.atom_colors, atoms.size());
+  const Coloring coloring = coloring_of({file.color[0], file.color[1], file.color[2]}, file.atom_colors, atoms.size());
   std::vector<std::uint32_t> places(atoms.size());
   for (std::uint32_t a = 0; a < places.size(); ++a) places[a] = a;
   MeshFileMaker maker(
