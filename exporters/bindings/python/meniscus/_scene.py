@@ -70,7 +70,7 @@ def _text_of(name: str, value: Any) -> bytes:
 
 
 class Scene:
-    """A scene of the program, with its defaults: Scene("1ubq.cif", color="chain", silhouettes="0.5pt").render(). Values
+    """A scene of the program, with its defaults: Scene("1ubq.cif", color="chain", legend=True).render(). Values
     are read and set by their names or keys, scene["look.depth_cue"], or as attributes, scene.depth_cue. None is the
     default; a list where there may be several. UsageError begins with the name of what cannot be."""
 

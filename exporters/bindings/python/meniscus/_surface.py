@@ -253,7 +253,7 @@ class Surface:
 
     def render(self, *, colors: Optional[Any] = None, camera: Optional[Camera] = None, device: Device = "auto",
                **values: Unpack[SurfaceValues]) -> Picture:
-        """A picture with the program's look: size="800x600", silhouettes="0.5pt", background="white" and what else
+        """A picture with the program's look: size="800x600", background="white" and what else
         SurfaceValues has are the values of a Scene. colors: one (3,), or one per atom (n, 3), in [0, 1]. device: "auto", a
         hardware GPU if there is one, else "cpu"; GpuError where "gpu" or "software" is asked for and there is no GL."""
         handle = self._handle

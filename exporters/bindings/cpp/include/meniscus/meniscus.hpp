@@ -560,7 +560,7 @@ struct Picture {
 };
 
 // Everything that can be chosen of a picture, as one value. Names, keys and texts are those of meniscus_scene_set():
-// Scene().set("file", "1ubq.cif").set("silhouettes", "0.5pt").render().
+// Scene().set("file", "1ubq.cif").set("color", "chain").render().
 class Scene {
  public:
   // With the defaults of the program.
