@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Adds an option to a copy of the tree, in three files, and uses it through every door: the command line and its help,
-# shell completion, scene files and their schema, the preview, and bundles. Ends with `cases N failures M`.
+# shell completion, scene files and their schema, the preview, bundles, and the library. Ends with `cases N failures M`.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 work=$(mktemp -d)
@@ -17,7 +17,7 @@ binding='plain("look.sparkle", [](auto\& s) -> auto\& { return s.look.sparkle; }
 sed -i "0,/{\"look.light\", read_light/s//$binding\n&/" core/scene/picture_values.cpp
 
 cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DMENISCUS_UNITY=ON >/dev/null
-cmake --build build --target meniscus >/dev/null
+cmake --build build --target meniscus meniscus_c >/dev/null
 program=$work/build/meniscus
 cases=0 failures=0
 # expect WHAT COMMAND...: the command succeeds.
@@ -57,5 +57,7 @@ expect "its command" says 'sparkle' cat bundle/bundle.json
 expect "a worker" "$program" work bundle
 printf '{"command":"render_command"}\n{"command":"quit"}\n' >commands.jsonl
 expect "the preview" says '"--sparkle"' "$program" preview two.xyzr --sparkle 4 --device cpu --serve --commands commands.jsonl
+expect "the library" says 'sparkle: .9. is not a number from 0 to 5' env MENISCUS_LIBRARY=build/exporters/bindings/c/libmeniscus.so \
+  PYTHONPATH=exporters/bindings/python /usr/bin/python3 -c 'import meniscus; print(meniscus.Scene(sparkle=3).sparkle); meniscus.Scene(sparkle=9)'
 echo "cases $cases failures $failures"
 ((failures == 0))

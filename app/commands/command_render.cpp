@@ -23,6 +23,7 @@
 #include "core/base/text.h"
 #include "core/render/image_output.h"
 #include "core/scene/picture_device.h"
+#include "core/scene/scene_picture.h"
 
 namespace meniscus {
 namespace {
@@ -74,8 +75,7 @@ void check_scene(const RenderCommand& command) {
     throw UsageError(
         "--extent draws the surface alone, whole and opaque; leave --extent away, or --opacity, --clip and the like");
   if (!scene.image.extent && command.stats) throw UsageError("--stats tells the stages of a view; add --extent");
-  if (scene.legend.asked() && scene.molecule.color.by == ColorScheme::By::fixed && scene.molecule.color.rules.empty())
-    throw UsageError("--legend has nothing to explain where all is of one colour; choose another --color");
+  check_legend(scene);
 }
 
 /// Whether the outputs can be written is known before the work begins; these vanish again.
@@ -137,15 +137,6 @@ void run(const RenderCommand& command) {
 
 }  // namespace
 
-PictureLayout::PictureLayout(const Scene& scene, const ColorKey& key) : size(scene.picture) {
-  const LegendRequest& asked = scene.legend;
-  if (!asked.file.empty()) legend_alone = Legend(key, size.size(), asked.style).alone(scene.image.background);
-  if (!asked.within) return;
-  legend.emplace(key, size.size(), asked.style);
-  size.width = legend->molecule_size().x;
-  size.height = legend->molecule_size().y;
-}
-
 ImageSettings image_settings(const RenderCommand& command) {
   const Scene& scene = command.scene;
   ImageSettings settings{scene.image.background, command.existing(), scene.look.has_linear_alpha()};
@@ -156,23 +147,11 @@ ImageSettings image_settings(const RenderCommand& command) {
   return settings;
 }
 
-SurfaceRequest picture_request(const Scene& scene) {
-  SurfaceRequest request = scene.molecule.surface;
-  // Volume maps are looked up point by point on the CPU.
-  request.cpu = request.cpu || scene.molecule.color.by == ColorScheme::By::volume;
-  return request;
-}
-
-RenderSettings render_settings(const RenderCommand& command, const PictureLayout& layout) {
-  const Scene& scene = command.scene;
-  RenderSettings settings;
-  settings.size = layout.size.size();
-  settings.samples = scene.image.samples;
-  settings.aovs = scene.image.aovs;
-  settings.look = look_of(scene.look, scene.picture.size(), scene.image.background,
-                          hues_of(scene.molecule.color, scene.legend.asked()));
+RenderSettings picture_settings(const RenderCommand& command, const PictureLayout& layout) {
+  RenderSettings settings = render_settings(command.scene, layout);
   // For a picture whose times are said.
-  if (!scene.frames.asked() && (command.stats || !command.reporting.quiet)) settings.timing = StageTiming::exact;
+  if (!command.scene.frames.asked() && (command.stats || !command.reporting.quiet))
+    settings.timing = StageTiming::exact;
   return settings;
 }
 

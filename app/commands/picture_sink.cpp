@@ -89,7 +89,7 @@ FinishFrame PictureSink::keep(const SinkPicture& picture, const Annotations& ann
 }
 
 FinishFrame PictureSink::to_file(const SinkPicture& picture, const Annotations& annotations, const Draw& draw) {
-  RenderSettings settings = render_settings(command_, layout_);
+  RenderSettings settings = picture_settings(command_, layout_);
   std::optional<PictureProgress> progress;
   if (!run_) progress.emplace(command_, settings);
   const std::string path = numbered_ ? numbered_->at(picture.number) : command_.scene.output;
@@ -106,12 +106,12 @@ FinishFrame PictureSink::to_file(const SinkPicture& picture, const Annotations& 
 }
 
 FinishFrame PictureSink::to_film(const SinkPicture& picture, const Annotations& annotations, const Draw& draw) {
-  Framebuffer drawn = draw(render_settings(command_, layout_));
+  Framebuffer drawn = draw(picture_settings(command_, layout_));
   const bool shows_nothing = std::ranges::none_of(drawn.color, [](const glm::vec4& pixel) { return pixel.w > 0.0f; });
-  annotate(drawn, annotations, picture.camera, command_.scene.image.background);
-  if (layout_.legend) {
-    const std::lock_guard lock(legend_);
-    drawn = layout_.legend->add_to(drawn, command_.scene.image.background);
+  {
+    std::unique_lock lock(legend_, std::defer_lock);
+    if (layout_.legend) lock.lock();
+    drawn = finished_picture(std::move(drawn), annotations, layout_, picture.camera, command_.scene.image.background);
   }
   auto pixels =
       std::make_shared<const std::vector<std::uint8_t>>(srgb_pixels(drawn, ground_of_film(), film_->pixels().bytes));

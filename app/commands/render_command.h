@@ -2,14 +2,9 @@
 // What the options of `meniscus render` say beside its scene, and what its pictures have in common.
 #pragma once
 
-#include <optional>
-#include <string>
-
 #include "app/options/scene_options.h"
-#include "core/color/color_key.h"
-#include "core/render/picture.h"
 #include "core/render/image_output.h"
-#include "core/render/legend.h"
+#include "core/scene/scene_picture.h"
 
 namespace meniscus {
 
@@ -19,18 +14,8 @@ struct RenderCommand : SceneCommand {
   bool stats = false;
 };
 
-/// The picture's size, from which the molecule has what the legend leaves.
-struct PictureLayout {
-  ViewRequest size;
-  std::optional<Legend> legend;
-  std::optional<Framebuffer> legend_alone;  ///< of --legend-file
-
-  PictureLayout(const Scene& scene, const ColorKey& key);
-};
-
-/// On what pictures are made.
-SurfaceRequest picture_request(const Scene& scene);
-RenderSettings render_settings(const RenderCommand& command, const PictureLayout& layout);
+/// As render_settings(), with times of stages where they are said.
+RenderSettings picture_settings(const RenderCommand& command, const PictureLayout& layout);
 
 /// How the pictures are written.
 ImageSettings image_settings(const RenderCommand& command);

@@ -24,6 +24,7 @@
 #include "core/base/text.h"
 #include "core/color/color_maps.h"
 #include "core/mesh/check_by_mesh.h"
+#include "core/scene/scene_paths.h"
 #include "core/scene/scene_values.h"
 #include "core/structure/formats/structure_formats.h"
 #include "exporters/mesh_files/mesh_formats.h"
@@ -207,9 +208,12 @@ std::vector<SceneSetting> SceneOptions::read_scene_file(const std::vector<std::s
   for (const CLI::Option* option : command_.get_options())
     words.insert(words.end(), option->results().begin(), option->results().end());
   const SceneTrust trust{
-      file_, std::move(words), named,
+      file_,
+      std::move(words),
+      named,
       command_.count("--trust-scene") > 0 || std::ranges::find(named, "--trust-scene") != named.end(),
-      command_.get_option_no_throw("--force") && command_.count("--force") > 0};
+      command_.get_option_no_throw("--force") && command_.count("--force") > 0,
+      "name that file on the command line, or add --trust-scene if the scene is yours"};
   std::vector<SceneSetting> settings = parse_scene(read_scene_text(file_), file_);
   std::erase_if(settings, [&](const SceneSetting& setting) {
     const Property& property = *setting.property;

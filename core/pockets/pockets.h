@@ -29,12 +29,6 @@ struct PocketRequest {
   double min_volume = 30.0;         ///< smaller ones are left out; a molecule of liquid water has 30 Å³
 };
 
-/// What may be asked for. Beyond the largest probe every atom neighbours every other; large probes in mouths become
-/// more with the inverse of the tolerance.
-inline constexpr double kSmallestLargeProbe = 1e-3, kLargestLargeProbe = 100.0, kLargestTrim = 100.0;  // Å
-inline constexpr double kSmallestMouthTolerance = 1e-3, kLargestMouthTolerance = 1.0;                  // Å
-inline constexpr double kLargestMinVolume = 1e9;                                                       // Å³
-
 /// What is wrong with it, beginning with the option that it is about; empty if nothing is.
 std::string pocket_fault(const PocketRequest& request);
 

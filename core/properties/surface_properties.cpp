@@ -179,6 +179,8 @@ constexpr auto kTable = of_commands(
              "'{\"representation\": \"surface\", \"selection\": \"chain B\", \"color\": \"red\"}'. Repeatable")
             .in(kBeside, in_bundle | live | repeatable),
 
+        // Beyond the largest probe every atom neighbours every other; large probes in mouths become more with the
+        // inverse of their tolerance.
         number("pockets.large_probe", "--large-probe", "Å",
                "Radius of the probe that rolls over the mouths, in Å; a larger one finds wider, shallower pockets")
             .from(1e-3, 100)

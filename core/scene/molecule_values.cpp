@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Binds the values of the molecule, of runs of frames and of films.
+// Binds the values of the molecule, of runs of frames and of films, and completes those of a molecule that depend on
+// each other.
 #include <array>
 #include <charconv>
 #include <optional>
@@ -9,6 +10,7 @@
 
 #include "core/base/text.h"
 #include "core/scene/scene_value.h"
+#include "core/scene/scene_values.h"
 
 namespace meniscus::scene_values {
 namespace {
@@ -96,6 +98,45 @@ constexpr auto one_of_numbers(const Property& property, const std::string& text)
   throw RequestError(fmt::format("{} is not one of {}", in_quotes(text), fmt::join({possible...}, ", ")));
 }
 
+// Values that depend on each other.
+
+void complete_colors(MoleculeRequest& molecule) {
+  using By = ColorScheme::By;
+  ColorScheme& color = molecule.color;
+  const bool has_numbers = !molecule.number_file.empty(), has_volume = !molecule.volume_file.empty();
+  if (has_numbers && !molecule.color_named && !color.uses_file()) color.by = By::file;
+  if (has_volume) {
+    if (molecule.color_named)
+      throw ValueError("surface.color_map_file", "is itself a --color; leave the other one out, but EXPR=COLOR");
+    if (!color.range) throw ValueError("surface.color_map_file", "needs --color-range LO:HI, such as -5:5 for kT/e");
+    color.by = By::volume;
+  }
+  if (color.uses_file() && !has_numbers) throw ValueError("surface.color", "file needs --color-by-file FILE");
+  if (has_numbers && !color.uses_file())
+    throw ValueError("surface.color_by_file", "is itself a --color; leave the other one out");
+  if (color.by == By::kind && !color.rules.empty())
+    throw ValueError("surface.color", "kind colours patches, EXPR=COLOR atoms; choose another scheme beside it");
+  if (color.uses_scale()) return;
+  const char* const key = !molecule.map_file.empty() ? "surface.map_file"
+                          : color.map                ? "surface.map"
+                          : color.range              ? "surface.color_range"
+                          : color.missing            ? "surface.missing_color"
+                                                     : nullptr;
+  if (key)
+    throw ValueError(
+        key,
+        "is for colours by a number: bfactor, occupancy, charge, hydrophobicity, index, radial, file, a volume map");
+}
+
+void complete_interface(Scene& scene) {
+  MoleculeRequest& molecule = scene.molecule;
+  if (!molecule.interface) return;
+  if (!molecule.color_named && molecule.color.rules.empty() && molecule.number_file.empty())
+    molecule.color.by = ColorScheme::By::buried;
+  if (!scene.picture.direction && scene.picture.camera_file.empty())
+    scene.picture.direction = parse_view_direction("z");
+}
+
 constexpr auto kMoleculeRows = std::to_array<SceneValue>({
     plain(
         "molecule.file", [](auto& s) -> auto& { return s.molecule.file; }),
@@ -171,4 +212,26 @@ constexpr auto kMoleculeRows = std::to_array<SceneValue>({
 
 std::span<const SceneValue> molecule_values() { return kMoleculeRows; }
 
+void complete_molecule(Scene& scene) {
+  complete_interface(scene);
+  complete_colors(scene.molecule);
+}
+
 }  // namespace meniscus::scene_values
+
+namespace meniscus {
+
+Scene readied(Scene scene) {
+  MoleculeRequest& molecule = scene.molecule;
+  scene.figure.ask_for(molecule.reading);
+  if (!molecule.interface) return scene;
+  if (!molecule.reading.shown.empty())
+    throw ValueError("surface.interface", "moves the atoms of both sides; nothing can stand beside them");
+  std::string atoms = "(" + molecule.interface->left.text() + ") or (" + molecule.interface->right.text() + ")";
+  if (molecule.reading.selection) atoms = "(" + molecule.reading.selection->text() + ") and (" + atoms + ")";
+  molecule.reading.selection = parse_selection(atoms);
+  molecule.reading.sides = {molecule.interface->left, molecule.interface->right};
+  return scene;
+}
+
+}  // namespace meniscus

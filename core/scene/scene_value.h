@@ -35,6 +35,9 @@ std::span<const SceneValue> molecule_values();
 std::span<const SceneValue> surface_values();
 std::span<const SceneValue> picture_values();
 
+/// The part of complete() that is about the molecule, its colours and its interface. Throws ValueError.
+void complete_molecule(Scene& scene);
+
 /// With all its defaults.
 const Scene& usual_scene();
 

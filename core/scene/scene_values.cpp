@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <map>
 
 #include <fmt/format.h>
@@ -79,52 +80,40 @@ void complete_lengths(Scene& scene) {
   scene.picture.height = size.y;
 }
 
-void complete_colors(MoleculeRequest& molecule) {
-  using By = ColorScheme::By;
-  ColorScheme& color = molecule.color;
-  const bool has_numbers = !molecule.number_file.empty(), has_volume = !molecule.volume_file.empty();
-  if (has_numbers && !molecule.color_named && !color.uses_file()) color.by = By::file;
-  if (has_volume) {
-    if (molecule.color_named)
-      throw ValueError("surface.color_map_file", "is itself a --color; leave the other one out, but EXPR=COLOR");
-    if (!color.range) throw ValueError("surface.color_map_file", "needs --color-range LO:HI, such as -5:5 for kT/e");
-    color.by = By::volume;
-  }
-  if (color.uses_file() && !has_numbers) throw ValueError("surface.color", "file needs --color-by-file FILE");
-  if (has_numbers && !color.uses_file())
-    throw ValueError("surface.color_by_file", "is itself a --color; leave the other one out");
-  if (color.by == By::kind && !color.rules.empty())
-    throw ValueError("surface.color", "kind colours patches, EXPR=COLOR atoms; choose another scheme beside it");
-  if (color.uses_scale()) return;
-  const char* const key = !molecule.map_file.empty() ? "surface.map_file"
-                          : color.map                ? "surface.map"
-                          : color.range              ? "surface.color_range"
-                          : color.missing            ? "surface.missing_color"
-                                                     : nullptr;
-  if (key)
-    throw ValueError(
-        key,
-        "is for colours by a number: bfactor, occupancy, charge, hydrophobicity, index, radial, file, a volume map");
-}
-
-void complete_interface(Scene& scene) {
-  MoleculeRequest& molecule = scene.molecule;
-  if (!molecule.interface) return;
-  if (!molecule.color_named && molecule.color.rules.empty() && molecule.number_file.empty())
-    molecule.color.by = ColorScheme::By::buried;
-  if (!scene.picture.direction && scene.picture.camera_file.empty())
-    scene.picture.direction = parse_view_direction("z");
-}
-
 }  // namespace
 
 bool operator==(const Scene& one, const Scene& other) {
   return std::ranges::all_of(properties(), [&](const Property* property) {
-    return !property->has(in_scene) || value_texts(one, *property) == value_texts(other, *property);
+    return !property->has(in_scene) || !is_scene_value(*property) ||
+           value_texts(one, *property) == value_texts(other, *property);
   });
 }
 
 bool is_scene_value(const Property& property) { return value_of(property.key) != nullptr; }
+
+std::string value_name(const Property& property) {
+  std::string_view option = property.long_option();
+  option.remove_prefix(std::min(option.find_first_not_of('-'), option.size()));
+  std::string name;
+  for (const char letter : option)
+    name += letter == '-' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  return name;
+}
+
+const Property& scene_property(std::string_view name) {
+  std::vector<std::string> names;
+  for (const Property* property : properties()) {
+    if (!property->has(in_scene) && !is_scene_value(*property)) continue;
+    if (names.emplace_back(value_name(*property)) != name && property->key != name) continue;
+    if (is_scene_value(*property)) return *property;
+    throw RequestError(
+        "is of molecules, of which scenes know nothing in this build: it was made without gemmi, nlohmann_json or "
+        "FreeType");
+  }
+  const std::string_view nearest = nearest_word(name, std::vector<std::string_view>(names.begin(), names.end()));
+  throw RequestError(
+      fmt::format("is no value of a scene{}", nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest)));
+}
 
 void set_value(Scene& scene, const Property& property, std::span<const std::string> texts) {
   try {
@@ -140,21 +129,7 @@ std::vector<std::string> value_texts(const Scene& scene, const Property& propert
 
 void complete(Scene& scene) {
   complete_lengths(scene);
-  complete_interface(scene);
-  complete_colors(scene.molecule);
-}
-
-Scene readied(Scene scene) {
-  MoleculeRequest& molecule = scene.molecule;
-  scene.figure.ask_for(molecule.reading);
-  if (!molecule.interface) return scene;
-  if (!molecule.reading.shown.empty())
-    throw ValueError("surface.interface", "moves the atoms of both sides; nothing can stand beside them");
-  std::string atoms = "(" + molecule.interface->left.text() + ") or (" + molecule.interface->right.text() + ")";
-  if (molecule.reading.selection) atoms = "(" + molecule.reading.selection->text() + ") and (" + atoms + ")";
-  molecule.reading.selection = parse_selection(atoms);
-  molecule.reading.sides = {molecule.interface->left, molecule.interface->right};
-  return scene;
+  complete_molecule(scene);
 }
 
 }  // namespace meniscus

@@ -27,6 +27,12 @@ class ValueError : public RequestError {
 /// Whether a scene has a value of this property.
 bool is_scene_value(const Property& property);
 
+/// What programs call a property: its option without the dashes in front, and with "_" for those within: "depth_cue".
+std::string value_name(const Property& property);
+/// The property of a scene that has this name or key, "depth_cue" or "look.depth_cue". Throws RequestError, with
+/// the nearest name.
+const Property& scene_property(std::string_view name);
+
 /// Sets a value. texts: one; of repeatable properties any number, which are added to those that the scene has. A flag
 /// is "true" or "false"; a value that was left out is "". Throws ValueError, SelectionError.
 void set_value(Scene& scene, const Property& property, std::span<const std::string> texts);

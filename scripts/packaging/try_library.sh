@@ -56,7 +56,7 @@ assert abs(s.atom_areas.sum() - s.area) < 1e-9 and s.device.startswith("cpu")
 mesh = s.mesh(0.05)
 for name in ("a.ply", "a.stl", "a.obj", "a.off", "a.vtp"):
     mesh.save(name)
-assert s.render(40, 30).any() and len(s.pockets()) == 0
+assert s.render(size="40x30", silhouettes="1pt").pixels.any() and len(s.pockets()) == 0
 PYTHON
 cat >"$home/missing.py" <<'PYTHON'
 import os
@@ -65,10 +65,12 @@ import meniscus
 s = meniscus.surface([[0, 0, 0]], 1.7)
 for call, error, sentence in (
         (lambda: meniscus.read("molecule.pdb"), meniscus.UsageError, "made without gemmi"),
+        (lambda: meniscus.Scene("molecule.pdb"), meniscus.UsageError, "made without gemmi, nlohmann_json or FreeType"),
+        (lambda: meniscus.Scene().render("cpu"), meniscus.UsageError, "draws no scenes"),
         (lambda: s.mesh(0.1).save("a.glb"), meniscus.UsageError, "made without nlohmann_json"),
         (lambda: s.mesh(0.1).save("a.3mf"), meniscus.UsageError, "made without libdeflate"),
         (lambda: meniscus.surface([[0, 0, 0]], 1.7, device="gpu"), meniscus.GpuError, "made without epoxy"),
-        (lambda: s.render(20, 20, device="software"), meniscus.GpuError, "made without epoxy")):
+        (lambda: s.render(size="20x20", device="software"), meniscus.GpuError, "made without epoxy")):
     try:
         call()
     except error as caught:

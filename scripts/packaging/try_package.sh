@@ -111,7 +111,7 @@ check "picture by software GL" meniscus render 1tii.pdb -o 1tii.png --size 320x2
 check "the picture is one" 'head -c 4 1tii.png | tail -c 3 | grep PNG'
 check "Python draws" "python3 -c 'import meniscus
 s = meniscus.surface([[0, 0, 0]], [2.0])
-print(s.render(40, 30).shape, meniscus.png(s.render(40, 30))[1:4])'"
+print(s.render(size=\"40x30\").pixels.shape, s.render(size=\"40x30\").png()[1:4])'"
 check "versions" meniscus --version --verbose
 check "files are as they were packed" dpkg -V meniscus libmeniscus0 libmeniscus-dev python3-meniscus
 check "goes away again" apt-get purge -y meniscus libmeniscus0 libmeniscus-dev python3-meniscus

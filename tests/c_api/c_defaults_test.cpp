@@ -2,7 +2,6 @@
 // Defaults are the same through every door: those of the C interface are those of a scene.
 #include <gtest/gtest.h>
 
-#include "core/pockets/pockets.h"
 #include "core/scene/scene.h"
 #include "meniscus/meniscus.h"
 
@@ -10,25 +9,12 @@ namespace meniscus {
 namespace {
 
 TEST(CApiDefaults, OfPicturesAreThoseOfAScene) {
-  meniscus_picture picture{};
-  picture.size = sizeof picture;
-  ASSERT_EQ(meniscus_default_picture(&picture), MENISCUS_OK);
-  const Scene scene;
-  EXPECT_EQ(glm::ivec2(picture.width, picture.height), scene.picture.size());
-  EXPECT_EQ(picture.samples, scene.image.samples);
-  EXPECT_EQ(picture.opaque != 0, scene.image.background.has_value());
-}
-
-TEST(CApiDefaults, OfSurfacesAndMeshesAreThoseOfAScene) {
-  meniscus_options options{};
-  options.size = sizeof options;
-  meniscus_mesh_options mesh{};
-  mesh.size = sizeof mesh;
-  ASSERT_EQ(meniscus_default_options(&options), MENISCUS_OK);
-  ASSERT_EQ(meniscus_default_mesh_options(&mesh), MENISCUS_OK);
-  const Scene scene;
-  EXPECT_EQ(options.probe_radius, scene.molecule.surface.probe_radius);
-  EXPECT_EQ(mesh.tolerance, scene.mesh.tolerance);
+  meniscus_scene* made = nullptr;
+  ASSERT_EQ(meniscus_scene_new(&made), MENISCUS_OK);
+  std::int32_t width = 0, height = 0;
+  EXPECT_EQ(meniscus_scene_size(made, &width, &height), MENISCUS_OK);
+  meniscus_scene_release(made);
+  EXPECT_EQ(glm::ivec2(width, height), Scene{}.picture.size());
 }
 
 TEST(CApiDefaults, OfMoleculesAreThoseOfAScene) {
@@ -43,17 +29,6 @@ TEST(CApiDefaults, OfMoleculesAreThoseOfAScene) {
   EXPECT_EQ(reading.keep_ions != 0, usual.keep_ions);
   EXPECT_EQ(reading.select, nullptr);
   EXPECT_FALSE(usual.selection);
-}
-
-TEST(CApiDefaults, OfPocketsAreThoseOfTheProgram) {
-  meniscus_pocket_options options{};
-  options.size = sizeof options;
-  ASSERT_EQ(meniscus_default_pocket_options(&options), MENISCUS_OK);
-  const PocketRequest usual;
-  EXPECT_EQ(options.large_probe_radius, usual.large_probe_radius);
-  EXPECT_EQ(options.trim, usual.trim);
-  EXPECT_EQ(options.min_volume, usual.min_volume);
-  EXPECT_EQ(options.mouth_tolerance, usual.tolerance);
 }
 
 }  // namespace

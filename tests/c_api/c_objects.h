@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -21,6 +22,7 @@ struct Release {
   void operator()(meniscus_pockets* pockets) const { meniscus_pockets_release(pockets); }
   void operator()(meniscus_mesh* mesh) const { meniscus_mesh_release(mesh); }
   void operator()(meniscus_renderer* renderer) const { meniscus_renderer_release(renderer); }
+  void operator()(meniscus_scene* scene) const { meniscus_scene_release(scene); }
 };
 using Computer = std::unique_ptr<meniscus_computer, Release>;
 using StructureOf = std::unique_ptr<meniscus_structure, Release>;
@@ -28,6 +30,7 @@ using SurfaceOf = std::unique_ptr<meniscus_surface, Release>;
 using Pockets = std::unique_ptr<meniscus_pockets, Release>;
 using Mesh = std::unique_ptr<meniscus_mesh, Release>;
 using Renderer = std::unique_ptr<meniscus_renderer, Release>;
+using SceneOf = std::unique_ptr<meniscus_scene, Release>;
 
 inline meniscus_options default_options() {
   meniscus_options options{};
@@ -40,6 +43,21 @@ inline Computer computer(const meniscus_options& options = default_options()) {
   meniscus_computer* made = nullptr;
   EXPECT_EQ(meniscus_computer_new(&options, &made), MENISCUS_OK) << meniscus_last_error();
   return Computer(made);
+}
+
+inline Renderer renderer(meniscus_device device) {
+  meniscus_renderer* made = nullptr;
+  EXPECT_EQ(meniscus_renderer_new(device, &made), MENISCUS_OK) << meniscus_last_error();
+  return Renderer(made);
+}
+
+/// A scene with these values.
+inline SceneOf scene_with(const std::vector<std::pair<const char*, const char*>>& values) {
+  meniscus_scene* made = nullptr;
+  EXPECT_EQ(meniscus_scene_new(&made), MENISCUS_OK) << meniscus_last_error();
+  for (const auto& [name, value] : values)
+    EXPECT_EQ(meniscus_scene_set(made, name, value), MENISCUS_OK) << meniscus_last_error();
+  return SceneOf(made);
 }
 
 /// Reads a file by meniscus_read().

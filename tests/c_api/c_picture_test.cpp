@@ -16,20 +16,7 @@ namespace {
 
 using namespace test;
 
-Renderer renderer(meniscus_device device = MENISCUS_SOFTWARE) {
-  meniscus_renderer* made = nullptr;
-  EXPECT_EQ(meniscus_renderer_new(device, &made), MENISCUS_OK) << meniscus_last_error();
-  return Renderer(made);
-}
-
-meniscus_picture picture_of(int width, int height) {
-  meniscus_picture picture{};
-  picture.size = sizeof picture;
-  EXPECT_EQ(meniscus_default_picture(&picture), MENISCUS_OK);
-  picture.width = width;
-  picture.height = height;
-  return picture;
-}
+SceneOf scene_of(const char* size) { return scene_with({{"size", size}}); }
 
 std::array<int, 4> pixel_at(const std::vector<std::uint8_t>& rgba, int width, int x, int y) {
   const auto* const p = &rgba[4 * (static_cast<std::size_t>(y) * width + x)];
@@ -39,18 +26,18 @@ std::array<int, 4> pixel_at(const std::vector<std::uint8_t>& rgba, int width, in
 TEST(CApiPictures, AnOrthographicSphereIsAsLargeAsItIs) {
   const Computer made = computer();
   const SurfaceOf surface = computed(made.get(), testing::Balls{{{5.0, 5.0, 5.0}, 2.0}});
-  const Renderer draws = renderer();
+  const Renderer draws = renderer(MENISCUS_SOFTWARE);
   meniscus_camera camera{};
   camera.size = sizeof camera;
   ASSERT_EQ(meniscus_surface_camera(surface.get(), 1.0, MENISCUS_ORTHOGRAPHIC, &camera), MENISCUS_OK);
   camera.height = 8.0;  // so the sphere is half as wide as the picture
-  meniscus_picture picture = picture_of(100, 100);
-  picture.camera = &camera;
+  const SceneOf scene = scene_with({{"size", "100x100"}, {"preset", "classic"}});
   const float green[3] = {0.0f, 1.0f, 0.0f};
-  picture.atom_colors = green;
   std::vector<std::uint8_t> rgba(40000);
-  ASSERT_EQ(meniscus_render(draws.get(), surface.get(), &picture, rgba.data(), rgba.size()), MENISCUS_OK)
-      << meniscus_last_error();
+  const auto draw = [&] {
+    return meniscus_render(draws.get(), surface.get(), scene.get(), &camera, green, rgba.data(), rgba.size());
+  };
+  ASSERT_EQ(draw(), MENISCUS_OK) << meniscus_last_error();
   double covered = 0.0;
   for (std::size_t n = 3; n < rgba.size(); n += 4) covered += rgba[n] / 255.0;
   EXPECT_NEAR(covered, 3.14159 * 25 * 25, 20.0);
@@ -60,23 +47,22 @@ TEST(CApiPictures, AnOrthographicSphereIsAsLargeAsItIs) {
   EXPECT_EQ(middle[3], 255);
   EXPECT_EQ(corner[3], 0);
 
-  picture.opaque = 1;
-  picture.background[0] = 1.0f;
-  picture.background[1] = picture.background[2] = 0.0f;
-  ASSERT_EQ(meniscus_render(draws.get(), surface.get(), &picture, rgba.data(), rgba.size()), MENISCUS_OK);
+  ASSERT_EQ(meniscus_scene_set(scene.get(), "background", "#ff0000"), MENISCUS_OK);
+  ASSERT_EQ(draw(), MENISCUS_OK);
   EXPECT_EQ(pixel_at(rgba, 100, 0, 0), (std::array<int, 4>{255, 0, 0, 255}));
 }
 
 TEST(CApiPictures, AreTheSameFromAnyThread) {
   const Computer made = computer();
   const SurfaceOf surface = computed(made.get(), testing::collinear(5, 1.5));
-  const Renderer draws = renderer();
-  const meniscus_picture picture = picture_of(64, 48);
+  const Renderer draws = renderer(MENISCUS_SOFTWARE);
+  const SceneOf scene = scene_of("64x48");
   std::vector<std::vector<std::uint8_t>> drawn(4, std::vector<std::uint8_t>(64 * 48 * 4));
   std::vector<std::thread> threads;
   for (auto& rgba : drawn)
     threads.emplace_back([&] {
-      EXPECT_EQ(meniscus_render(draws.get(), surface.get(), &picture, rgba.data(), rgba.size()), MENISCUS_OK)
+      EXPECT_EQ(meniscus_render(draws.get(), surface.get(), scene.get(), nullptr, nullptr, rgba.data(), rgba.size()),
+                MENISCUS_OK)
           << meniscus_last_error();
     });
   for (std::thread& thread : threads) thread.join();
@@ -87,13 +73,14 @@ TEST(CApiPictures, AreTheSameFromAnyThread) {
 TEST(CApiPictures, OfTheCpuAreThoseOfGlButForRounding) {
   const Computer made = computer();
   const SurfaceOf surface = computed(made.get(), testing::tetrahedron(3.5));
-  meniscus_picture picture = picture_of(120, 90);
-  picture.ambient_occlusion = 0.8f;
-  picture.silhouettes = 2.0f;
+  const SceneOf scene = scene_with({{"size", "120x90"}, {"ambient_occlusion", "0.8"}, {"silhouettes", "2"}});
   std::vector<std::uint8_t> by_gl(120 * 90 * 4), by_cpu(by_gl.size());
-  const Renderer gl = renderer(), cpu = renderer(MENISCUS_CPU);
-  ASSERT_EQ(meniscus_render(gl.get(), surface.get(), &picture, by_gl.data(), by_gl.size()), MENISCUS_OK);
-  ASSERT_EQ(meniscus_render(cpu.get(), surface.get(), &picture, by_cpu.data(), by_cpu.size()), MENISCUS_OK);
+  const auto draw = [&](meniscus_device device, std::vector<std::uint8_t>& rgba) {
+    const Renderer draws = renderer(device);
+    return meniscus_render(draws.get(), surface.get(), scene.get(), nullptr, nullptr, rgba.data(), rgba.size());
+  };
+  ASSERT_EQ(draw(MENISCUS_SOFTWARE, by_gl), MENISCUS_OK);
+  ASSERT_EQ(draw(MENISCUS_CPU, by_cpu), MENISCUS_OK);
   std::size_t different = 0;
   for (std::size_t n = 0; n < by_gl.size(); ++n) different += std::abs(by_gl[n] - by_cpu[n]) > 1;
   EXPECT_LE(different, by_gl.size() / 1000);
@@ -103,25 +90,25 @@ TEST(CApiPictures, OfTheCpuAreThoseOfGlButForRounding) {
 TEST(CApiPictures, RefuseWhatCannotBe) {
   const Computer made = computer();
   const SurfaceOf surface = computed(made.get(), testing::two_atoms(4.0));
-  const Renderer draws = renderer();
+  const Renderer draws = renderer(MENISCUS_SOFTWARE);
   std::vector<std::uint8_t> rgba(64 * 48 * 4);
-  const auto refused = [&](auto change) {
-    meniscus_picture picture = picture_of(64, 48);
-    change(picture);
-    return meniscus_render(draws.get(), surface.get(), &picture, rgba.data(), rgba.size());
+  const auto draw = [&](const SceneOf& scene, const meniscus_camera* camera, const float* colors) {
+    return meniscus_render(draws.get(), surface.get(), scene.get(), camera, colors, rgba.data(), rgba.size());
   };
+  const auto said = [](const char* words) { return std::strstr(meniscus_last_error(), words) != nullptr; };
   const float colors[6] = {0.0f, 0.0f, 0.0f, 0.5f, std::nanf(""), 0.5f};
   meniscus_camera camera{};
   camera.size = sizeof camera;  // at its own target
-  EXPECT_EQ(refused([](auto& p) { p.width = 0; }), MENISCUS_INPUT);
-  EXPECT_EQ(refused([](auto& p) { p.height = 70000; }), MENISCUS_INPUT);
-  EXPECT_EQ(refused([](auto& p) { p.width = 65; }), MENISCUS_USAGE);  // no room
-  EXPECT_EQ(refused([](auto& p) { p.samples = 0; }), MENISCUS_INPUT);
-  EXPECT_EQ(refused([](auto& p) { p.color[1] = std::nanf(""); }), MENISCUS_INPUT);
-  EXPECT_EQ(refused([](auto& p) { p.silhouettes = 17.0f; }), MENISCUS_INPUT);
-  EXPECT_EQ(refused([&](auto& p) { p.camera = &camera; }), MENISCUS_INPUT);
-  EXPECT_EQ(refused([&](auto& p) { p.atom_colors = colors; }), MENISCUS_INPUT);
-  EXPECT_NE(std::strstr(meniscus_last_error(), "channel 1 of the colour of atom 1"), nullptr) << meniscus_last_error();
+  EXPECT_EQ(draw(scene_of("65x48"), nullptr, nullptr), MENISCUS_USAGE);
+  EXPECT_TRUE(said("65x48 pixels need")) << meniscus_last_error();
+  EXPECT_EQ(draw(scene_of("64x48"), &camera, nullptr), MENISCUS_INPUT);
+  EXPECT_EQ(draw(scene_of("64x48"), nullptr, colors), MENISCUS_INPUT);
+  EXPECT_TRUE(said("channel 1 of the colour of atom 1")) << meniscus_last_error();
+  for (const auto& [name, value] :
+       {std::pair{"clip", "z<0"}, {"color", "chain"}, {"color", "element C=red"}, {"view", "top"}, {"panel", "A"}}) {
+    EXPECT_EQ(draw(scene_with({{"size", "64x48"}, {name, value}}), nullptr, nullptr), MENISCUS_USAGE);
+    EXPECT_TRUE(said(name)) << meniscus_last_error();
+  }
   meniscus_renderer* none = nullptr;
   EXPECT_EQ(meniscus_renderer_new(meniscus_device{9}, &none), MENISCUS_USAGE);
 }
@@ -130,15 +117,16 @@ TEST(CApiPictures, RefuseWhatCannotBe) {
 TEST(CApiPictures, AreRefusedInAChildOfFork) {
   const Computer made = computer();
   const SurfaceOf surface = computed(made.get(), testing::two_atoms(4.0));
-  Renderer draws = renderer();
+  Renderer draws = renderer(MENISCUS_SOFTWARE);
   const pid_t child = ::fork();
   ASSERT_GE(child, 0);
   if (child == 0) {
     ::alarm(60);
     std::vector<std::uint8_t> rgba(64 * 48 * 4);
-    const meniscus_picture picture = picture_of(64, 48);
+    const SceneOf scene = scene_of("64x48");
     meniscus_renderer* fresh = nullptr;
-    bool right = meniscus_render(draws.get(), surface.get(), &picture, rgba.data(), rgba.size()) == MENISCUS_NO_GPU;
+    bool right = meniscus_render(draws.get(), surface.get(), scene.get(), nullptr, nullptr, rgba.data(), rgba.size()) ==
+                 MENISCUS_NO_GPU;
     right = right && std::strstr(meniscus_last_error(), "fork") != nullptr;
     right = right && meniscus_renderer_new(MENISCUS_SOFTWARE, &fresh) == MENISCUS_NO_GPU;
     draws.reset();

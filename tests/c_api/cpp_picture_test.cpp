@@ -15,18 +15,27 @@ TEST(CppApiPictures, AnOrthographicSphereIsAsLargeAsItIs) {
   const meniscus::Renderer renderer(MENISCUS_SOFTWARE);
   meniscus::Camera camera = surface.camera(1.0, MENISCUS_ORTHOGRAPHIC);
   camera.height = 8.0;  // so the sphere is half as wide as the picture
-  meniscus::Picture picture;
-  picture.camera = &camera;
-  picture.width = picture.height = 64;
-  const std::vector<std::uint8_t> rgba = renderer.render(surface, picture);
-  ASSERT_EQ(rgba.size(), 4U * 64 * 64);
+  meniscus::Scene scene;
+  scene.set("size", "64x64").set("silhouettes", "0");
+  const meniscus::Picture picture = renderer.render(surface, scene, &camera);
+  ASSERT_EQ(picture.rgba.size(), 4U * 64 * 64);
   double covered = 0.0;
-  for (std::size_t n = 3; n < rgba.size(); n += 4) covered += rgba[n] / 255.0;
+  for (std::size_t n = 3; n < picture.rgba.size(); n += 4) covered += picture.rgba[n] / 255.0;
   EXPECT_NEAR(covered, std::numbers::pi * 16 * 16, 12.0);
-  std::vector<std::uint8_t> small(100);
-  EXPECT_THROW(renderer.render(surface, picture, small), meniscus::UsageError);
-  picture.width = -1;
-  EXPECT_THROW(renderer.render(surface, picture), meniscus::UsageError);
+  EXPECT_THROW(renderer.render(surface, scene, &camera, std::vector<float>(4)), meniscus::UsageError);
+  EXPECT_THROW(scene.set("size", "-1x64"), meniscus::UsageError);
+}
+
+TEST(CppApiPictures, ScenesHoldWhatTheyAreGiven) {
+  meniscus::Scene scene;
+  EXPECT_EQ(scene.get("depth_cue"), std::nullopt);
+  EXPECT_EQ(scene.set("depth_cue", "0.5").get("look.depth_cue"), "0.5");
+  scene.set("label", "resid 1=one").set("label", "resid 2=two");
+  EXPECT_EQ(meniscus::Scene::parse(scene.json()).get("label", 1), "resid 2=two");
+  EXPECT_EQ(scene.reset("label").get("label"), std::nullopt);
+  EXPECT_THROW(scene.render(MENISCUS_CPU), meniscus::UsageError);  // of no molecule
+  EXPECT_THROW(meniscus::Scene::parse("{"), meniscus::InputError);
+  EXPECT_GT(meniscus::Scene::properties().size(), 90U);
 }
 
 }  // namespace

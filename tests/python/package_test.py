@@ -157,9 +157,6 @@ class Defaults(unittest.TestCase):
     def test_signatures_have_those_of_the_library(self):
         def usual(function, name):
             return inspect.signature(function).parameters[name].default
-        picture = _library.default("picture", _library.Picture())
-        for name in ("width", "height", "samples"):
-            self.assertEqual(usual(meniscus.Surface.render, name), getattr(picture, name), name)
         self.assertEqual(usual(meniscus.Surface.mesh, "tolerance"), _library.default("mesh_options", _library.MeshOptions()).tolerance)
         pockets = _library.default("pocket_options", _library.PocketOptions())
         for name in ("trim", "min_volume", "mouth_tolerance"):
@@ -300,13 +297,12 @@ class Foreign(unittest.TestCase):
                     call()
         for values in (np.ma.masked_array(radii, mask=radii > 1.6), radii + 1j, radii > 1, radii.astype(str)):
             self.assertRaises(meniscus.InputError, s.gradient, "sas_area", values)
-            self.assertRaises(meniscus.InputError, s.render, 8, 8, colors=values[:3], device="cpu")
+            self.assertRaises(meniscus.InputError, s.render, size="8x8", colors=values[:3], device="cpu")
 
     def test_numbers_are_looked_at_before_ctypes_cuts_them(self):
         xyz, radii = chain(5)
         s = meniscus.surface(xyz, radii)
-        for call in (lambda: meniscus.surface(xyz, radii, threads=2**32 + 1), lambda: s.render(2**32 + 8, 8),
-                     lambda: s.render(8, 8, samples=2**32 + 1), lambda: meniscus.radii_of([2**32 + 6]),
+        for call in (lambda: meniscus.surface(xyz, radii, threads=2**32 + 1), lambda: meniscus.radii_of([2**32 + 6]),
                      lambda: s.mesh(0.1, split_colors=2**32)):
             with self.assertRaisesRegex(meniscus.InputError, "which 32 bits cannot count"):
                 call()
@@ -362,18 +358,67 @@ class Pictures(unittest.TestCase):
         s = meniscus.surface([[0, 0, 0]], 2.0)
         camera = s.camera(1.0, "orthographic")
         camera.height = 8.0
-        pixels = s.render(100, 100, camera=camera, colors=(1, 0, 0), device="software")
+        picture = s.render(size="100x100", preset="classic", camera=camera, colors=(1, 0, 0), device="software")
+        pixels = picture.pixels
         self.assertEqual(pixels.shape, (100, 100, 4))
+        self.assertIs(np.asarray(picture), pixels)
         self.assertAlmostEqual(pixels[..., 3].sum() / 255, math.pi * 25**2, delta=20)
         self.assertLess(pixels[50, 50, 1], 30)  # but for the highlight
-        opaque = s.render(100, 100, camera=camera, colors=[[0, 1, 0]], background=(0, 0, 1), device="software")
-        self.assertEqual(opaque[0, 0].tolist(), [0, 0, 255, 255])
-        file = meniscus.png(pixels)
+        opaque = s.render(width=100, height=100, camera=camera, colors=[[0, 1, 0]], background="#0000ff", device="software")
+        self.assertEqual(opaque.pixels[0, 0].tolist(), [0, 0, 255, 255])
+        file = picture.png()
         self.assertTrue(file.startswith(b"\x89PNG\r\n\x1a\n"))
         rows = np.frombuffer(zlib.decompress(file[file.index(b"IDAT") + 4:-16]), np.uint8).reshape(100, 401)
         np.testing.assert_array_equal(rows[:, 1:].reshape(100, 100, 4), pixels)
         with self.assertRaisesRegex(meniscus.InputError, "colors has the shape"):
-            s.render(10, 10, colors=np.zeros((2, 3)), device="software")
+            s.render(size="10x10", colors=np.zeros((2, 3)), device="software")
+        for name, value, said in (("samples", 0, "samples: '0' is not a whole number from 1 to 1024"),
+                                  ("sample", 1, "did you mean samples"), ("view", "top", "view: a picture of a surface")):
+            with self.assertRaisesRegex(meniscus.UsageError, said):
+                s.render(device="cpu", **{name: value})
+
+    def test_scenes_hold_values_by_name_and_key(self):
+        scene = meniscus.Scene(pathlib.Path("a.pdb"), depth_cue=0.5, silhouettes="7pt", keep_water=True,
+                               label=["resid 1=one", "resid 2=two"], samples=np.int64(4))
+        self.assertEqual((scene.file, scene["look.depth_cue"], scene.silhouettes), ("a.pdb", 0.5, "7pt"))
+        self.assertEqual((scene.keep_water, scene.samples, scene.preset), (True, 4, None))
+        self.assertEqual(scene.label, ["resid 1=one", "resid 2=two"])
+        scene.label, scene["depth_cue"], scene.keep_water = "resid 3=three", None, False
+        self.assertEqual((scene.label, scene.depth_cue, scene.keep_water), (["resid 3=three"], None, None))
+        again = meniscus.Scene.parse(scene.json())
+        self.assertEqual((again.json(), again.silhouettes), (scene.json(), "7pt"))
+        self.assertIs(scene.set(depth_cue=0.1), scene)
+        self.assertIn("silhouettes", dir(scene))
+        self.assertFalse(hasattr(scene, "shape"))
+        self.assertIn("a.pdb", repr(scene))
+        for name, value, error, said in (("depth_cue", 2, meniscus.UsageError, "depth_cue: '2' is not a number from 0 to 1"),
+                                         ("depth_cues", 1, meniscus.UsageError, "did you mean depth_cue?"),
+                                         ("depth_cue", 1j, meniscus.InputError, "neither a text nor a number"),
+                                         ("select", "a\0", meniscus.InputError, "has a zero in it")):
+            with self.assertRaisesRegex(error, re.escape(said)):
+                scene[name] = value
+        self.assertRaisesRegex(meniscus.InputError, "not JSON", meniscus.Scene.parse, "{")
+        self.assertRaisesRegex(meniscus.UsageError, "no molecule", meniscus.Scene().render, "cpu")
+        named = {p.name: p for p in meniscus.properties()}
+        self.assertEqual((named["depth_cue"].key, named["depth_cue"].highest), ("look.depth_cue", 1.0))
+        self.assertEqual(named["surface"].words, ["ses", "sas", "vdw"])
+
+    @unittest.skipUnless(PROGRAM, "MENISCUS_PROGRAM is not set")
+    def test_a_scene_is_drawn_as_the_program_draws_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            lines = ("ATOM      1  N   ALA A   1       0.000   0.000   0.000  1.00 10.00           N  \n"
+                     "ATOM      2  CA  GLY B   2       3.987   2.839   0.000  1.00 25.00           C  \nEND\n")
+            (pathlib.Path(folder) / "a.pdb").write_text(lines)
+            path = pathlib.Path(folder) / "scene.json"
+            path.write_text(meniscus.Scene(os.path.join(folder, "a.pdb"), size="240x180", color="chain", legend=True,
+                                           background="white").json(folder))
+            subprocess.run([PROGRAM, "render", "-q", "--device", "cpu", "--scene", str(path), "-o", f"{folder}/a.png"], check=True)
+            try:
+                import OpenImageIO
+            except ImportError:
+                self.skipTest("OpenImageIO for Python is not installed")
+            theirs = OpenImageIO.ImageInput.open(f"{folder}/a.png").read_image("uint8")
+            np.testing.assert_array_equal(meniscus.Scene.read(path).render("cpu").pixels[..., :3], theirs)
 
     def test_notebooks_show_it(self):
         self.assertTrue(meniscus.surface(*chain(6))._repr_png_().startswith(b"\x89PNG"))
@@ -470,7 +515,7 @@ class MeshFiles(unittest.TestCase):
                 (lambda: mesh.save(self.folder / "a.ply", attributes="mass"), meniscus.UsageError, "no attribute"),
                 (lambda: mesh.save(self.folder / "a.ply", scale=0.0), meniscus.InputError, "scale is 0"),
                 (lambda: mesh.save(self.folder / "a.ply", scale=math.nan), meniscus.InputError, "scale is nan"),
-                (lambda: mesh.save(self.folder / "a.ply", colors=(2, 0, 0)), meniscus.InputError, "color is 2"),
+                (lambda: mesh.save(self.folder / "a.ply", colors=(2, 0, 0)), meniscus.InputError, "atom 0 is 2; it has to be 0 to 1"),
                 (lambda: mesh.save(self.folder / "a.ply", colors=np.full((40, 3), -1.0)), meniscus.InputError,
                  "colour of atom 0 is -1"),
                 (lambda: mesh.save(self.folder / "a.ply", colors=np.zeros((3, 3))), meniscus.InputError, "the shape"),
@@ -500,7 +545,7 @@ class Elsewhere(unittest.TestCase):
     def test_python_ends_without_a_word(self):
         # Kept by a module that ends after the package's own.
         code = ("import meniscus, numpy\ns = meniscus.surface([[0, 0, 0], [2, 0, 0]], 1.7)\n"
-                "numpy.kept = [s, s.mesh(0.3), s.render(20, 20, device='cpu'), s.pockets()]\n")
+                "numpy.kept = [s, s.mesh(0.3), s.render(size='20x20', device='cpu'), s.pockets()]\n")
         run = subprocess.run([sys.executable, "-c", f"import sys; sys.path[:0] = {sys.path!r}\n" + code], text=True,
                              capture_output=True)
         self.assertEqual((run.returncode, run.stdout, run.stderr), (0, "", ""))

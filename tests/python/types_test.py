@@ -17,6 +17,10 @@ smallest: float = s.distance([[0, 0, 0]]).min()
 distances, feet = s.distance([[0, 0, 0]], nearest=True)
 rows: int = feet.shape[0] + s.mesh(0.05).triangles.shape[0]
 kind: str = s.kind
+scene = meniscus.Scene("1ubq.cif", silhouettes="7pt", depth_cue=0.5, preset="flat", label=["resid 1=one"], legend=True)
+scene.set(size="800x600", sticks="ligand").depth_cue = 0.25
+picture: meniscus.Picture = scene.render("cpu")
+picture = s.render(size="80x60", silhouettes=1.5, background="white", colors=(1, 0, 0))
 '''
 BAD = {
     'meniscus.surface([[0, 0, 0]], 1.7, kind="ess")': "surface",
@@ -25,13 +29,18 @@ BAD = {
     'meniscus.surface([[0, 0, 0]], 1.7).gradient("mass")': "gradient",
     'meniscus.read("x.pdb", hydrogens="no")': "hydrogens",
     'meniscus.surface([[0, 0, 0]], 1.7).mesh().save("x", format="step")': "format",
+    'meniscus.Scene("x.pdb", silhouetes="7pt")': "silhouetes",
+    'meniscus.Scene("x.pdb", preset="flatt")': "preset",
+    'meniscus.Scene("x.pdb", depth_cue="much")': "depth_cue",
+    'meniscus.surface([[0, 0, 0]], 1.7).render(view="top")': "view",
     'meniscus.surface([[0, 0, 0]], 1.7).distance([[0, 0, 0]], nearest=True).min()': "min",
 }
 
 
 def mypy(*arguments, cache):
     environment = {**os.environ, "MYPYPATH": str(PACKAGE)}
-    return subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", cache, *arguments], text=True,
+    return subprocess.run([sys.executable, "-m", "mypy", "--strict", "--enable-incomplete-feature=Unpack",
+                           "--cache-dir", cache, *arguments], text=True,
                           capture_output=True, env=environment, cwd=PACKAGE)
 
 

@@ -4,10 +4,15 @@
 
 #include <cstddef>
 
+#include <glm/vec3.hpp>
+
 #include "core/color/coloring.h"
 #include "exporters/bindings/c/caller_memory.h"
 
 namespace meniscus::c_api {
+
+/// sRGB of a surface or mesh to which nobody gave a colour.
+inline constexpr glm::vec3 kPlainColor(0.75f, 0.82f, 0.9f);
 
 inline void check_range(const char* name, double value, double low, double high) {
   if (!(value >= low && value <= high))
@@ -15,10 +20,10 @@ inline void check_range(const char* name, double value, double low, double high)
 }
 
 /// color: of atoms if of_atoms, three numbers an atom, is NULL. Channels are in [0, 1], else MENISCUS_INPUT.
-inline Coloring coloring_of(const float (&color)[3], const float* of_atoms, std::size_t atoms) {
-  for (const float channel : color) check_range("color", channel, 0, 1);
+inline Coloring coloring_of(const glm::vec3& color, const float* of_atoms, std::size_t atoms) {
+  for (int n = 0; n < 3; ++n) check_range("color", color[n], 0, 1);
   Coloring coloring;
-  coloring.atom.assign(atoms, {color[0], color[1], color[2]});
+  coloring.atom.assign(atoms, color);
   if (!of_atoms) return coloring;
   require_numbers(of_atoms, atoms, 3, "atom_colors");
   for (std::size_t n = 0; n < 3 * atoms; ++n) {

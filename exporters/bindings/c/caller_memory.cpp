@@ -2,6 +2,8 @@
 // Checks the pointers, counts and strides that callers pass.
 #include "exporters/bindings/c/caller_memory.h"
 
+#include "core/properties/properties.h"
+
 #include <algorithm>
 
 namespace meniscus::c_api {
@@ -31,6 +33,12 @@ void require_apart(const void* written, std::size_t written_bytes, const char* w
   const auto a = reinterpret_cast<std::uintptr_t>(written), b = reinterpret_cast<std::uintptr_t>(read);
   if (a < b + read_bytes && b < a + written_bytes)
     refuse(MENISCUS_USAGE, "{} and {} overlap; what is written needs room of its own", written_name, read_name);
+}
+
+void check_number(std::string_view key, const char* name, double value, const char* unit) {
+  const Property& property = property_of(key);
+  if (!property.is_within(value))
+    refuse(MENISCUS_INPUT, "{} is {} {}; it has to be {} to {}", name, value, unit, property.lowest, property.highest);
 }
 
 }  // namespace meniscus::c_api

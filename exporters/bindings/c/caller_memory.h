@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -53,6 +54,9 @@ void require_apart(const void* written, std::size_t written_bytes, const char* w
 inline void require_zero(std::int32_t reserved, const char* name) {
   if (reserved != 0) refuse(MENISCUS_USAGE, "{} is {}; it has to be 0", name, reserved);
 }
+
+/// Refuses with MENISCUS_INPUT a number that the property of this key cannot be. unit: as in "tolerance is 2 Å".
+void check_number(std::string_view key, const char* name, double value, const char* unit);
 
 /// Nobody's struct is smaller than its size and one field, or larger than this.
 inline constexpr std::size_t kLargestStruct = 4096;

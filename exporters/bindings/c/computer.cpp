@@ -23,7 +23,8 @@ namespace {
 
 constexpr std::int32_t kMostThreads = 4096;
 
-const meniscus_options kDefaults{sizeof(meniscus_options), 1.4, MENISCUS_SES, MENISCUS_CPU, 0, 0};
+const meniscus_options kDefaults{
+    sizeof(meniscus_options), SurfaceRequest{}.probe_radius, MENISCUS_SES, MENISCUS_CPU, 0, 0};
 
 void check_probe(double radius) {
   if (!std::isfinite(radius)) refuse(MENISCUS_INPUT, "probe_radius is {}, not a finite number", radius);

@@ -12,6 +12,7 @@
 #include "core/mesh/mesh_colors.h"
 #include "core/mesh/mesh_objects.h"
 #include "core/mesh/tessellate.h"
+#include "core/scene/outputs.h"
 #include "core/scene/surface_request.h"
 #include "core/structure/structure.h"
 #include "exporters/bindings/c/atom_colors.h"
@@ -25,32 +26,21 @@ namespace meniscus::c_api {
 
 namespace {
 
-const meniscus_mesh_options kDefaults{sizeof(meniscus_mesh_options), MENISCUS_MESH_BY_PATCH, 1, 0.01, 0.0};
-
-void check_tolerance(double tolerance) {
-  if (!(tolerance >= kSmallestTolerance && tolerance <= kLargestTolerance))
-    refuse(MENISCUS_INPUT, "tolerance is {} Å; it has to be {} to {}", tolerance, kSmallestTolerance,
-           kLargestTolerance);
-}
-
-void check_density(double density) {
-  if (!(density >= kSmallestDensity && density <= kLargestDensity))
-    refuse(MENISCUS_INPUT, "density is {} vertices per Å²; it has to be {} to {}", density, kSmallestDensity,
-           kLargestDensity);
-}
+const meniscus_mesh_options kDefaults{sizeof(meniscus_mesh_options), MENISCUS_MESH_BY_PATCH, 1, MeshOutput{}.tolerance,
+                                      MeshOutput{}.density};
 
 meniscus_mesh_options checked(const meniscus_mesh_options* given) {
   const meniscus_mesh_options options = given ? read_struct(given, kDefaults, "meniscus_mesh_options") : kDefaults;
   switch (options.method) {
     case MENISCUS_MESH_BY_PATCH:
     case MENISCUS_MESH_EVEN:
-      check_tolerance(options.tolerance);
+      check_number("mesh.tolerance", "tolerance", options.tolerance, "Å");
       if (options.density != kDefaults.density)
         refuse(MENISCUS_USAGE, "density is {}, which is of MENISCUS_MESH_BY_DENSITY; choose that, or leave it at {}",
                options.density, kDefaults.density);
       break;
     case MENISCUS_MESH_BY_DENSITY:
-      check_density(options.density);
+      check_number("mesh.density", "density", options.density, "vertices per Å²");
       if (options.tolerance != kDefaults.tolerance)
         refuse(MENISCUS_USAGE, "tolerance is {} Å, which MENISCUS_MESH_BY_DENSITY does not keep to; leave it at {}",
                options.tolerance, kDefaults.tolerance);
@@ -104,8 +94,13 @@ meniscus_array find_table(const meniscus_mesh& made, std::int32_t table) {
   }
 }
 
-const meniscus_mesh_file kFileDefaults{sizeof(meniscus_mesh_file), nullptr, "usual", nullptr, 1.0,
-                                       {0.75f, 0.82f, 0.9f},       0};
+const meniscus_mesh_file kFileDefaults{sizeof(meniscus_mesh_file),
+                                       nullptr,
+                                       "usual",
+                                       nullptr,
+                                       MeshOutput{}.scale,
+                                       {kPlainColor.x, kPlainColor.y, kPlainColor.z},
+                                       0};
 
 const MeshFormat& format_of(const meniscus_mesh_file& file, const char* path) {
   const MeshFormat* const found = file.format ? mesh_format(file.format) : mesh_format_of_path(path);
@@ -150,7 +145,7 @@ void save(const meniscus_mesh& mesh, const char* path, const meniscus_mesh_file&
   const MeshFormat& format = format_of(file, path);
   const std::vector<std::string> numbers = parse_vertex_numbers(file.attributes, AtomSource::bare);
   const std::vector<Atom> atoms = bare_atoms(finished);
-  const Coloring coloring = coloring_of(file.color, file.atom_colors, atoms.size());
+  const Coloring coloring = coloring_of({file.color[0], file.color[1], file.color[2]}, file.atom_colors, atoms.size());
   std::vector<std::uint32_t> places(atoms.size());
   for (std::uint32_t a = 0; a < places.size(); ++a) places[a] = a;
   MeshFileMaker maker(

@@ -27,19 +27,14 @@ namespace {
 const meniscus_pocket_options kDefaults{sizeof(meniscus_pocket_options), PocketRequest{}.large_probe_radius,
                                         PocketRequest{}.trim, PocketRequest{}.min_volume, PocketRequest{}.tolerance};
 
-void check(const char* name, const char* unit, double value, double least, double most) {
-  if (!(value >= least && value <= most))
-    refuse(MENISCUS_INPUT, "{} is {} {}; it has to be {} to {}", name, value, unit, least, most);
-}
-
 PocketRequest request_of(const FinishedSurface& finished, const meniscus_pocket_options* given) {
   if (finished.kind != MENISCUS_SES || !(finished.probe_radius > 0.0))
     refuse(MENISCUS_USAGE, "pockets are what a probe above 0 fills, of a surface of MENISCUS_SES");
   const meniscus_pocket_options options = given ? read_struct(given, kDefaults, "meniscus_pocket_options") : kDefaults;
-  check("large_probe_radius", "Å", options.large_probe_radius, kSmallestLargeProbe, kLargestLargeProbe);
-  check("trim", "Å", options.trim, 0.0, kLargestTrim);
-  check("min_volume", "Å³", options.min_volume, 0.0, kLargestMinVolume);
-  check("mouth_tolerance", "Å", options.mouth_tolerance, kSmallestMouthTolerance, kLargestMouthTolerance);
+  check_number("pockets.large_probe", "large_probe_radius", options.large_probe_radius, "Å");
+  check_number("pockets.trim", "trim", options.trim, "Å");
+  check_number("pockets.min_volume", "min_volume", options.min_volume, "Å³");
+  check_number("pockets.mouth_tolerance", "mouth_tolerance", options.mouth_tolerance, "Å");
   if (options.large_probe_radius <= finished.probe_radius)
     refuse(MENISCUS_INPUT, "large_probe_radius is {} Å, not above the probe's {} Å, so nothing lies between the two",
            options.large_probe_radius, finished.probe_radius);

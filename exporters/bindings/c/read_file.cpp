@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads molecules by the readers of the program, and says in the words of the library which option would change what.
+// Reads molecules by the readers of the program, with the options of a caller.
 #include "exporters/bindings/c/read_file.h"
 
-#include <algorithm>
-#include <array>
 #include <string>
 #include <string_view>
 
@@ -17,20 +15,6 @@ namespace meniscus::c_api {
 namespace {
 
 constexpr std::size_t kMostTexts = 10'000;
-
-/// Of meniscus_read_options, by their names on the command line.
-constexpr std::array<std::string_view, 10> kOptions{"select",    "assembly",       "altloc",     "radii",
-                                                    "radius",    "radii-file",     "keep-water", "model",
-                                                    "keep-ions", "unknown-element"};
-
-std::string spelled(std::string_view name) {
-  if (std::ranges::find(kOptions, name) == kOptions.end()) return "the program's --" + std::string(name);
-  std::string field(name);
-  std::ranges::replace(field, '-', '_');
-  return field;
-}
-
-[[maybe_unused]] const bool kSpelled = (spell_options(spelled), true);
 
 template <typename Understand>
 auto understood(const char* option, const Understand& understand) {

@@ -82,7 +82,7 @@ class Caller {
 
  private:
   using Call = void (Caller::*)();
-  static const Call kCalls[17];
+  static const Call kCalls[20];
 
   /// A status that there is, with a sentence unless all went well, and no fault of the library.
   bool done(meniscus_status status) {
@@ -257,18 +257,53 @@ class Caller {
     const double aspect = choices_.of({1.0, 0.0, kNoNumber});
     const meniscus_projection projection{choices_.word(1)};
     const bool framed = done(meniscus_surface_camera(surface, aspect, projection, &camera));
-    meniscus_picture picture{};
-    picture.size = sizeof picture;
-    done(meniscus_default_picture(&picture));
-    picture.camera = framed || choices_.yes() ? &camera : nullptr;
-    picture.width = choices_.of({5, 1, 0, -1, 1 << 30});
-    picture.height = choices_.of({4, 1, 65535, -4});
-    picture.samples = choices_.of({1, 2, 0, 1 << 20});
-    picture.atom_colors = choices_.yes() ? reinterpret_cast<const float*>(place()) : nullptr;
-    picture.depth_cue = choices_.of({0.0f, 1.0f, -1.0f});
+    const meniscus_camera* const seen_by = framed || choices_.yes() ? &camera : nullptr;
+    const float* const colors = choices_.yes() ? reinterpret_cast<const float*>(place()) : nullptr;
     std::vector<std::uint8_t> rgba(80);
     const std::size_t room = choices_.of({std::size_t{80}, std::size_t{3}, kMost});
-    done(meniscus_render(renderers_.any(choices_), surface, &picture, rgba.data(), room));
+    meniscus_renderer* const renderer = renderers_.any(choices_);
+    meniscus_scene* const scene = scenes_.any(choices_);
+    if (scene) set(scene, "size", choices_.of({"5x4", "1x1", "4x5"}));  // larger ones take long
+    done(choices_.yes() ? meniscus_render_scene(renderer, scene, rgba.data(), room)
+                        : meniscus_render(renderer, surface, scene, seen_by, colors, rgba.data(), room));
+  }
+
+  void make_scene() {
+    meniscus_scene* made = nullptr;
+    if (choices_.yes()) return keep(scenes_, meniscus_scene_new(rarely_null(&made)), made);
+    const char* const json =
+        choices_.of({R"({"meniscus_scene": 1, "look": {"depth_cue": 0.5}})", R"({"meniscus_scene": 2})", "{", "",
+                     R"({"meniscus_scene": 1, "objects": [{"clip": "z<0"}]})", static_cast<const char*>(nullptr)});
+    keep(scenes_, meniscus_scene_parse(json, rarely_null(&made)), made);
+  }
+
+  bool set(meniscus_scene* scene, const char* name, const char* value) {
+    return done(meniscus_scene_set(scene, name, value));
+  }
+  /// Of any property a text that may be one of its values, or of others.
+  void set_value() {
+    meniscus_array table{};
+    require(done(meniscus_scene_properties(&table)), "there is a table of properties");
+    const auto* const rows = static_cast<const meniscus_property*>(table.data);
+    const meniscus_property& property = rows[choices_.below(table.count)];
+    const char* const value = choices_.of({"1", "true", "0.5pt", "all", "white", "", "-1e300", "\xff", "chain A=red",
+                                           "1x1", "z<0", property.initial, static_cast<const char*>(nullptr), "false"});
+    meniscus_scene* const scene = scenes_.any(choices_);
+    set(scene, choices_.of({property.name, property.key, "", "\xc3"}), value);
+  }
+  void look_at_scene() {
+    meniscus_scene* const scene = scenes_.any(choices_);
+    const char* text = nullptr;
+    if (done(meniscus_scene_json(scene, choices_.of({static_cast<const char*>(nullptr), "", "/", "\xff"}),
+                                 rarely_null(&text)))) {
+      meniscus_scene* again = nullptr;
+      keep(scenes_, meniscus_scene_parse(text, &again), again);
+    }
+    meniscus_scene* const asked = scenes_.any(choices_);  // the one before may be gone
+    if (done(meniscus_scene_get(asked, choices_.of({"label", "look.preset", "none"}), choices_.below(3),
+                                rarely_null(&text))) &&
+        text)
+      sum_ += static_cast<unsigned>(std::strlen(text));
   }
 
   void make_renderer() {
@@ -287,7 +322,7 @@ class Caller {
   }
 
   void share() {
-    switch (choices_.below(5)) {
+    switch (choices_.below(6)) {
       case 0:
         return computers_.share(choices_);
       case 1:
@@ -296,6 +331,8 @@ class Caller {
         return meshes_.share(choices_);
       case 3:
         return pockets_.share(choices_);
+      case 4:
+        return scenes_.share(choices_);
       default:
         return renderers_.share(choices_);
     }
@@ -304,6 +341,7 @@ class Caller {
     computers_.put(choices_, nullptr);
     surfaces_.put(choices_, nullptr);
     meshes_.put(choices_, nullptr);
+    scenes_.put(choices_, nullptr);
   }
 
   Choices choices_;
@@ -314,10 +352,11 @@ class Caller {
   Held<meniscus_mesh, meniscus_mesh_release, meniscus_mesh_retain> meshes_;
   Held<meniscus_pockets, meniscus_pockets_release, meniscus_pockets_retain> pockets_;
   Held<meniscus_renderer, meniscus_renderer_release, meniscus_renderer_retain> renderers_;
+  Held<meniscus_scene, meniscus_scene_release, meniscus_scene_retain> scenes_;
   unsigned sum_ = 0;
 };
 
-const Caller::Call Caller::kCalls[17] = {&Caller::make_computer,   &Caller::compute,
+const Caller::Call Caller::kCalls[20] = {&Caller::make_computer,   &Caller::compute,
                                          &Caller::compute,         &Caller::summarize,
                                          &Caller::look_at_surface, &Caller::look_at_mesh,
                                          &Caller::make_mesh,       &Caller::look_at_pockets,
@@ -325,7 +364,8 @@ const Caller::Call Caller::kCalls[17] = {&Caller::make_computer,   &Caller::comp
                                          &Caller::derive,          &Caller::save_mesh,
                                          &Caller::make_renderer,   &Caller::paint,
                                          &Caller::name_element,    &Caller::share,
-                                         &Caller::let_go};
+                                         &Caller::let_go,          &Caller::make_scene,
+                                         &Caller::set_value,       &Caller::look_at_scene};
 
 void run(std::string_view bytes) { Caller(bytes).run(); }
 

@@ -9,7 +9,6 @@
 #include "app/farm/command_options.h"
 #include "core/base/error.h"
 #include "core/mesh/mesh_objects.h"
-#include "core/pockets/pockets.h"
 #include "core/properties/properties.h"
 #include "core/render/look.h"
 #include "exporters/mesh_files/mesh_formats.h"
@@ -74,10 +73,6 @@ TEST(Properties, RangesAreThoseOfTheCode) {
   expect("pockets.tolerance", kSmallestTolerance, kLargestTolerance);
   expect("mesh.density", kSmallestDensity, kLargestDensity);
   expect("mesh.scale", kSmallestFileScale, kLargestFileScale);
-  expect("pockets.large_probe", kSmallestLargeProbe, kLargestLargeProbe);
-  expect("pockets.trim", 0.0, kLargestTrim);
-  expect("pockets.min_volume", 0.0, kLargestMinVolume);
-  expect("pockets.mouth_tolerance", kSmallestMouthTolerance, kLargestMouthTolerance);
 }
 
 // A number of the look that had no property, or whose property is none of scenes, bundles and the preview, would be

@@ -6,6 +6,7 @@
     s = meniscus.surface(xyz, radii, probe=1.4)       # Å
     s.area, s.volume, s.atom_areas, s.distance(points), s.mesh().vertices, s.render()
     s.update(next_xyz)                                # the next frame, same radii
+    meniscus.Scene("1ubq.cif", color="chain", legend=True).render()    # the picture of `meniscus render`
 
 All numbers are in Å, Å² and Å³. Arrays that belong to a surface or a mesh are read-only views of the library's own
 memory, which lives as long as any view of it does, whatever becomes of the object that gave it.
@@ -16,17 +17,19 @@ from ._errors import (CapacityError, Error, GpuError, InputError, InternalError,
                       UsageError)
 from ._library import library_path, version
 from ._mesh import Mesh
-from ._picture import Camera, png
+from ._picture import Camera, Picture
 from ._pockets import Pocket
 from ._radii import radii_of
+from ._scene import Property, Scene, properties
 from ._structure import Structure, read
 from ._surface import Patches, Surface, surface
 from ._adapters import frames, from_biotite, from_mdanalysis, from_mdtraj, from_prody, series
 
 __all__ = [
     "Camera", "CapacityError", "Error", "GpuError", "InputError", "InternalError", "Mesh", "NotClosedError",
-    "OutputError", "Patches", "Pocket", "Structure", "Surface", "UsageError", "frames", "from_biotite", "from_mdanalysis",
-    "from_mdtraj", "from_prody", "library_path", "png", "radii_of", "read", "series", "surface", "version",
+    "OutputError", "Patches", "Picture", "Pocket", "Property", "Scene", "Structure", "Surface", "UsageError", "frames",
+    "from_biotite", "from_mdanalysis", "from_mdtraj", "from_prody", "library_path", "properties", "radii_of", "read",
+    "series", "surface", "version",
 ]
 
 

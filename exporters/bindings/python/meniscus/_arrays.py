@@ -112,25 +112,17 @@ def doubles(values: Any, name: str, columns: int = 0, power: Optional[int] = Non
     return np.require(numbers(values, name, columns, power)[0], np.float64, ["C", "A"])
 
 
-def color_of(values: Any, name: str) -> tuple[float, float, float]:
-    """As a struct takes it."""
-    array = real_array(values, name).astype(np.float32)
-    if array.shape != (3,):
-        raise InputError(f"{name} has the shape {array.shape}; it has to be three numbers in [0, 1]")
-    red, green, blue = array
-    return float(red), float(green), float(blue)
+def atom_colors(colors: Any, atom_count: int) -> AnyArray:
+    """Three floats an atom, of one colour for all or of one each."""
+    given = real_array(colors, "colors").astype(np.float32)
+    if given.shape not in ((3,), (atom_count, 3)):
+        raise InputError(f"colors has the shape {given.shape}; it has to be (3,) or ({atom_count}, 3)")
+    return np.array(np.broadcast_to(given, (atom_count, 3)), order="C")
 
 
 def put_colors(struct: Any, colors: Any, atom_count: int) -> None:
-    """Into `color` or `atom_colors` of a struct, as the shape says."""
+    """Into `atom_colors` of a struct."""
     if colors is None:
         return
-    given = real_array(colors, "colors")
-    if given.ndim == 1:
-        struct.color = color_of(given, "colors")
-        return
-    of_atoms = np.array(given, dtype=np.float32, order="C")
-    if of_atoms.shape != (atom_count, 3):
-        raise InputError(f"colors has the shape {of_atoms.shape}; it has to be (3,) or ({atom_count}, 3)")
-    struct.atom_colors = of_atoms.ctypes.data
-    struct.owner = of_atoms  # of these numbers
+    struct.owner = atom_colors(colors, atom_count)
+    struct.atom_colors = struct.owner.ctypes.data

@@ -34,6 +34,7 @@ POCKETS, POCKET_MOUTHS, POCKET_ATOMS, POCKET_PROBES = range(4)
 MESH_BY_PATCH, MESH_EVEN, MESH_BY_DENSITY = range(3)
 HYDROGENS_AUTO, HYDROGENS_KEEP, HYDROGENS_DROP = range(3)
 UNKNOWN_HALT, UNKNOWN_GUESS, UNKNOWN_SKIP = range(3)
+(VALUE_FLAG, VALUE_NUMBER, VALUE_COUNT, VALUE_WORD, VALUE_TEXT, VALUE_FILE, VALUE_NEW_FILE, VALUE_CAMERA) = range(8)
 (STRUCTURE_POSITIONS, STRUCTURE_RADII, STRUCTURE_ELEMENTS, STRUCTURE_INDICES, STRUCTURE_NAMES, STRUCTURE_RESIDUE_NAMES,
  STRUCTURE_CHAINS, STRUCTURE_SEGMENTS, STRUCTURE_RESIDUE_NUMBERS, STRUCTURE_INSERTION_CODES, STRUCTURE_ALTLOCS,
  STRUCTURE_RESIDUES, STRUCTURE_MODELS, STRUCTURE_COPIES, STRUCTURE_CHARGES, STRUCTURE_B_FACTORS, STRUCTURE_OCCUPANCIES,
@@ -196,11 +197,10 @@ class CameraStruct(_Given):
                 ("vertical_fov", c_double), ("height", c_double), ("projection", c_int32), ("reserved", c_int32)]
 
 
-class Picture(_Given):
-    _fields_ = [("size", c_size_t), ("camera", POINTER(CameraStruct)), ("atom_colors", c_void_p), ("width", c_int32),
-                ("height", c_int32), ("samples", c_int32), ("opaque", c_int32), ("color", c_float * 3),
-                ("background", c_float * 3), ("ambient_occlusion", c_float), ("silhouettes", c_float),
-                ("depth_cue", c_float), ("reserved", c_int32)]
+class Property(Structure):
+    _fields_ = [("name", c_char_p), ("key", c_char_p), ("value", c_char_p), ("help", c_char_p), ("words", c_char_p),
+                ("initial", c_char_p), ("lowest", c_double), ("highest", c_double), ("type", c_int32),
+                ("repeatable", c_int32), ("of_surface", c_int32), ("reserved", c_int32)]
 
 
 # Functions that fail: their arguments. All return a status.
@@ -227,12 +227,20 @@ _CALLS: dict[str, list[Any]] = {
     "default_mesh_file": [POINTER(MeshFile)],
     "mesh_save": [c_void_p, c_char_p, POINTER(MeshFile)],
     "surface_camera": [c_void_p, c_double, c_int32, POINTER(CameraStruct)],
-    "default_picture": [POINTER(Picture)],
+    "scene_new": [POINTER(c_void_p)],
+    "scene_read": [c_char_p, POINTER(c_void_p)],
+    "scene_parse": [c_char_p, POINTER(c_void_p)],
+    "scene_set": [c_void_p, c_char_p, c_char_p],
+    "scene_get": [c_void_p, c_char_p, c_size_t, POINTER(c_char_p)],
+    "scene_json": [c_void_p, c_char_p, POINTER(c_char_p)],
+    "scene_size": [c_void_p, POINTER(c_int32), POINTER(c_int32)],
+    "scene_properties": [POINTER(Array)],
     "renderer_new": [c_int32, POINTER(c_void_p)],
-    "render": [c_void_p, c_void_p, POINTER(Picture), c_void_p, c_size_t],
+    "render_scene": [c_void_p, c_void_p, c_void_p, c_size_t],
+    "render": [c_void_p, c_void_p, c_void_p, POINTER(CameraStruct), c_void_p, c_void_p, c_size_t],
 }
 _RELEASES = ("computer_release", "structure_release", "surface_release", "pockets_release", "mesh_release",
-             "renderer_release")
+             "renderer_release", "scene_release")
 
 
 def _candidates() -> list[str]:

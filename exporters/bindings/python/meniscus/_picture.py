@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of the exact surface, ray cast by GL, and PNG files of them."""
+"""Pictures, the cameras that they are taken from, and what draws them."""
 from __future__ import annotations
 
 import atexit
@@ -12,10 +12,9 @@ from typing import Any, Optional
 
 import numpy as np
 
-from ._arrays import color_of, put_colors
-from ._errors import InputError
-from ._types import Bytes, Projection
-from ._library import DEVICES, ORTHOGRAPHIC, PROJECTIONS, CameraStruct, Handle, Picture, call, default, word
+from ._arrays import atom_colors
+from ._types import AnyArray, Bytes, Projection
+from ._library import DEVICES, ORTHOGRAPHIC, PROJECTIONS, CameraStruct, Handle, call, word
 
 
 @dataclass
@@ -46,12 +45,39 @@ def framed(surface: Handle, aspect: float, projection: Projection) -> Camera:
                   "orthographic" if c.projection == ORTHOGRAPHIC else "perspective", c.vertical_fov, c.height)
 
 
+@dataclass
+class Picture:
+    """Pixels in sRGB; a notebook shows them."""
+    pixels: Bytes  #: (height, width, 4): red, green, blue, alpha (not multiplied in), rows from the top
+
+    def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> AnyArray:
+        return np.array(self.pixels, dtype=dtype) if copy or dtype else self.pixels
+
+    def png(self) -> bytes:
+        """As a PNG file."""
+        height, width, _ = self.pixels.shape
+
+        def chunk(name: bytes, content: bytes) -> bytes:
+            return struct.pack(">I", len(content)) + name + content + struct.pack(">I", zlib.crc32(name + content))
+
+        rows = np.zeros((height, 1 + 4 * width), dtype=np.uint8)  # each begins with its filter: none
+        rows[:, 1:] = self.pixels.reshape(height, 4 * width)
+        return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)) +
+                chunk(b"sRGB", b"\0") + chunk(b"IDAT", zlib.compress(rows.tobytes(), 6)) + chunk(b"IEND", b""))
+
+    _repr_png_ = png
+
+    def __repr__(self) -> str:
+        height, width, _ = self.pixels.shape
+        return f"<meniscus.Picture: {width}x{height}>"
+
+
 _renderers: dict[str, Handle] = {}
 _renderers_lock = threading.Lock()
 atexit.register(_renderers.clear)  # while there is still a thread to end
 
 
-def _renderer(device: str) -> Handle:
+def renderer(device: str) -> Handle:
     """One for all pictures: kernels are compiled once."""
     number = word("device", device, DEVICES)
     with _renderers_lock:
@@ -60,36 +86,19 @@ def _renderer(device: str) -> Handle:
         return _renderers[device]
 
 
-def painted(surface: Handle, atom_count: int, width: int, height: int, colors: Any, camera: Optional[Camera],
-            background: Any, device: str, look: dict[str, Any]) -> Bytes:
-    """(height, width, 4) bytes; see Surface.render."""
-    picture = default("picture", Picture())
-    picture.width, picture.height = width, height
-    for name, value in look.items():
-        setattr(picture, name, value)
-    put_colors(picture, colors, atom_count)
-    if background is not None:
-        picture.opaque, picture.background = 1, color_of(background, "background")
+def blank(scene: Handle) -> Picture:
+    """Of the size of a scene."""
+    width, height = ctypes.c_int32(), ctypes.c_int32()
+    call("scene_size", scene.pointer, ctypes.byref(width), ctypes.byref(height))
+    return Picture(np.zeros((height.value, width.value, 4), dtype=np.uint8))
+
+
+def painted(surface: Handle, atom_count: int, scene: Handle, colors: Any, camera: Optional[Camera],
+            device: str) -> Picture:
+    """See Surface.render."""
+    of_atoms = None if colors is None else atom_colors(colors, atom_count)
     seen_by = camera._struct() if camera else None
-    if seen_by:
-        picture.camera = ctypes.pointer(seen_by)
-    if not (0 < width <= 65535 and 0 < height <= 65535):
-        raise InputError(f"a picture of {width}x{height} pixels; each side has to be 1 to 65535")
-    pixels = np.empty((height, width, 4), dtype=np.uint8)
-    call("render", _renderer(device).pointer, surface.pointer, ctypes.byref(picture), pixels.ctypes.data, pixels.nbytes)
-    return pixels
-
-
-def png(pixels: Bytes) -> bytes:
-    """The file of (height, width, 4) bytes as Surface.render returns them."""
-    height, width, channels = pixels.shape
-    if channels != 4 or pixels.dtype != np.uint8:
-        raise InputError("a picture is an array (height, width, 4) of bytes")
-
-    def chunk(name: bytes, content: bytes) -> bytes:
-        return struct.pack(">I", len(content)) + name + content + struct.pack(">I", zlib.crc32(name + content))
-
-    rows = np.zeros((height, 1 + 4 * width), dtype=np.uint8)  # each begins with its filter: none
-    rows[:, 1:] = pixels.reshape(height, 4 * width)
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)) +
-            chunk(b"sRGB", b"\0") + chunk(b"IDAT", zlib.compress(rows.tobytes(), 6)) + chunk(b"IEND", b""))
+    picture = blank(scene)
+    call("render", renderer(device).pointer, surface.pointer, scene.pointer, ctypes.byref(seen_by) if seen_by else None,
+         None if of_atoms is None else of_atoms.ctypes.data, picture.pixels.ctypes.data, picture.pixels.nbytes)
+    return picture

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import os
-from typing import Any, Literal, NamedTuple, Optional, Union, overload
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional, Union, overload
 
 import numpy as np
 
@@ -12,11 +12,17 @@ from . import _library as lib
 from ._arrays import doubles, numbers, real_array, view
 from ._errors import GpuError, InputError
 from ._mesh import Mesh
-from ._picture import Camera, framed, painted, png
+from ._picture import Camera, Picture, framed, painted
 from ._pockets import Pocket, pockets_of
+from ._scene import Scene
 from ._structure import Structure
 from ._types import AnyArray, Bytes, Device, Floats, Indices, Kind, Projection, Quantity, Rows
 from ._units import warn_of_nanometres
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._scene_values import SurfaceValues
 
 
 class Patches(NamedTuple):
@@ -245,23 +251,22 @@ class Surface:
         """The camera that shows everything. aspect: width / height."""
         return framed(self._handle, aspect, projection)
 
-    def render(self, width: int = 1280, height: int = 960, *, colors: Optional[Any] = None,
-               camera: Optional[Camera] = None, background: Optional[Any] = None, samples: int = 9,
-               ambient_occlusion: float = 0.0, silhouettes: float = 0.0, depth_cue: float = 0.0,
-               device: Device = "auto") -> Bytes:
-        """A picture, (height, width, 4) bytes in sRGB with alpha. colors: one (3,), or one per atom (n, 3), in [0, 1];
-        background: (3,), or None for a transparent one. device: "auto", a hardware GPU if there is one, else "cpu";
-        GpuError where "gpu" or "software" is asked for and there is no GL."""
+    def render(self, *, colors: Optional[Any] = None, camera: Optional[Camera] = None, device: Device = "auto",
+               **values: Unpack[SurfaceValues]) -> Picture:
+        """A picture with the program's look: size="800x600", background="white" and what else
+        SurfaceValues has are the values of a Scene. colors: one (3,), or one per atom (n, 3), in [0, 1]. device: "auto", a
+        hardware GPU if there is one, else "cpu"; GpuError where "gpu" or "software" is asked for and there is no GL."""
         handle = self._handle
-        look = {"samples": samples, "ambient_occlusion": ambient_occlusion, "silhouettes": silhouettes,
-                "depth_cue": depth_cue}
         summary = lib.Summary(ctypes.sizeof(lib.Summary))
         lib.call("surface_summary", handle.pointer, ctypes.byref(summary))
-        return painted(handle, summary.atoms, width, height, colors, camera, background, device, look)
+        scene = Scene()
+        for name, value in values.items():
+            scene[name] = value
+        return painted(handle, summary.atoms, scene._handle, colors, camera, device)
 
     def _repr_png_(self) -> Optional[bytes]:
         try:
-            return png(self.render(640, 480, ambient_occlusion=0.7, silhouettes=1.0))
+            return self.render(size="640x480").png()
         except GpuError:
             return None  # the text below will do
 

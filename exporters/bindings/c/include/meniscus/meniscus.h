@@ -31,8 +31,8 @@
  * ones.
  *
  * Threads. All functions may be called from any number of threads at once, with the same objects, too: a computer and a
- * renderer serve one call after the other, surfaces and meshes all at once. Only meniscus_recompute
- * changes one: while it runs nobody else may use that variable. After fork() the child can go on with
+ * renderer serve one call after the other, scenes, surfaces and meshes all at once. Only meniscus_recompute
+ * changes a surface: while it runs nobody else may use that variable. After fork() the child can go on with
  * MENISCUS_CPU, as long as no other thread was in a call; what uses GL is refused there. */
 #ifndef MENISCUS_MENISCUS_H
 #define MENISCUS_MENISCUS_H
@@ -582,22 +582,65 @@ typedef struct meniscus_camera {
 MENISCUS_API meniscus_status meniscus_surface_camera(const meniscus_surface* surface, double aspect,
                                                      meniscus_projection projection, meniscus_camera* camera);
 
-typedef struct meniscus_picture {
-  size_t size;
-  const meniscus_camera* camera; /* [NULL: meniscus_surface_camera] */
-  const float* atom_colors;      /* [NULL: all have `color`] sRGB in [0, 1], three per atom */
-  int32_t width, height;         /* [1280, 960] pixels, 1 to 65,535 */
-  int32_t samples;               /* [9] rays a pixel, 1 to 1,024 */
-  int32_t opaque;                /* [0] else: before the background */
-  float color[3];                /* [0.75, 0.82, 0.9] sRGB in [0, 1] */
-  float background[3];           /* [1, 1, 1] sRGB in [0, 1] */
-  float ambient_occlusion;       /* [0] strength in [0, 1] of the shade in clefts */
-  float silhouettes;             /* [0] width in pixels of black lines, up to 16 */
-  float depth_cue;               /* [0] share in [0, 1] by which the farthest fade into the background */
-  int32_t reserved;              /* 0 */
-} meniscus_picture;
+/* Everything that can be chosen of a picture, as one value: the molecule's file and which of its atoms, their surface
+ * and its colours, what stands beside it, the view, the look, what is written into the picture. A new one has the
+ * defaults of the program. Each value has a name, that of the program's option with "_" for "-" ("depth_cue"), and a
+ * key, that of scene files ("look.depth_cue"); meniscus_scene_properties() lists all. Values are text as on the command
+ * line, with its units: "7pt", "0.5", "chain A"; of flags "true" and "false". */
+typedef struct meniscus_scene meniscus_scene;
 
-MENISCUS_API meniscus_status meniscus_default_picture(meniscus_picture* picture);
+/* *scene is overwritten, here and below. */
+MENISCUS_API meniscus_status meniscus_scene_new(meniscus_scene** scene);
+/* Reads a scene file of the program. Paths in it are seen from its folder, out of which they do not lead: a scene may
+ * come from anybody. MENISCUS_INPUT names the file, and the line or the place in it. */
+MENISCUS_API meniscus_status meniscus_scene_read(const char* path, meniscus_scene** scene);
+/* The same of its text. Paths are those of the caller, seen from the working directory. */
+MENISCUS_API meniscus_status meniscus_scene_parse(const char* json, meniscus_scene** scene);
+MENISCUS_API meniscus_scene* meniscus_scene_retain(meniscus_scene* scene);
+MENISCUS_API void meniscus_scene_release(meniscus_scene* scene);
+
+/* Sets the value of a name or key; of one that may be repeated it is added. value: NULL for the default, or for none of
+ * those added. MENISCUS_USAGE for a name or a value that cannot be; the text begins with the name, and of a selection
+ * has two more lines, as of meniscus_read(). */
+MENISCUS_API meniscus_status meniscus_scene_set(meniscus_scene* scene, const char* name, const char* value);
+/* The value, which lives as long as the scene; NULL where it is the default. n: 0, or which of those added. */
+MENISCUS_API meniscus_status meniscus_scene_get(const meniscus_scene* scene, const char* name, size_t n,
+                                                const char** value);
+/* The scene as its file has it: what is not the default. It lives as long as the scene. folder: from which its paths
+ * are seen; NULL: the working directory. */
+MENISCUS_API meniscus_status meniscus_scene_json(const meniscus_scene* scene, const char* folder, const char** json);
+/* Pixels of its picture. MENISCUS_USAGE for values that contradict each other. */
+MENISCUS_API meniscus_status meniscus_scene_size(const meniscus_scene* scene, int32_t* width, int32_t* height);
+
+/* meniscus_property.type: what a value is. */
+typedef enum meniscus_value_type MENISCUS_WORDS {
+  MENISCUS_VALUE_FLAG = 0, /* "true" or "false" */
+  MENISCUS_VALUE_NUMBER = 1,
+  MENISCUS_VALUE_COUNT = 2,    /* a whole number */
+  MENISCUS_VALUE_WORD = 3,     /* one of `words` */
+  MENISCUS_VALUE_TEXT = 4,     /* with a syntax of its own: a selection, a colour, a length such as "0.5pt" */
+  MENISCUS_VALUE_FILE = 5,     /* the path of a file that is read */
+  MENISCUS_VALUE_NEW_FILE = 6, /* or written, which this library does not */
+  MENISCUS_VALUE_CAMERA = 7    /* a camera as JSON, or the path of a file that has one */
+} meniscus_value_type;
+
+/* What can be set in a scene. Texts live as long as the library, and are "" where there is nothing to say. */
+typedef struct meniscus_property {
+  const char* name;       /* "depth_cue" */
+  const char* key;        /* "look.depth_cue" */
+  const char* value;      /* what the help calls the value: "WIDTH"; "" of flags */
+  const char* help;       /* a sentence, in the units of the value */
+  const char* words;      /* "ses|sas|vdw": all of MENISCUS_VALUE_WORD; else some that are usual */
+  const char* initial;    /* the default, as the help has it */
+  double lowest, highest; /* of numbers, counts and lengths in pixels; equal: any */
+  meniscus_value_type type;
+  int32_t repeatable; /* 1: it may be set several times */
+  int32_t of_surface; /* 1: it counts in meniscus_render(), too */
+  int32_t reserved;   /* 0 */
+} meniscus_property;
+
+/* Rows of meniscus_property, in the order of the help. */
+MENISCUS_API meniscus_status meniscus_scene_properties(meniscus_array* array);
 
 /* On GL a context of its own with its kernels, on a thread of its own: the caller's contexts are left alone. */
 typedef struct meniscus_renderer meniscus_renderer;
@@ -609,10 +652,22 @@ MENISCUS_API meniscus_status meniscus_renderer_new(meniscus_device device, menis
 MENISCUS_API meniscus_renderer* meniscus_renderer_retain(meniscus_renderer* renderer);
 MENISCUS_API void meniscus_renderer_release(meniscus_renderer* renderer);
 
-/* Ray casts the exact surface. picture: NULL for the defaults. rgba: width * height * 4 bytes, red, green, blue, alpha
- * (not multiplied in), rows from the top; rgba_size: the room there. */
+/* Draws a scene as `meniscus render` does: reads its molecule, computes it and what stands beside it, and writes its
+ * legend, labels and scale bar; the same bytes as in the program's PNG file. Where it is computed and drawn the
+ * renderer says; its `output` and `legend_file` are not written. rgba: width * height * 4 bytes of
+ * meniscus_scene_size(), red, green, blue, alpha (not multiplied in), rows from the top; rgba_size: the room there.
+ * Errors are those of meniscus_read(), meniscus_compute() and meniscus_scene_set(); MENISCUS_USAGE for a run of frames.
+ */
+MENISCUS_API meniscus_status meniscus_render_scene(meniscus_renderer* renderer, const meniscus_scene* scene,
+                                                   uint8_t* rgba, size_t rgba_size);
+
+/* Draws an exact surface of the caller's. scene: NULL for the defaults; what it says of the look, of the picture
+ * ("image." and "look." in scene files), `projection` and a single `color` count, and MENISCUS_USAGE names what else is
+ * set. camera: NULL for meniscus_surface_camera(). atom_colors: NULL, or sRGB in [0, 1], three per atom. rgba as above.
+ */
 MENISCUS_API meniscus_status meniscus_render(meniscus_renderer* renderer, const meniscus_surface* surface,
-                                             const meniscus_picture* picture, uint8_t* rgba, size_t rgba_size);
+                                             const meniscus_scene* scene, const meniscus_camera* camera,
+                                             const float* atom_colors, uint8_t* rgba, size_t rgba_size);
 
 #ifdef __cplusplus
 }

@@ -14,9 +14,9 @@
 //
 // Errors. Whatever fails throws an Error with the library's sentence; what was to be changed is as before.
 //
-// Ownership. Computer, Structure, Surface, Mesh and Renderer own one object each, and move; of what was moved from only
-// assignment and the end are left. Spans and rows of a surface or a mesh are its own memory, seen without a copy: they
-// end with it, and with Computer::recompute(atoms, surface), which computes it anew.
+// Ownership. Computer, Structure, Surface, Mesh, Scene and Renderer own one object each, and move; of what was moved
+// from only assignment and the end are left. Spans and rows of a surface or a mesh are its own memory, seen without a
+// copy: they end with it, and with Computer::recompute(atoms, surface), which computes it anew.
 //
 // Threads. As in meniscus.h: const functions of one object from any number of threads at once; a Computer and a
 // Renderer serve one call after the other.
@@ -28,6 +28,7 @@
 #include <cstdint>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -129,7 +130,6 @@ using MeshOptions = WithDefaults<meniscus_mesh_options, meniscus_default_mesh_op
 using ReadOptions = WithDefaults<meniscus_read_options, meniscus_default_read_options>;
 using PocketOptions = WithDefaults<meniscus_pocket_options, meniscus_default_pocket_options>;
 using MeshFile = WithDefaults<meniscus_mesh_file, meniscus_default_mesh_file>;
-using Picture = WithDefaults<meniscus_picture, meniscus_default_picture>;
 using Camera = meniscus_camera;  // as Surface::camera gives it
 using Ball = meniscus_ball;
 
@@ -553,6 +553,82 @@ class Computer {
 
 // ---- Pictures ----
 
+// Pixels: red, green, blue, alpha (not multiplied in), rows from the top.
+struct Picture {
+  std::int32_t width = 0, height = 0;
+  std::vector<std::uint8_t> rgba;  // width * height * 4
+};
+
+// Everything that can be chosen of a picture, as one value. Names, keys and texts are those of meniscus_scene_set():
+// Scene().set("file", "1ubq.cif").set("color", "chain").render().
+class Scene {
+ public:
+  // With the defaults of the program.
+  Scene() : scene_(made([](meniscus_scene** to) { return meniscus_scene_new(to); })) {}
+  explicit Scene(meniscus_scene* owned) : scene_(owned) {}
+
+  // A scene file of the program. InputError names the place in it.
+  static Scene read(const std::string& path) {
+    return Scene(made([&](meniscus_scene** to) { return meniscus_scene_read(path.c_str(), to); }));
+  }
+  // The text of one. Paths are seen from the working directory.
+  static Scene parse(const std::string& json) {
+    return Scene(made([&](meniscus_scene** to) { return meniscus_scene_parse(json.c_str(), to); }));
+  }
+
+  // Sets a value, or adds it where there may be several. UsageError begins with the name.
+  Scene& set(const std::string& name, const std::string& value) {
+    check(meniscus_scene_set(scene_.get(), name.c_str(), value.c_str()));
+    return *this;
+  }
+  // Back to the default.
+  Scene& reset(const std::string& name) {
+    check(meniscus_scene_set(scene_.get(), name.c_str(), nullptr));
+    return *this;
+  }
+  // The n-th value of a name; nothing where it is the default.
+  std::optional<std::string> get(const std::string& name, std::size_t n = 0) const {
+    const char* value = nullptr;
+    check(meniscus_scene_get(scene_.get(), name.c_str(), n, &value));
+    return value ? std::optional<std::string>(value) : std::nullopt;
+  }
+  // As its file has it. folder: from which paths are seen; empty: the working directory.
+  std::string json(const std::string& folder = {}) const {
+    const char* json = nullptr;
+    check(meniscus_scene_json(scene_.get(), folder.empty() ? nullptr : folder.c_str(), &json));
+    return json;
+  }
+  // What can be set.
+  static Rows<meniscus_property> properties() {
+    meniscus_array array{};
+    check(meniscus_scene_properties(&array));
+    return Rows<meniscus_property>(array);
+  }
+
+  // A transparent picture of its size.
+  Picture blank() const {
+    Picture picture;
+    check(meniscus_scene_size(scene_.get(), &picture.width, &picture.height));
+    picture.rgba.resize(std::size_t{4} * static_cast<std::size_t>(picture.width) *
+                        static_cast<std::size_t>(picture.height));
+    return picture;
+  }
+  // As `meniscus render` draws it. Renderer::render() keeps what is worth keeping between pictures.
+  Picture render(meniscus_device device = MENISCUS_AUTO) const;
+
+  // For the functions of meniscus.h; owned by this.
+  meniscus_scene* get() const noexcept { return scene_.get(); }
+
+ private:
+  template <typename Make>
+  static meniscus_scene* made(const Make& make) {
+    meniscus_scene* scene = nullptr;
+    check(make(&scene));
+    return scene;
+  }
+  detail::Handle<meniscus_scene, meniscus_scene_release> scene_;
+};
+
 // On the CPU, or on GL in a context of its own with its kernels, on a thread of its own.
 class Renderer {
  public:
@@ -564,18 +640,24 @@ class Renderer {
     renderer_.reset(renderer);
   }
 
-  // Ray casts the exact surface: width * height * 4 bytes, red, green, blue, alpha (not multiplied in), rows from the
-  // top.
-  std::vector<std::uint8_t> render(const Surface& surface, const Picture& picture = {}) const {
-    if (picture.width < 0 || picture.height < 0) throw UsageError("a picture has no negative width or height");
-    std::vector<std::uint8_t> rgba(std::size_t{4} * static_cast<std::size_t>(picture.width) *
-                                   static_cast<std::size_t>(picture.height));
-    render(surface, picture, rgba);
-    return rgba;
+  // As `meniscus render` draws it: its molecule is read and computed here.
+  Picture render(const Scene& scene) const {
+    Picture picture = scene.blank();
+    check(meniscus_render_scene(renderer_.get(), scene.get(), picture.rgba.data(), picture.rgba.size()));
+    return picture;
   }
-  // Into memory of the caller's, of that size at least.
-  void render(const Surface& surface, const Picture& picture, std::span<std::uint8_t> rgba) const {
-    check(meniscus_render(renderer_.get(), surface.get(), &picture, rgba.data(), rgba.size()));
+  // An exact surface, with the look and the size of a scene. camera: nullptr for Surface::camera(). atom_colors: none,
+  // or sRGB in [0, 1], three per atom.
+  Picture render(const Surface& surface, const Scene& scene = {}, const Camera* camera = nullptr,
+                 std::span<const float> atom_colors = {}) const {
+    if (!atom_colors.empty() && atom_colors.size() != 3 * surface.atoms().size())
+      throw UsageError("there are " + std::to_string(atom_colors.size()) + " channels for " +
+                       std::to_string(surface.atoms().size()) + " atoms; give three an atom");
+    Picture picture = scene.blank();
+    check(meniscus_render(renderer_.get(), surface.get(), scene.get(), camera,
+                          atom_colors.empty() ? nullptr : atom_colors.data(), picture.rgba.data(),
+                          picture.rgba.size()));
+    return picture;
   }
 
   // For the functions of meniscus.h; owned by this.
@@ -584,6 +666,8 @@ class Renderer {
  private:
   detail::Handle<meniscus_renderer, meniscus_renderer_release> renderer_;
 };
+
+inline Picture Scene::render(meniscus_device device) const { return Renderer(device).render(*this); }
 
 }  // namespace v0
 }  // namespace meniscus

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads a scene's molecule, aims its camera, draws its figure, and finishes the picture.
+#include "core/scene/scene_picture.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/scene/scene_values.h"
+#include "core/scene/settled_selections.h"
+#include "core/scene/view_aim.h"
+
+namespace meniscus {
+
+PictureLayout::PictureLayout(const Scene& scene, const ColorKey& key) : size(scene.picture) {
+  const LegendRequest& asked = scene.legend;
+  if (!asked.file.empty()) legend_alone = Legend(key, size.size(), asked.style).alone(scene.image.background);
+  if (!asked.within) return;
+  legend.emplace(key, size.size(), asked.style);
+  size.width = legend->molecule_size().x;
+  size.height = legend->molecule_size().y;
+}
+
+SurfaceRequest picture_request(const Scene& scene) {
+  SurfaceRequest request = scene.molecule.surface;
+  // Volume maps are looked up point by point on the CPU.
+  request.cpu = request.cpu || scene.molecule.color.by == ColorScheme::By::volume;
+  return request;
+}
+
+RenderSettings render_settings(const Scene& scene, const PictureLayout& layout) {
+  RenderSettings settings;
+  settings.size = layout.size.size();
+  settings.samples = scene.image.samples;
+  settings.aovs = scene.image.aovs;
+  settings.look = look_of(scene.look, scene.picture.size(), scene.image.background,
+                          hues_of(scene.molecule.color, scene.legend.asked()));
+  return settings;
+}
+
+void check_legend(const Scene& scene) {
+  if (scene.legend.asked() && scene.molecule.color.by == ColorScheme::By::fixed && scene.molecule.color.rules.empty())
+    throw RequestError(fmt::format("{} has nothing to explain where all is of one colour; choose another {}",
+                                   option_name("legend"), option_name("color")));
+}
+
+Framebuffer finished_picture(Framebuffer molecule, const Annotations& annotations, const PictureLayout& layout,
+                             const Camera& camera, const std::optional<glm::vec3>& background) {
+  annotate(molecule, annotations, camera, background);
+  return layout.legend ? layout.legend->add_to(molecule, background) : molecule;
+}
+
+Framebuffer scene_picture(const Scene& asked, SurfaceRenderer& renderer, const EglContext* context) {
+  if (asked.frames.asked())
+    throw RequestError("frames: this makes the picture of one molecule; `meniscus render` makes those of a run");
+  if (asked.image.extent)
+    throw RequestError("image.extent: this draws the complete surface; `meniscus render` draws without it");
+  check_legend(asked);
+  Scene scene = readied(asked);
+  settle_selections(scene.molecule, scene.frames, {.figure = &scene.figure, .view = &scene.picture});
+  scene.molecule.surface.cpu = context == nullptr;
+  const GivenCameras given = given_cameras(scene.picture, scene.run_camera);
+  Structure structure = read_molecule(scene.molecule);
+  const ViewAim aim(scene.picture, scene.molecule.show, structure);
+  Figure figure = make_figure(MoleculeBuilder(scene.molecule, context).build(std::move(structure)), scene.figure);
+  const PictureLayout layout(scene, key_of(figure.molecule));
+  const Camera camera = aim.camera(layout.size, given.still, figure.molecule.objects);
+  const Annotations annotations = annotations_of(scene.annotations, figure.molecule.structure);
+  Framebuffer drawn = draw(renderer, std::move(figure), scene.figure, camera, render_settings(scene, layout));
+  return finished_picture(std::move(drawn), annotations, layout, camera, scene.image.background);
+}
+
+}  // namespace meniscus

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From a scene to its picture: how large it is, how it is drawn, what is written into it and stands beside it.
+#pragma once
+
+#include <optional>
+
+#include "core/color/color_key.h"
+#include "core/render/annotation.h"
+#include "core/render/legend.h"
+#include "core/render/picture.h"
+#include "core/render/surface_renderer.h"
+#include "core/scene/scene.h"
+
+namespace meniscus {
+
+/// The picture's size, from which the molecule has what the legend leaves.
+struct PictureLayout {
+  ViewRequest size;
+  std::optional<Legend> legend;
+  std::optional<Framebuffer> legend_alone;  ///< of LegendRequest::file
+
+  PictureLayout(const Scene& scene, const ColorKey& key);
+};
+
+/// On what pictures are made.
+SurfaceRequest picture_request(const Scene& scene);
+
+/// How the part of the picture is drawn that the molecule has.
+RenderSettings render_settings(const Scene& scene, const PictureLayout& layout);
+
+/// Before anything is read. Throws RequestError for a legend that has nothing to explain.
+void check_legend(const Scene& scene);
+
+/// A whole picture of the molecule with what is written into it, and its legend. Throws as annotate() does.
+Framebuffer finished_picture(Framebuffer molecule, const Annotations& annotations, const PictureLayout& layout,
+                             const Camera& camera, const std::optional<glm::vec3>& background);
+
+/// The picture of a scene, as `meniscus render` makes it of one molecule: read, computed, seen and drawn. scene:
+/// complete(). context: of the renderer, in which surfaces are computed, too; nullptr: on the CPU. Throws RequestError
+/// for a run of frames and for the ways of `meniscus render` that need no complete surface, else what reading,
+/// computing and drawing throw.
+Framebuffer scene_picture(const Scene& scene, SurfaceRenderer& renderer, const EglContext* context);
+
+}  // namespace meniscus

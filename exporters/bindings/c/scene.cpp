@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sets and gives the values of scenes by their names, as the table of properties has them.
+#include "exporters/bindings/c/scene.h"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "core/base/text.h"
+#include "core/properties/properties.h"
+#include "exporters/bindings/c/caller_memory.h"
+
+namespace meniscus::c_api {
+namespace {
+
+/// In messages: as callers spell a value of scenes and an option of meniscus_read().
+std::string spelled(std::string_view name) {
+  for (const Property* property : properties())
+    if (is_scene_value(*property) && property->long_option() == "--" + std::string(name)) return value_name(*property);
+  return "the program's --" + std::string(name);
+}
+
+[[maybe_unused]] const bool kSpelled = (spell_options(spelled), true);
+
+const Property& property_named(const char* name) {
+  require(name, "name");
+  try {
+    return scene_property(name);
+  } catch (const RequestError& error) {
+    refuse(MENISCUS_USAGE, "{} {}", in_quotes(name), error.what());
+  }
+}
+
+/// Named by its key such a flag has the meaning of scene files: true is the same as nothing.
+bool is_turned(const Property& property, const char* name) { return property.has(negated) && property.key == name; }
+
+/// The text as set_value() takes it; nothing where it means the default.
+std::optional<std::string> wanted_text(const Property& property, const char* name, const char* text) {
+  if (!text) return {};
+  const bool is_true = std::string_view(text) == "true", is_false = std::string_view(text) == "false";
+  if (property.type == ValueType::flag) {
+    if (!is_true && !is_false) refuse(MENISCUS_USAGE, "{}: {} is neither true nor false", name, in_quotes(text));
+    if (is_false != is_turned(property, name)) return {};
+    return "true";
+  }
+  if (property.has(value_optional) && is_false) return {};
+  return property.has(value_optional) && is_true ? std::string() : std::string(text);
+}
+
+/// The scene with the default of one property.
+Scene without(const Scene& scene, const Property& left_out) {
+  Scene rest;
+  for (const Property* property : properties()) {
+    if (property == &left_out || !is_scene_value(*property)) continue;
+    if (const std::vector<std::string> texts = value_texts(scene, *property); !texts.empty())
+      set_value(rest, *property, texts);
+  }
+  return rest;
+}
+
+/// What the callers of scenes are told of each property; texts live as long as the library.
+struct PropertyTexts {
+  std::string name, key, value, help, words, initial;
+};
+
+const std::vector<meniscus_property>& property_rows() {
+  static const std::vector<meniscus_property> rows = [] {
+    static std::vector<PropertyTexts> texts;
+    std::vector<const Property*> held;
+    for (const Property* property : properties())
+      if (is_scene_value(*property)) held.push_back(property);
+    for (const Property* property : held)
+      texts.push_back({value_name(*property), std::string(property->key), std::string(property->value),
+                       std::string(property->help), std::string(property->words), std::string(property->initial)});
+    std::vector<meniscus_property> made;
+    for (std::size_t n = 0; n < held.size(); ++n)
+      made.push_back({texts[n].name.c_str(), texts[n].key.c_str(), texts[n].value.c_str(), texts[n].help.c_str(),
+                      texts[n].words.c_str(), texts[n].initial.c_str(), held[n]->lowest, held[n]->highest,
+                      static_cast<meniscus_value_type>(held[n]->type), held[n]->has(repeatable) ? 1 : 0,
+                      is_of_surface(*held[n]) ? 1 : 0, 0});
+    return made;
+  }();
+  return rows;
+}
+
+static_assert(static_cast<int>(ValueType::flag) == MENISCUS_VALUE_FLAG &&
+              static_cast<int>(ValueType::number) == MENISCUS_VALUE_NUMBER &&
+              static_cast<int>(ValueType::count) == MENISCUS_VALUE_COUNT &&
+              static_cast<int>(ValueType::word) == MENISCUS_VALUE_WORD &&
+              static_cast<int>(ValueType::text) == MENISCUS_VALUE_TEXT &&
+              static_cast<int>(ValueType::file) == MENISCUS_VALUE_FILE &&
+              static_cast<int>(ValueType::new_file) == MENISCUS_VALUE_NEW_FILE &&
+              static_cast<int>(ValueType::camera) == MENISCUS_VALUE_CAMERA);
+
+}  // namespace
+
+void set_at(Scene& scene, const Property& property, const std::vector<std::string>& texts, meniscus_status status,
+            const std::string& place) {
+  try {
+    set_value(scene, property, texts);
+  } catch (const SelectionError& error) {
+    refuse(status, "{}: {}\n{}", place, error.sentence(), error.picture());
+  } catch (const RequestError& error) {
+    refuse(status, "{}: {}", place, error.what());
+  }
+}
+
+bool is_of_surface(const Property& property) {
+  return property.section() == "look" || property.section() == "image" || property.key == "camera.projection" ||
+         property.key == "surface.color";
+}
+
+Scene completed(const meniscus_scene& scene) {
+  Scene copy = scene.copy();
+  try {
+    complete(copy);
+  } catch (const ValueError& error) {
+    refuse(MENISCUS_USAGE, "{}: {}", value_name(property_of(error.key())), error.what());
+  }
+  return copy;
+}
+
+}  // namespace meniscus::c_api
+
+meniscus_status meniscus_scene_new(meniscus_scene** scene) {
+  using namespace meniscus::c_api;
+  return guarded([&] {
+    require(scene, "scene");
+    *scene = new meniscus_scene();
+  });
+}
+
+meniscus_scene* meniscus_scene_retain(meniscus_scene* scene) { return meniscus::c_api::retain(scene); }
+void meniscus_scene_release(meniscus_scene* scene) { meniscus::c_api::release(scene); }
+
+meniscus_status meniscus_scene_set(meniscus_scene* scene, const char* name, const char* value) {
+  using namespace meniscus::c_api;
+  return guarded([&] {
+    require(scene, "scene");
+    const meniscus::Property& property = property_named(name);
+    const std::optional<std::string> text = wanted_text(property, name, value);
+    scene->change([&](meniscus::Scene& changed) {
+      if (text)
+        set_at(changed, property, {*text}, MENISCUS_USAGE, name);
+      else
+        changed = without(changed, property);
+    });
+  });
+}
+
+meniscus_status meniscus_scene_get(const meniscus_scene* scene, const char* name, std::size_t n, const char** value) {
+  using namespace meniscus::c_api;
+  return guarded([&] {
+    require(scene, "scene");
+    require(value, "value");
+    const meniscus::Property& property = property_named(name);
+    std::vector<std::string> texts = value_texts(scene->copy(), property);
+    if (is_turned(property, name))
+      for (std::string& text : texts) text = "false";
+    *value = n < texts.size() ? scene->kept(texts[n]) : nullptr;
+  });
+}
+
+meniscus_status meniscus_scene_size(const meniscus_scene* scene, std::int32_t* width, std::int32_t* height) {
+  using namespace meniscus::c_api;
+  return guarded([&] {
+    require(scene, "scene");
+    require(width, "width");
+    require(height, "height");
+    const glm::ivec2 size = completed(*scene).picture.size();
+    *width = size.x;
+    *height = size.y;
+  });
+}
+
+meniscus_status meniscus_scene_properties(meniscus_array* array) {
+  using namespace meniscus::c_api;
+  return guarded([&] {
+    require(array, "array");
+    *array = table_of(property_rows());
+  });
+}

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads and writes scenes as JSON, and draws them as `meniscus render` does.
+#include "core/scene/scene_picture.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/base/text_file.h"
+#include "core/mesh/check_by_mesh.h"
+#include "core/scene/scene_json.h"
+#include "core/scene/scene_paths.h"
+#include "exporters/bindings/c/renderer.h"
+#include "exporters/bindings/c/scene.h"
+
+namespace meniscus::c_api {
+namespace {
+
+constexpr std::size_t kLargestScene = std::size_t{16} << 20;
+
+bool names_file(const SceneSetting& setting, const std::string& text) {
+  const ValueType type = setting.property->type;
+  return type == ValueType::file || (type == ValueType::camera && !text.starts_with('{'));
+}
+
+/// trust: of a file; nothing: paths are those of the caller.
+Scene scene_of(std::string_view json, const std::string& file, const std::optional<SceneTrust>& trust) {
+  Scene scene;
+  for (SceneSetting& setting : parse_scene(json, file)) {
+    for (std::string& text : setting.texts)
+      if (trust && names_file(setting, text)) text = trust->path(*setting.property, text, setting.place);
+    set_at(scene, *setting.property, setting.texts, MENISCUS_INPUT, file + ": " + setting.place);
+  }
+  return scene;
+}
+
+/// Of a molecule from a file, which is not the standard input of the caller's process.
+Scene drawable(const meniscus_scene& scene) {
+  Scene drawn = completed(scene);
+  std::string& file = drawn.molecule.file;
+  if (file.empty()) refuse(MENISCUS_USAGE, "file: the scene has no molecule; set the path of its file");
+  if (file == "-") file = "./-";
+  drawn.molecule.surface.check = check_by_mesh;
+  return drawn;
+}
+
+}  // namespace
+}  // namespace meniscus::c_api
+
+meniscus_status meniscus_scene_read(const char* path, meniscus_scene** scene) {
+  using namespace meniscus::c_api;
+  return guarded([&] {
+    require(path, "path");
+    require(scene, "scene");
+    const std::string file = std::string_view(path) == "-" ? "./-" : path;
+    const std::string json = meniscus::read_text_file(file, kLargestScene).text;
+    meniscus::SceneTrust trust{.file = file};
+    trust.advice = "parse the text of the scene if it is yours";
+    *scene = new meniscus_scene(scene_of(json, file, trust));
+  });
+}
+
+meniscus_status meniscus_scene_parse(const char* json, meniscus_scene** scene) {
+  using namespace meniscus::c_api;
+  return guarded([&] {
+    require(json, "json");
+    require(scene, "scene");
+    *scene = new meniscus_scene(scene_of(json, "json", {}));
+  });
+}
+
+meniscus_status meniscus_scene_json(const meniscus_scene* scene, const char* folder, const char** json) {
+  using namespace meniscus::c_api;
+  return guarded([&] {
+    require(scene, "scene");
+    require(json, "json");
+    *json = scene->kept(meniscus::scene_text(scene->copy(), folder && *folder ? folder : "."));
+  });
+}
+
+meniscus_status meniscus_render_scene(meniscus_renderer* renderer, const meniscus_scene* scene, std::uint8_t* rgba,
+                                      std::size_t rgba_size) {
+  using namespace meniscus::c_api;
+  return guarded([&] {
+    require(renderer, "renderer");
+    require(scene, "scene");
+    const meniscus::Scene wanted = drawable(*scene);
+    require_room(wanted, rgba, rgba_size);
+    meniscus::Framebuffer drawn;
+    renderer->run([&](meniscus::SurfaceRenderer& draws, const meniscus::EglContext* context) {
+      run_on_threads(wanted.molecule.surface.threads, [&] {
+        // Volume maps are looked up point by point on the CPU.
+        const bool on_cpu = context && meniscus::picture_request(wanted).cpu;
+        drawn = on_cpu ? scene_picture(wanted, *meniscus::make_cpu_renderer(), nullptr)
+                       : scene_picture(wanted, draws, context);
+      });
+    });
+    write_pixels(drawn, wanted, rgba);
+  });
+}

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Refuses scenes of molecules, in builds without the libraries that read and write them.
+#include "exporters/bindings/c/guard.h"
+
+namespace {
+
+meniscus_status refused(const char* what) {
+  using namespace meniscus::c_api;
+  return guarded([&] {
+    refuse(MENISCUS_USAGE, "this build {} no scenes, for it was made without gemmi, nlohmann_json or FreeType", what);
+  });
+}
+
+}  // namespace
+
+meniscus_status meniscus_scene_read(const char*, meniscus_scene**) { return refused("reads"); }
+meniscus_status meniscus_scene_parse(const char*, meniscus_scene**) { return refused("parses"); }
+meniscus_status meniscus_scene_json(const meniscus_scene*, const char*, const char**) { return refused("writes"); }
+meniscus_status meniscus_render_scene(meniscus_renderer*, const meniscus_scene*, std::uint8_t*, std::size_t) {
+  return refused("draws");
+}

@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Scenes: everything that can be chosen of a picture, by the names of the program's table of properties."""
+from __future__ import annotations
+
+import ctypes
+import os
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union
+
+import numpy as np
+
+from . import _library as lib
+from ._errors import InputError, UsageError
+from ._picture import Picture, blank, renderer
+from ._types import Device, Path
+from ._units import plain
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._scene_values import SceneValues
+
+Value = Union[bool, int, float, str]
+
+
+class Property(NamedTuple):
+    """What can be set in a scene."""
+    name: str  #: "depth_cue"
+    key: str  #: of scene files, "look.depth_cue"
+    value: str  #: what the help calls the value, "WIDTH"
+    help: str  #: what it does, in its unit
+    words: list[str]  #: all that there are, or some that are usual
+    initial: str  #: the default, in words
+    lowest: float  #: of numbers and of lengths in pixels
+    highest: float  #: lowest where any is possible
+    type: int  #: meniscus_value_type of meniscus.h
+    repeatable: bool  #: a list in scenes
+    of_surface: bool  #: whether Surface.render() has it, too
+
+
+def properties() -> list[Property]:
+    """All of them, in the order of the program's help."""
+    array = lib.Array()
+    lib.call("scene_properties", ctypes.byref(array))
+
+    def told(row: lib.Property) -> Property:
+        texts = [getattr(row, field).decode() for field in ("name", "key", "value", "help", "words", "initial")]
+        words = [word for word in texts.pop(4).split("|") if word]
+        name, key, value, explained, initial = texts
+        return Property(name, key, value, explained, words, initial, row.lowest, row.highest, row.type,
+                        bool(row.repeatable), bool(row.of_surface))
+
+    return [told(lib.Property.from_address(array.data + n * array.stride)) for n in range(array.count)]
+
+
+def _text_of(name: str, value: Any) -> bytes:
+    if isinstance(value, (bool, np.bool_)):
+        return b"true" if value else b"false"
+    if isinstance(value, (str, bytes, os.PathLike)):
+        text = os.fsencode(value)
+        if b"\0" in text:
+            raise InputError(f"{name} is {value!r}, which has a zero in it")
+        return text
+    number = plain(value, name, None)
+    if isinstance(number, (int, np.integer)):
+        return str(int(number)).encode()
+    if not isinstance(number, (float, np.floating)):
+        raise InputError(f"{name} is {value!r}, neither a text nor a number")
+    return repr(float(number)).encode()
+
+
+class Scene:
+    """A scene of the program, with its defaults: Scene("1ubq.cif", color="chain", legend=True).render(). Values
+    are read and set by their names or keys, scene["look.depth_cue"], or as attributes, scene.depth_cue. None is the
+    default; a list where there may be several. UsageError begins with the name of what cannot be."""
+
+    _handle: lib.Handle
+
+    def __init__(self, file: Optional[Path] = None, /, **values: Unpack[SceneValues]) -> None:
+        object.__setattr__(self, "_handle", lib.Handle("scene", "scene_new"))
+        if file is not None:
+            self["file"] = file
+        self.set(**values)
+
+    @classmethod
+    def read(cls, path: Path) -> Scene:
+        """A scene file of the program. Paths in it do not lead out of its folder, for it may come from anybody; InputError
+        names the place in the file."""
+        return cls._of(lib.Handle("scene", "scene_read", _text_of("path", path)))
+
+    @classmethod
+    def parse(cls, json: str) -> Scene:
+        """The text of a scene file. Paths are seen from the working directory."""
+        return cls._of(lib.Handle("scene", "scene_parse", _text_of("json", json)))
+
+    @classmethod
+    def _of(cls, handle: lib.Handle) -> Scene:
+        scene = cls.__new__(cls)
+        object.__setattr__(scene, "_handle", handle)
+        return scene
+
+    def set(self, **values: Unpack[SceneValues]) -> Scene:
+        """Sets several values, and returns the scene."""
+        for name, value in values.items():
+            self[name] = value
+        return self
+
+    def __setitem__(self, name: str, value: Any) -> None:
+        encoded = _text_of("name", name)
+        texts = [_text_of(name, one) for one in (value if isinstance(value, (list, tuple)) else [value]) if one is not None]
+        lib.call("scene_set", self._handle.pointer, encoded, None)
+        for text in texts:
+            lib.call("scene_set", self._handle.pointer, encoded, text)
+
+    def __getitem__(self, name: str) -> Any:
+        texts = list(self._texts(name))
+        if not texts:
+            return None
+        known = next(p for p in properties() if name in (p.name, p.key))
+        if known.repeatable:
+            return texts
+        if known.type == lib.VALUE_FLAG:
+            return texts[0] == "true"
+        if known.type == lib.VALUE_COUNT:
+            return int(texts[0])
+        return float(texts[0]) if known.type == lib.VALUE_NUMBER else texts[0]
+
+    def _texts(self, name: str) -> Iterator[str]:
+        text = ctypes.c_char_p()
+        n = 0
+        while True:
+            lib.call("scene_get", self._handle.pointer, _text_of("name", name), n, ctypes.byref(text))
+            if text.value is None:
+                return
+            yield os.fsdecode(text.value)
+            n += 1
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        self[name] = value
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):  # of Python's own protocols
+            raise AttributeError(name)
+        try:
+            return self[name]
+        except UsageError as error:
+            raise AttributeError(str(error)) from None
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *(known.name for known in properties())]
+
+    def json(self, folder: Optional[Path] = None) -> str:
+        """As a scene file has it: what is not the default. folder: from which its paths are seen; None: the working
+        directory."""
+        text = ctypes.c_char_p()
+        lib.call("scene_json", self._handle.pointer, None if folder is None else _text_of("folder", folder),
+                 ctypes.byref(text))
+        return (text.value or b"").decode("utf-8", "replace")
+
+    def render(self, device: Device = "auto") -> Picture:
+        """The picture that `meniscus render` makes of it, byte for byte. device: where all is computed and drawn: "auto", a
+        hardware GPU if there is one, else "cpu"; GpuError where "gpu" or "software" is asked for and there is no GL."""
+        picture = blank(self._handle)
+        lib.call("render_scene", renderer(device).pointer, self._handle.pointer, picture.pixels.ctypes.data,
+                 picture.pixels.nbytes)
+        return picture
+
+    def _repr_png_(self) -> Optional[bytes]:
+        return None if self["file"] is None else self.render().png()
+
+    def __repr__(self) -> str:
+        return f"<meniscus.Scene of {self['file'] or 'no molecule yet'}>"
