@@ -74,8 +74,7 @@ void check_scene(const RenderCommand& command) {
     throw UsageError(
         "--extent draws the surface alone, whole and opaque; leave --extent away, or --opacity, --clip and the like");
   if (!scene.image.extent && command.stats) throw UsageError("--stats tells the stages of a view; add --extent");
-  if (scene.legend.asked() && scene.molecule.color.by == ColorScheme::By::fixed && scene.molecule.color.rules.empty())
-    throw UsageError("--legend has nothing to explain where all is of one colour; choose another --color");
+  check_legend(scene.legend, scene.molecule.color);
 }
 
 /// Whether the outputs can be written is known before the work begins; these vanish again.

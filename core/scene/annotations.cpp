@@ -44,6 +44,11 @@ std::string title_of(const std::string& column) {
 
 }  // namespace
 
+void check_legend(const LegendRequest& request, const ColorScheme& color) {
+  if (request.asked() && color.by == ColorScheme::By::fixed && color.rules.empty())
+    throw RequestError("--legend has nothing to explain where all is of one colour; choose another --color");
+}
+
 void parse_scale_bar(const std::string& text, AnnotationRequest& request) {
   request.scale_bar = true;
   request.bar_length.reset();

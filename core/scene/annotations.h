@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/color/color_schemes.h"
 #include "core/render/annotation.h"
 #include "core/render/legend.h"
 #include "core/structure/selection/selection.h"
@@ -29,6 +30,9 @@ struct LegendRequest {
 
   bool asked() const { return within || !file.empty(); }
 };
+
+/// Throws RequestError if a legend is asked for and all is of one colour.
+void check_legend(const LegendRequest& request, const ColorScheme& color);
 
 struct AnnotationRequest {
   std::string panel;

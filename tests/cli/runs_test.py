@@ -184,6 +184,21 @@ class RunsLikePictures(unittest.TestCase):
         hidden, both = (self.folder / f"{name}/surface_00001.mns" for name in ("blender", "both"))
         self.assertLess(hidden.stat().st_size, both.stat().st_size)
 
+    def test_a_legend_beside_a_bundle(self):
+        """It is written when the bundle is made, as the command itself writes it; workers have nothing to do with it."""
+        words = ["render", "run.pdb", "--frames", "all", "--color", "radial", "--size", "480x360", "--samples", "1"]
+        self.run_program(*words, "-o", "f_#.png", "--legend-file", "legend.png", "-q")
+        bundle = ["farm", "bundle", "bundle", "--engine", "make", "--chunk-frames", "1", "--", *words, "--legend-file", "beside.png"]
+        self.run_program(*bundle)
+        self.assertTrue((self.pixels("legend.png") == self.pixels("beside.png")).all())
+        self.assertNotIn("legend", (self.folder / "bundle/bundle.json").read_text())
+        self.run_program("work", "bundle")
+        self.assertTrue((self.pixels("f_2.png") == self.pixels("bundle/images/frame_00002.png")).all())
+        self.run_program(*bundle)  # there is nothing to do
+        done = subprocess.run([PROGRAM, *bundle[:2], "other", *bundle[3:]], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 6, done.stderr)
+        self.assertFalse((self.folder / "other").exists())
+
     def test_layers_in_a_bundle(self):
         self.run_program("farm", "bundle", "bundle", "--engine", "make", "--chunk-frames", "1", "--", "render", "run.pdb",
                          "--frames", "0-1", "--size", "40x30", "--samples", "1", "--aovs")
