@@ -3,6 +3,7 @@
 """A picture is a run of one frame: what a command makes of one model, it makes of the frame of a run that is this model."""
 
 import json
+import math
 import subprocess
 import sys
 import tempfile
@@ -38,6 +39,21 @@ def pairs(count, apart=None):
             chain, (layer, row, column) = "AB"[n // 12], (n // 12, n % 12 // 4, n % 4)
             x, y, z = 2.6 * column + 0.3 * model * layer, 2.7 * row, (33.3 if model == apart else 3.3) * layer + 0.1 * model * layer * column
             lines.append(f"ATOM  {n + 1:5d}  CA  ALA {chain}{n % 12 + 1:4d}    {x:8.3f}{y:8.3f}{z:8.3f}  1.00 10.00           C")
+        lines.append("ENDMDL")
+    return "\n".join(lines + ["END", ""])
+
+
+def shells(count):
+    """Atoms on a sphere, around a cavity; in the second model they are scattered and enclose nothing."""
+    lines = []
+    for model in range(count):
+        lines.append(f"MODEL     {model + 1:4d}")
+        radius = 30.0 if model == 1 else 5.0 + 0.2 * model
+        for n in range(60):
+            z = 1.0 - (2 * n + 1) / 60
+            around, turn = radius * (1.0 - z * z) ** 0.5, 2.399963 * n
+            lines.append(f"ATOM  {n + 1:5d}  CA  ALA A{n + 1:4d}    {around * math.cos(turn):8.3f}{around * math.sin(turn):8.3f}"
+                         f"{radius * z:8.3f}  1.00 10.00           C")
         lines.append("ENDMDL")
     return "\n".join(lines + ["END", ""])
 
@@ -176,6 +192,21 @@ class RunsLikePictures(unittest.TestCase):
         areas = [self.run_program("surface", "twice.pdb", "--assembly", "1", "--frames", "all", *words, "--csv-series", "-", "-q")
                  for words in ([], ["--instances", "separate"])]
         self.assertEqual(areas[0], areas[1])
+
+    def test_pockets(self):
+        """Meshes and scenes are those of the models, and a scene shows its frame alone; a frame may have none."""
+        (self.folder / "shells.pdb").write_text(shells(3))
+        words = ["pockets", "shells.pdb", "--min-volume", "1", "-q"]
+        self.run_program(*words, "--frames", "all", "--mesh", "mesh_#.ply", "--figure", "figure_#.json")
+        for n in (0, 2):
+            self.run_program(*words, "--model", str(n + 1), "--mesh", "one.ply", "--force")
+            self.assertEqual((self.folder / f"mesh_{n}.ply").read_bytes(), (self.folder / "one.ply").read_bytes(), n)
+            scene = json.loads((self.folder / f"figure_{n}.json").read_text())
+            self.assertEqual(scene["frames"]["frames"], n)
+            self.assertIn("=#", scene["objects"][0]["color"][1])
+        self.assertFalse((self.folder / "mesh_1.ply").exists())
+        self.run_program("render", "--scene", "figure_2.json", "--trust-scene", "-o", "p_#.png", "--size", "80x60", "-q")
+        self.assertTrue((self.folder / "p_2.png").exists())
 
     def test_a_surface_that_is_hidden(self):
         words = ["--hide-surface", "--sticks", "all", "--camera", json.dumps(CAMERA), "-q"]
