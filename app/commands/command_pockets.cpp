@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus pockets`: finds pockets, tunnels and cavities and prints their numbers; their solids as a mesh.
 #include <algorithm>
-#include <iostream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,30 +9,40 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/pockets_command.h"
+#include "app/options/numbered_path.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
 #include "app/process/program_error.h"
-#include "app/reports/notes.h"
-#include "app/reports/pocket_report.h"
 #include "core/base/output_file.h"
 #include "core/base/text.h"
-#include "core/mesh/mesh_objects.h"
-#include "core/mesh/shape_mesh.h"
-#include "core/scene/molecule_pockets.h"
-#include "exporters/mesh_files/file_object.h"
 #include "exporters/mesh_files/mesh_formats.h"
 
 namespace meniscus {
 namespace {
 
-const MeshFormat& format_of(const std::string& path) {
+void check_mesh_path(const std::string& path) {
   const MeshFormat* const format = mesh_format_of_path(path);
   if (!format || format->solid || format->atoms)
     throw UsageError(
         fmt::format("--mesh {}: the ending names no format for pockets; there are {}, but those for one "
                     "solid or for atoms",
                     in_quotes(path), mesh_format_words()));
-  return *format;
+}
+
+// Of a run each frame has one.
+void check_numbered(const char* option, const std::string& path) {
+  if (path.empty() || NumberedPath::parse(path)) return;
+  throw UsageError(fmt::format("{} {}: each frame has a file; put # where its number goes, as in {}", option,
+                               in_quotes(path), in_quotes(numbered_name(path))));
+}
+
+void check_run(const PocketsCommand& command) {
+  check_numbered("--mesh", command.mesh);
+  check_numbered("--figure", command.figure);
+  if (!command.csv.empty() && !command.scene.frames.only.empty())
+    throw UsageError(
+        "--csv needs all frames of the run, as numbers of pockets go on from one to the next; leave "
+        "--only away");
 }
 
 void check_request(const PocketsCommand& command) {
@@ -42,62 +51,23 @@ void check_request(const PocketsCommand& command) {
     throw UsageError("--instances: pockets are between all atoms, those of copies too; leave it away");
   if (command.json && command.csv == "-")
     throw UsageError("standard output holds one thing at a time: --json, or --csv -");
-  if (!command.mesh.empty()) format_of(command.mesh);
+  if (!command.mesh.empty()) check_mesh_path(command.mesh);
   if (!command.figure.empty() && !command.figure.ends_with(".json"))
     throw UsageError(
         fmt::format("--figure {}: scenes are JSON; choose a name that ends in .json", in_quotes(command.figure)));
   if (!command.figure.empty() && command.scene.molecule.file == "-")
     throw UsageError("--figure: a scene names its molecule's file, which standard input is not");
-  std::vector<std::string> paths;
-  for (const std::string& path : {command.csv, command.mesh, command.figure})
-    if (!path.empty()) paths.push_back(path);
-  if ((!command.mesh.empty() || !command.figure.empty()) && command.scene.frames.asked())
-    throw UsageError("--mesh and --figure are of one molecule; leave them away where there are frames");
+  std::vector<std::string> paths{command.csv};
+  if (command.scene.frames.asked())
+    check_run(command);
+  else
+    paths.insert(paths.end(), {command.mesh, command.figure});
   // Whether the outputs can be written is known before the work begins; these vanish again.
   for (const std::string& path : paths)
-    if (path != "-") check_output(path, command.existing());
-}
-
-void write_text(const std::string& path, const std::string& text, Existing existing) {
-  if (path.empty()) return;
-  OutputFile file(path, existing);
-  file.write(text);
-  file.commit();
-}
-
-void run_one(const PocketsCommand& command) {
-  const Structure structure = read_and_tell(command);
-  const std::vector<bool> left_out = taken_out(command, structure);
-  PocketComputer computer(command.scene.molecule.surface, command.pockets);
-  const MoleculePockets pockets = computer.compute(structure, left_out);
-  const PocketReport report{structure, pockets, computer.device()};
-  for (const std::string& hint : pocket_hints(report)) say(command, "note: " + hint);
-  if (!command.mesh.empty())
-    write_mesh_file(format_of(command.mesh), command.mesh, command.existing(),
-                    pocket_file(pocket_mesh(pockets.found, command.mesh_tolerance)));
-  if (!command.figure.empty())
-    write_text(command.figure,
-               pocket_figure(report, scene_text_beside(command.scene, command.figure), command.ligand.text()),
-               command.existing());
-  if (command.csv == "-") {
-    std::cout << pocket_csv_header() << pocket_csv_rows(report);
-    return;
-  }
-  write_text(command.csv, pocket_csv_header() + pocket_csv_rows(report), command.existing());
-  std::cout << (command.json ? pocket_json(report) : pocket_table(report));
+    if (!path.empty() && path != "-") check_output(path, command.existing());
 }
 
 }  // namespace
-
-std::vector<bool> taken_out(const PocketsCommand& command, const Structure& structure) {
-  std::vector<bool> taken = command.ligand.evaluate(structure.atoms);
-  if (std::ranges::find(taken, false) == taken.end())
-    throw InputError(structure.file, 0,
-                     fmt::format("all {} atoms are taken out by --ligand {}, so nothing is left for pockets to be "
-                                 "between; name others, or none",
-                                 with_thousands(taken.size()), in_quotes(command.ligand.text())));
-  return taken;
-}
 
 void add_pockets(CLI::App& command) {
   describe(
@@ -136,8 +106,7 @@ void add_pockets(CLI::App& command) {
     PocketsCommand& asked = declared->state;
     asked.pockets.probe_radius = asked.scene.molecule.surface.probe_radius;
     check_request(asked);
-    if (asked.scene.frames.asked()) return pockets_frames(asked);
-    run_one(asked);
+    print_pockets(asked);
   });
 }
 

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus surface`: computes the complete surface and prints its numbers: table, JSON object, CSV of atoms, residues.
 #include <algorithm>
-#include <iostream>
-#include <iterator>
 #include <memory>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -13,14 +10,8 @@
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
 #include "app/process/program_error.h"
-#include "app/reports/csv_tables.h"
-#include "app/reports/notes.h"
-#include "app/reports/surface_report.h"
 #include "core/base/output_file.h"
 #include "core/base/text.h"
-#include "core/scene/context_areas.h"
-#include "core/scene/gradient_columns.h"
-#include "core/scene/molecule.h"
 
 namespace meniscus {
 namespace {
@@ -33,45 +24,6 @@ std::vector<std::string> tables_of(const SurfaceCommand& command) {
        {command.series_csv, command.atom_csv, command.residue_csv, command.cavity_csv, command.gradient_csv})
     if (!path.empty()) paths.push_back(path);
   return paths;
-}
-
-void write(const std::string& path, const std::string& text, Existing existing) {
-  if (path.empty()) return;
-  if (is_stdout(path)) {
-    std::cout << text;
-    return;
-  }
-  OutputFile file(path, existing);
-  file.write(text);
-  file.commit();
-}
-
-void run(const SurfaceCommand& command) {
-  if (command.scene.frames.asked()) return surface_frames(command);
-  check_outputs(command);
-  const Molecule molecule = load_molecule(command);
-  std::vector<AreaColumn> columns =
-      area_columns(molecule.structure, molecule.objects, command.scene.molecule.surface.kind);
-  std::optional<ContextNote> context;
-  if (command.context) {
-    SurfaceComputer computer(command.scene.molecule.surface);
-    ContextAreas areas =
-        context_areas(command.scene.molecule, read_molecule(with_context(command.scene.molecule, *command.context)),
-                      molecule, columns, computer);
-    context = ContextNote{command.context->text(), areas.atoms};
-    std::move(areas.columns.begin(), areas.columns.end(), std::back_inserter(columns));
-  }
-  write(command.atom_csv, atom_csv_header(columns) + atom_csv_rows(molecule.structure, columns), command.existing());
-  write(command.residue_csv, residue_csv_header(columns) + residue_csv_rows(molecule.structure, columns),
-        command.existing());
-  if (!command.gradient_csv.empty()) {
-    const auto gradients = gradient_columns(molecule.structure, molecule.objects, command.scene.molecule.surface.kind);
-    write(command.gradient_csv, gradient_csv_header(gradients) + gradient_csv_rows(molecule.structure, gradients),
-          command.existing());
-  }
-  if (command.prints_csv()) return;
-  const SurfaceReport report{molecule, command.scene.molecule, columns, context};
-  std::cout << (command.json ? report_json(report) : report_table(report));
 }
 
 }  // namespace
@@ -155,7 +107,7 @@ void add_surface(CLI::App& command) {
     // Parts of surfaces are cut out by planes.
     const Division& division = declared->state.scene.molecule.division;
     declared->state.scene.molecule.surface.drawn = division.components || division.cavities != Cavities::keep;
-    run(declared->state);
+    print_surface(declared->state);
   });
 }
 

@@ -38,10 +38,11 @@ povray::SceneOptions scene_options(const SceneCommand& command, povray::Material
   return options;
 }
 
-// Whatever atoms are meant by rules in other frames. Nothing if colours change with the frames.
+// Whatever atoms are meant by rules in other frames. Nothing if colours change with the frames, or if objects have
+// colours of their own.
 std::optional<std::vector<povray::SceneColor>> colors_of_run(const Scene& asked, const ColorScheme& scheme,
                                                              const Structure& reach, const Coloring& beside) {
-  if (scheme.changes_with_frames()) return {};
+  if (scheme.changes_with_frames() || asked.figure.hides_surface || !asked.figure.objects.empty()) return {};
   const std::vector<glm::vec3> colors = run_colors(reach, scheme, beside);
   povray::ColorTable all;
   const auto add = [&](const povray::SceneColor& color) {
@@ -82,13 +83,13 @@ std::vector<std::string> comment_names(const Scene& scene, const Structure& stru
   return names;
 }
 
-// What stands beside the surface with looks of its own.
+// What stands beside the surface with looks of its own. keeps_empty: those that show nothing have a place, too.
 std::vector<povray::SceneObject> more_objects(const Figure& figure, const FigureRequest& request, const Camera& camera,
-                                              std::span<const Ball> balls) {
+                                              std::span<const Ball> balls, bool keeps_empty) {
   std::vector<povray::SceneObject> more;
   for (std::size_t n = 0; n < figure.beside.objects.size(); ++n) {
     const FigureObject& object = figure.beside.objects[n];
-    if (!object.surface && object.shapes.empty()) continue;
+    if (!keeps_empty && !object.surface && object.shapes.empty()) continue;
     const PictureObject shown = picture_object(object, request.objects[n], camera, balls);
     povray::SceneObject& made = more.emplace_back();
     if (object.surface)
@@ -109,15 +110,12 @@ void check_povray(const SceneCommand& command) {
         "--map-offset: POV-Ray samples beside the surface patch by patch, not in a film; leave "
         "--film-opacity away, or the offset");
   check_saved_camera(command);
-  if (command.scene.frames.asked() && (!command.scene.figure.objects.empty() || command.scene.figure.hides_surface))
-    throw UsageError(
-        "--object and --hide-surface: a run of frames in POV-Ray has the surface, and beside it --sticks, --balls, "
-        "--spheres and --tube; export its frames one by one (--model), or use render");
 }
 
 // What all frames of a run share: one scene, the same from every chunk.
 povray::SequenceScene sequence_of(FigureRun& run, povray::SceneOptions options) {
   const Scene& asked = run.scene();
+  const FigureRequest& figure = asked.figure;
   const Structure& reach = run.frames().reach();
   const ColorScheme scheme = color_of(asked.molecule);
   if (asked.renderer.comments && run.frames().atoms_change())
@@ -125,27 +123,40 @@ povray::SequenceScene sequence_of(FigureRun& run, povray::SceneOptions options) 
         "--comments names the atoms of all frames once, but --select means others in each; add --select-once");
   options.origin = run.framing().origin();
   options.atom_names = comment_names(asked, run.structure());
-  const BesideSurface beside = make_beside(reach, asked.figure, scheme);
-  const bool translucent = std::ranges::any_of(
-      scheme.opacities, [](const OpacityRule& rule) { return rule.opacity > 0.0f && rule.opacity < 1.0f; });
-  return povray::SequenceScene(
-      {run.frames().numbers(), run.framing().cameras, colors_of_run(asked, scheme, reach, beside.shapes.coloring),
-       run.framing().low, run.framing().high, !beside.shapes.empty(), !asked.figure.cuts.empty(), translucent,
-       scheme.volume},
-      options, asked.output);
+  const ColoredShapes beside = shown_shapes(reach, figure.representations, scheme);
+  const auto sees_through = [](const OpacityRule& rule) { return rule.opacity > 0.0f && rule.opacity < 1.0f; };
+  povray::Run shared{run.frames().numbers(), run.framing().cameras,
+                     colors_of_run(asked, scheme, reach, beside.coloring), run.framing().extent.shown};
+  shared.surface = !figure.hides_surface;
+  shared.shapes = !beside.empty();
+  shared.caps = shared.surface && !figure.cuts.empty();
+  shared.translucent = std::ranges::any_of(scheme.opacities, sees_through);
+  shared.map = scheme.volume;
+  for (const FigureObjectRequest& object : figure.objects) {
+    shared.objects.push_back({!object.shapes, false});
+    if (!object.material.empty()) shared.materials.push_back(object.material);
+    shared.translucent = shared.translucent || std::ranges::any_of(object.opacities, sees_through);
+  }
+  return povray::SequenceScene(std::move(shared), options, asked.output);
 }
 
-// The scene of one molecule.
-povray::SceneReport write_one(const Scene& asked, povray::SceneOptions options, const FigureFrame& frame) {
-  const std::vector<SurfaceObject>& objects = frame.figure.molecule.objects;
-  options.atom_names = comment_names(asked, frame.figure.molecule.structure);
-  options.shapes = &frame.figure.beside.shapes;
-  options.objects = more_objects(frame.figure, asked.figure, frame.camera, placed_balls(objects));
+// The scene of one molecule, or the part of the run's that is this frame.
+povray::SceneReport write_figure(const Scene& asked, povray::SceneOptions options, const FigureFrame& frame,
+                                 const povray::SequenceScene* sequence) {
+  const Figure& figure = frame.figure;
+  const std::vector<SurfaceObject>& objects = figure.molecule.objects;
+  const std::vector<povray::SceneObject> more =
+      more_objects(figure, asked.figure, frame.camera, placed_balls(objects), sequence != nullptr);
+  const std::span<const SurfaceObject> surface =
+      asked.figure.hides_surface ? std::span<const SurfaceObject>{} : objects;
   options.cut.planes = surface_planes(asked.figure, frame.camera, objects);
-  if (asked.figure.hides_surface && options.shapes->empty() && options.objects.empty())
+  if (sequence) return sequence->write_frame(frame.place, {surface, options.cut, &figure.beside.shapes, more});
+  options.atom_names = comment_names(asked, figure.molecule.structure);
+  options.shapes = &figure.beside.shapes;
+  options.objects = more;
+  if (asked.figure.hides_surface && figure.beside.shapes.empty() && more.empty())
     throw RequestError("the surface is not shown, and there is nothing beside it");
-  return write_scene(asked.figure.hides_surface ? std::span<const SurfaceObject>{} : objects, frame.camera, options,
-                     asked.output);
+  return write_scene(surface, frame.camera, options, asked.output);
 }
 
 void export_to_povray(const SceneCommand& command) {
@@ -180,11 +191,7 @@ void export_to_povray(const SceneCommand& command) {
   };
   run.make({kSurfaceBytesPerAtom}, [&]() -> FigureRun::Sink {
     return [&](const FigureFrame& frame) -> FinishFrame {
-      const std::vector<SurfaceObject>& objects = frame.figure.molecule.objects;
-      const povray::SceneReport report =
-          sequence ? sequence->write_frame(objects, frame.place, frame.figure.beside.shapes,
-                                           surface_planes(asked.figure, frame.camera, objects))
-                   : write_one(asked, options, frame);
+      const povray::SceneReport report = write_figure(asked, options, frame, sequence ? &*sequence : nullptr);
       return [&finish, report, number = frame.number] { return finish(report, number); };
     };
   });

@@ -51,7 +51,8 @@ Parts parts_of(const Words& words) {
   return parts;
 }
 
-/// Of the options that a bundle does not have: those that it decides by itself, and those that write files.
+/// Of the options that a bundle does not have: those that it decides by itself, and those that write files. A legend is
+/// written when the bundle is made.
 void refuse_options(const Words& arguments) {
   for (const std::string& word : arguments) {
     const std::string_view name = std::string_view(word).substr(0, word.find('='));
@@ -59,8 +60,9 @@ void refuse_options(const Words& arguments) {
       throw UsageError(fmt::format("{} behind --: the bundle and its workers decide that; leave it out", word));
     const auto is_named = [&](const Property* property) { return property->long_option() == name; };
     const auto is_possible = [&](const Property* property) {
-      return is_named(property) && (property->has(in_bundle) || property->section() == "scene" ||
-                                    std::ranges::find(kDeviceOptions, name) != std::end(kDeviceOptions));
+      return is_named(property) &&
+             (property->has(in_bundle) || property->section() == "scene" || property->key == "legend.file" ||
+              std::ranges::find(kDeviceOptions, name) != std::end(kDeviceOptions));
     };
     if (std::ranges::any_of(properties(), is_named) && std::ranges::none_of(properties(), is_possible))
       throw RequestError(fmt::format("{} is not supported in farm bundles", in_quotes(name)));

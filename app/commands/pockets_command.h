@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the options of `meniscus pockets` say, for its two halves: one molecule, and runs of frames.
+// What the options of `meniscus pockets` say.
 #pragma once
 
 #include <string>
@@ -21,11 +21,8 @@ struct PocketsCommand : SceneCommand {
   double mesh_tolerance = 0.02;
 };
 
-/// Per atom of the structure, whether it is taken out. Throws InputError if nothing would be left.
-std::vector<bool> taken_out(const PocketsCommand& command, const Structure& structure);
-
-/// A line or a row for every frame, as soon as it is there (pockets_frames.cpp). Files get their names at the end, with
-/// the frames that could be made.
-void pockets_frames(const PocketsCommand& command);
+/// Pockets of the molecule, or a line or a row for every frame, as soon as it is there (pocket_tables.cpp). Tables get
+/// their names at the end, with the frames that could be made; meshes and scenes are a file a frame.
+void print_pockets(const PocketsCommand& command);
 
 }  // namespace meniscus

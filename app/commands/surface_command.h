@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the options of `meniscus surface` say, for its two halves: one molecule, and runs of frames.
+// What the options of `meniscus surface` say.
 #pragma once
 
 #include <optional>
@@ -25,8 +25,8 @@ struct SurfaceCommand : SceneCommand {
 /// Throws UsageError for outputs that get into each other's way, OutputError for what cannot be written.
 void check_outputs(const SurfaceCommand& command);
 
-/// A line or a row for every frame, as soon as it is there, in every output that is asked for (surface_frames.cpp).
-/// Files get their names at the end, with the frames that could be made.
-void surface_frames(const SurfaceCommand& command);
+/// Numbers of the molecule, or a line or a row for every frame, as soon as it is there, in every output that is asked
+/// for (surface_tables.cpp). Files get their names at the end, with the frames that could be made.
+void print_surface(const SurfaceCommand& command);
 
 }  // namespace meniscus

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <regex>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,7 @@
 #include "app/farm/inner_path.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/structure/formats/read_structure.h"
 
 namespace meniscus::farm {
 namespace {
@@ -299,11 +301,16 @@ void check_scene(const fs::path& folder) {
 }
 
 void check_scene_frame(const fs::path& folder, std::uint64_t frame) {
-  check_text(folder, fmt::format("scene/surface_geometry_{}.inc", frame_digits(frame)), wrong_in_scene);
-  for (const char* part : {"colors", "shapes", "caps"}) {
-    const fs::path inner = fmt::format("scene/surface_{}_{}.inc", part, frame_digits(frame));
-    if (inner_entry(folder, inner) != Entry::nothing) check_text(folder, inner, wrong_in_scene);
-  }
+  const auto include = [&](std::string_view part) -> fs::path {
+    return fmt::format("scene/surface_{}_{}.inc", part, frame_digits(frame));
+  };
+  const auto is_there = [&](std::string_view part) { return inner_entry(folder, include(part)) != Entry::nothing; };
+  // A frame without a surface has colours of its own.
+  if (!is_there("colors")) check_text(folder, include("geometry"), wrong_in_scene);
+  std::vector<std::string> parts{"geometry", "colors", "shapes", "caps"};
+  for (std::size_t n = 1; n <= kMostShown; ++n) parts.push_back(fmt::format("object_{}", n));
+  for (const std::string& part : parts)
+    if (is_there(part)) check_text(folder, include(part), wrong_in_scene);
 }
 
 }  // namespace meniscus::farm

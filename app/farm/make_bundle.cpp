@@ -3,6 +3,8 @@
 #include "app/farm/make_bundle.h"
 
 #include <algorithm>
+#include <array>
+#include <optional>
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -28,8 +30,14 @@
 #include "core/base/output_file.h"
 #include "core/base/text.h"
 #include "core/camera/camera_json.h"
+#include "core/color/color_key.h"
+#include "core/render/image_output.h"
+#include "core/render/legend.h"
+#include "core/scene/annotations.h"
 #include "core/scene/frame_run.h"
 #include "core/scene/run_cameras.h"
+#include "core/scene/run_framing.h"
+#include "core/scene/scene_picture.h"
 #include "core/scene/scene_values.h"
 #include "core/scene/settled_selections.h"
 
@@ -51,13 +59,30 @@ std::optional<Camera> default_camera(const Scene& scene, const GivenCameras& giv
   return run_cameras(scene.picture, scene.run_camera, given, frames).front();
 }
 
-/// The range of buried areas in all frames, so that no worker has to compute the surfaces of all for it. Nothing if the
-/// command has its own, or none.
-std::optional<std::array<double, 2>> buried_range(const ColorScheme& color, ShownFrames& frames) {
-  if (color.by != ColorScheme::By::buried || color.range) return {};
-  const double most = frames.most_buried();
-  if (most <= 0.0) return {};
-  return std::array{0.0, most};
+/// Measures colours where that spares each worker to do it: buried areas need the surfaces of all frames. Returns their
+/// range, if the command has none.
+std::optional<std::array<double, 2>> measured_range(Scene& scene, ShownFrames& frames) {
+  ColorScheme& color = scene.molecule.color;
+  const bool is_buried = color.by == ColorScheme::By::buried && !color.range;
+  if (is_buried || !scene.legend.file.empty()) measure_colors(color, frames);
+  if (!is_buried || (*color.frames_range)[1] <= 0.0) return {};
+  return color.frames_range;
+}
+
+/// That of --legend-file, which is the same for all frames.
+std::optional<Framebuffer> legend_of(const Scene& scene, const FrameRun& frames) {
+  if (scene.legend.file.empty()) return {};
+  const ColorKey key = color_key(frames.reach(), color_of(scene.molecule), {});
+  return Legend(key, scene.picture.size(), scene.legend.style).alone(scene.image.background);
+}
+
+void write_legend(const BundledCommand& command, const Framebuffer& legend, Existing existing) {
+  const Scene& scene = command.command.scene;
+  ImageSettings settings{scene.image.background, existing, scene.look.has_linear_alpha(), scene.picture.dots_per_inch};
+  const auto is_given = [&](const char* option) { return std::ranges::count(command.further, option) > 0; };
+  settings.names_program = !is_given("--no-provenance");
+  if (is_given("--provenance")) settings.command = command_line();
+  write_image(scene.legend.file, legend, settings);
 }
 
 void add_addon(const fs::path& addon, BundleInputs& inputs) {
@@ -71,6 +96,7 @@ std::vector<std::string> bundled_words(const BundledCommand& command, const std:
                                        const std::optional<std::array<double, 2>>& range, BundleInputs& inputs) {
   Scene scene = command.command.scene;
   if (range) scene.molecule.color.range = range;
+  scene.legend.file.clear();
   // Where it is computed is said for each step.
   scene.molecule.surface.cpu = false;
   scene.molecule.surface.gl = {};
@@ -197,11 +223,13 @@ std::optional<std::uint64_t> threads_of(const std::vector<std::string>& device) 
 }
 
 Bundle described(const BundleOptions& options, const BundledCommand& asked, BundleInputs& inputs,
-                 std::vector<std::string>& notes) {
+                 std::optional<Framebuffer>& legend, std::vector<std::string>& notes) {
   SceneCommand command = asked.command;
   command.scene = readied(command.scene);
   Scene& scene = command.scene;
   settle_selections(scene.molecule, scene.frames, {.view = &scene.picture, .motion = &scene.run_camera});
+  check_legend(scene);
+  if (!scene.legend.file.empty()) check_image_path(scene.legend.file);
   const GivenCameras cameras = given_cameras(scene.picture, scene.run_camera);
   FrameRun frames(scene.molecule, scene.frames);
   tell_run(command, frames);
@@ -221,7 +249,8 @@ Bundle described(const BundleOptions& options, const BundledCommand& asked, Bund
     check_film_size(film_encoder(options.film->file, options.film->format), {bundle.width, bundle.height});
   bundle.film = options.film;
   ShownFrames shown(scene.molecule, frames);
-  const std::optional<std::array<double, 2>> range = buried_range(scene.molecule.color, shown);
+  const std::optional<std::array<double, 2>> range = measured_range(scene, shown);
+  legend = legend_of(scene, frames);
   bundle.command = bundled_words(asked, default_camera(scene, cameras, shown), range, inputs);
   if (bundle.steps.back().maker == Maker::blender) add_addon(options.addon, inputs);
   bundle.inputs = inputs.measured();
@@ -253,7 +282,8 @@ MadeBundle make_bundle(const BundleOptions& given, const BundledCommand& command
   require_printable_path("--farm-path", options.farm_path);
   MadeBundle made;
   BundleInputs inputs;
-  made.bundle = described(options, command, inputs, made.notes);
+  std::optional<Framebuffer> legend;
+  made.bundle = described(options, command, inputs, legend, made.notes);
   if (const std::optional<Bundle> there = same_bundle_at(options, made.bundle)) {
     made.bundle = *there;
     made.was_there = true;
@@ -261,6 +291,8 @@ MadeBundle make_bundle(const BundleOptions& given, const BundledCommand& command
     write_engine_files(options, made.bundle, options.folder);
     return made;
   }
+  const Existing existing = options.force ? Existing::replace : Existing::refuse;
+  if (legend) check_output(command.command.scene.legend.file, existing);
   Staging staging(options.folder);
   inputs.transfer(staging.path(), options.transfer);
   Chunking& chunking = made.bundle.chunking;
@@ -272,6 +304,7 @@ MadeBundle make_bundle(const BundleOptions& given, const BundledCommand& command
   file.write(bundle_json(made.bundle));
   file.commit();
   staging.become_target();
+  if (legend) write_legend(command, *legend, existing);
   return made;
 }
 

@@ -33,7 +33,8 @@ struct MadeBundle {
 };
 
 /// Decides camera and chunks (making one frame to see how long it takes, if chunks are asked for by
-/// time), and puts all of it under its name at once. Throws UsageError, InputError, OutputError (another bundle is
+/// time), and puts all of it under its name at once; then writes the legend that all frames have in common, if the
+/// command has one as a picture of its own. Throws UsageError, InputError, OutputError (another bundle is
 /// there and `force` is not, or something that is no bundle), RunError if the trial frame fails.
 MadeBundle make_bundle(const BundleOptions& options, const BundledCommand& command);
 

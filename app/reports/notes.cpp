@@ -92,13 +92,17 @@ std::vector<TriangleMesh> mesh_and_tell(const SceneCommand& command, std::span<c
   return meshes;
 }
 
-Molecule build_and_tell(const SceneCommand& command, Structure structure) {
-  Molecule molecule = MoleculeBuilder(command.scene.molecule).build(std::move(structure));
+void tell_built(const SceneCommand& command, const Molecule& molecule) {
   tell_beyond_map(command, molecule.beyond_map, "the surface");
   say(command, fmt::format("surface on {} in {:.1f} ms", molecule.device, total_ms(molecule.stages)));
   if (const double grown_by = change_of_radii(molecule.objects).grown_by; grown_by > 0)
     say(command,
         fmt::format("spheres that meet in one point were told apart by radii grown by up to {:.2g} Å", grown_by));
+}
+
+Molecule build_and_tell(const SceneCommand& command, Structure structure) {
+  Molecule molecule = MoleculeBuilder(command.scene.molecule).build(std::move(structure));
+  tell_built(command, molecule);
   return molecule;
 }
 

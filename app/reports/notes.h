@@ -45,6 +45,9 @@ void tell_run(const SceneCommand& command, const FrameRun& frames);
 std::vector<TriangleMesh> mesh_and_tell(const SceneCommand& command, std::span<const SurfaceObject> objects,
                                         double tolerance, bool may_be_empty = false);
 
+/// How much of the surface its map reaches, on which device it was computed, and whether radii grew.
+void tell_built(const SceneCommand& command, const Molecule& molecule);
+
 /// Computes and colours a structure, and says on which device.
 Molecule build_and_tell(const SceneCommand& command, Structure structure);
 /// The same of the molecule's file.

@@ -37,10 +37,11 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kOutput),
     new_file("report.pocket_mesh", "--mesh", "FILE",
              "Write the pockets as closed meshes, each in its colour: PLY, OBJ, GLB, 3MF, STL, OFF or VTP by the "
-             "file's ending")
+             "file's ending; of a run with # for the number")
         .in(kOutput),
-    new_file("report.pocket_figure", "--figure", "FILE",
-             "Write a scene for render, export and preview: atoms around pockets in colours, ligands as sticks")
+    new_file(
+        "report.pocket_figure", "--figure", "FILE",
+        "Write a scene for render, export and preview: atoms around pockets in colours, ligands as sticks; likewise")
         .in(kOutput),
 
     text("preview.serve", "--serve", "[PORT]",

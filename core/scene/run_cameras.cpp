@@ -91,11 +91,14 @@ std::vector<Ball> framed_there(const ViewRequest& view, const std::optional<Sele
   return {};
 }
 
-void include(std::span<const Ball> balls, Box& box) {
-  for (const Ball& ball : balls) {
+void include(const Structure& structure, RunExtent& extent) {
+  const auto include_ball = [](const Ball& ball, Box& box) {
     box.include(ball.center - ball.radius);
     box.include(ball.center + ball.radius);
-  }
+  };
+  for (const Ball& ball : standing_balls(structure))
+    for (Box* const box : {&extent.surface, &extent.shown}) include_ball(ball, *box);
+  for (const Atom& atom : structure.beside) include_ball({atom.position, atom.radius}, extent.shown);
 }
 
 }  // namespace
@@ -108,7 +111,7 @@ GivenCameras given_cameras(const ViewRequest& view, const CameraMotionRequest& m
 }
 
 std::vector<Camera> run_cameras(const ViewRequest& view, const CameraMotionRequest& motion, const GivenCameras& given,
-                                ShownFrames& frames, Box* extent) {
+                                ShownFrames& frames, RunExtent* extent) {
   const std::optional<Selection>& show = frames.molecule().show;
   const std::vector<std::uint64_t>& numbers = frames.run().numbers();
   const ViewAim aim(view, show, frames.first());
@@ -127,7 +130,7 @@ std::vector<Camera> run_cameras(const ViewRequest& view, const CameraMotionReque
     const bool aims_anew = frames.run().chooses_anew() || (show && show->uses_positions()) ||
                            (view.zoom_to && view.zoom_to->uses_positions());
     frames.survey([&](std::uint64_t place, const Structure& read, const Structure& shown_there) {
-      if (extent) include(standing_balls(shown_there), *extent);
+      if (extent) include(shown_there, *extent);
       shifts[place] = course.shift(read, shown_there);
       if (!frames_all) return;
       const std::vector<Ball> filling =

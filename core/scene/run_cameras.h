@@ -31,14 +31,19 @@ struct GivenCameras {
   bool any() const { return still || path; }
 };
 
+/// Boxes around all atoms at all frames, Å.
+struct RunExtent {
+  Box surface;  ///< those of the surface
+  Box shown;    ///< and those beside it
+};
+
 /// Those of the files that are named. Ask for them before anything is read or computed. Throws InputError.
 GivenCameras given_cameras(const ViewRequest& view, const CameraMotionRequest& motion);
 
 /// A camera for each frame of the run, by its place. Without a camera from a file, and where it is asked to fill the
-/// picture with some atoms, all frames are read once, so that these are seen in every frame. extent: gets all atoms at
-/// all frames included, in the same pass; nullptr: not asked for. Throws InputError, RequestError, and what opening an
-/// interface throws.
+/// picture with some atoms, all frames are read once, so that these are seen in every frame. extent: is found in the
+/// same pass; nullptr: not asked for. Throws InputError, RequestError, and what opening an interface throws.
 std::vector<Camera> run_cameras(const ViewRequest& view, const CameraMotionRequest& motion, const GivenCameras& given,
-                                ShownFrames& frames, Box* extent = nullptr);
+                                ShownFrames& frames, RunExtent* extent = nullptr);
 
 }  // namespace meniscus

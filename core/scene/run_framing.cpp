@@ -14,7 +14,7 @@
 
 namespace meniscus {
 
-glm::dvec3 RunFraming::origin() const { return glm::round((low + high) * 0.5e3) / 1e3; }
+glm::dvec3 RunFraming::origin() const { return glm::round((extent.surface.low + extent.surface.high) * 0.5e3) / 1e3; }
 
 namespace {
 
@@ -67,11 +67,8 @@ void measure_scheme(ColorScheme& color, ShownFrames& frames) {
 RunFraming run_framing(const ViewRequest& view, const CameraMotionRequest& motion, const GivenCameras& given,
                        ShownFrames& frames) {
   RunFraming framing;
-  Box box;
-  framing.cameras = run_cameras(view, motion, given, frames, &box);
+  framing.cameras = run_cameras(view, motion, given, frames, &framing.extent);
   if (!motion.moves()) framing.cameras.resize(1);
-  framing.low = box.low;
-  framing.high = box.high;
   return framing;
 }
 

@@ -2,7 +2,6 @@
 // What every frame of an exported run shares, whichever process makes it: cameras, extent, colours.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -15,8 +14,8 @@
 namespace meniscus {
 
 struct RunFraming {
-  std::vector<Camera> cameras;     ///< one, or one a frame if it moves
-  glm::dvec3 low{0.0}, high{0.0};  ///< Å: a box around all atoms at all frames
+  std::vector<Camera> cameras;  ///< one, or one a frame if it moves
+  RunExtent extent;
 
   /// Where coordinates of scenes begin, Å, to three decimals.
   glm::dvec3 origin() const;

@@ -84,7 +84,7 @@ void append_camera(SceneText& out, std::span<const Camera> cameras, const SceneO
 }
 
 // Which include belongs to a frame of the scene. POV-Ray's own message about a missing file would not name the frame.
-void append_frames(SceneText& out, const SceneOptions& options, const SceneFrames& frames) {
+void append_frames(SceneText& out, const SceneOptions& options, const SceneFrames& frames, bool has_surface) {
   out.literal("\n// The frames of the run, by their numbers in the trajectory.\n");
   out.literal("#declare Meniscus_Frame_Count = ").count(frames.numbers.size()).literal(";\n");
   out.literal("#declare Meniscus_Trajectory_Frame = array[").count(frames.numbers.size()).literal("] {");
@@ -93,7 +93,10 @@ void append_frames(SceneText& out, const SceneOptions& options, const SceneFrame
   out.literal("};\n#declare Meniscus_Palette = ")
       .count(frames.palette)
       .literal(";  // the includes must have the same\n");
-  out.literal(filled(scene_template("frame.inc"), {{"NAME", options.name}}));
+  // What each frame has: without a surface it is colours of its own.
+  out.literal(filled(scene_template("frame.inc"), {{"NAME", options.name},
+                                                   {"PART", has_surface ? "geometry" : "colors"},
+                                                   {"NAMED", has_surface ? "Geometry" : "Colors"}}));
 }
 
 void append_color(SceneText& out, const glm::vec3& c) { out.literal("srgb ").direction(glm::dvec3(c)); }
@@ -166,7 +169,7 @@ std::string main_text(std::span<const Camera> cameras, const SceneOptions& optio
   // Of layers that are seen through, all that show: the ray caster stops at the same share.
   out.literal(parts.translucent ? "200 adc_bailout 1/1024" : "12").literal(" #end #end\n");
   out.literal("  #if (Meniscus_Subsurface = 1) mm_per_unit 1 subsurface { samples 50, 20 } #end\n}\n#end\n");
-  if (frames) append_frames(out, options, *frames);
+  if (frames) append_frames(out, options, *frames, parts.surface);
   append_camera(out, cameras, options, origin);
   const auto include_of = [&](const std::string& part) {
     const std::string name = options.name + "_" + part;

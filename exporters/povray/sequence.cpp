@@ -14,12 +14,9 @@
 #include "core/base/output_file.h"
 #include "core/base/text.h"
 #include "core/color/color_key.h"
-#include "exporters/povray/cap_objects.h"
-#include "exporters/povray/geometry.h"
 #include "exporters/povray/scene_files.h"
 #include "exporters/povray/scene_report.h"
 #include "exporters/povray/scene_text.h"
-#include "exporters/povray/shape_objects.h"
 #include "exporters/povray/volume_map.h"
 
 namespace meniscus::povray {
@@ -79,14 +76,17 @@ SequenceScene::SequenceScene(Run run, SceneOptions options, std::filesystem::pat
     : run_(std::move(run)), options_(std::move(options)), folder_(std::move(folder)) {
   check(run_);
   check({}, options_);
-  origin_ = options_.origin ? *options_.origin : middle({run_.low, run_.high});
+  origin_ = options_.origin ? *options_.origin : middle(run_.extent);
   palette_ = palette_number(run_.colors.value_or(std::vector<SceneColor>{}), origin_);
+}
+
+SceneParts SequenceScene::parts() const {
+  return {run_.surface, false, run_.caps, run_.shapes, run_.translucent, run_.objects};
 }
 
 SceneReport SequenceScene::write_shared() const {
   const SceneFrames frames{run_.frames, palette_};
   const std::string& name = options_.name;
-  const SceneParts parts{true, false, run_.caps, run_.shapes, run_.translucent};
   const std::vector<SceneColor>* const colors = run_.colors ? &*run_.colors : nullptr;
   std::vector<SharedFile> files;
   if (run_.map) {
@@ -94,11 +94,12 @@ SceneReport SequenceScene::write_shared() const {
     std::string& values = files.back().text;
     write_density(run_.map->grid, [&](std::string_view bytes) { values += bytes; });
   }
-  const SharedFile texts[] = {{name + "_aov.inc", buffer_text(colors, options_, {run_.low, run_.high}, origin_)},
-                              {name + "_style.inc", style_text({colors, run_.map.get()}, options_, origin_)},
-                              {name + "_objects.json", objects_text(run_, options_.colors)},
-                              {name + ".pov", main_text(run_.cameras, options_, origin_, parts, &frames)},
-                              {name + ".ini", ini_text(options_, run_.frames)}};
+  const SharedFile texts[] = {
+      {name + "_aov.inc", buffer_text(colors, options_, run_.extent, origin_)},
+      {name + "_style.inc", style_text({colors, run_.map.get(), run_.materials}, options_, origin_)},
+      {name + "_objects.json", objects_text(run_, options_.colors)},
+      {name + ".pov", main_text(run_.cameras, options_, origin_, parts(), &frames)},
+      {name + ".ini", ini_text(options_, run_.frames)}};
   files.insert(files.end(), std::begin(texts), std::end(texts));
   write_shared_files(folder_, options_.existing, files);
   SceneReport report;
@@ -108,40 +109,31 @@ SceneReport SequenceScene::write_shared() const {
   return report;
 }
 
-SceneReport SequenceScene::write_frame(std::span<const SurfaceObject> given, std::size_t place,
-                                       const ColoredShapes& shapes, std::span<const ClipPlane> planes) const {
-  check(given, options_);
+SceneReport SequenceScene::write_frame(std::size_t place, const Shown& shown) const {
+  check(shown.surface, options_);
   const Camera& camera = run_.cameras[run_.cameras.size() == 1 ? 0 : place];
-  const SurfaceCut cut{{planes.begin(), planes.end()}, options_.cut.style};
-  const CutObjects cut_objects(given, cut, camera, options_);
-  const std::span<const SurfaceObject> objects = cut_objects.objects();
   ColorTable table;
   if (run_.colors)
     for (const SceneColor& color : *run_.colors) table.number(color);
-  Geometry geometry(objects, origin_, table, {options_.film, 0}, cut.planes, options_.atom_names);
-  if (run_.caps) geometry.add_caps(cut_objects.caps(), objects, cut, table);
-  if (geometry.primitive_count() == 0)
-    throw RequestError("nothing of the surface is shown, so there is no scene to write");
-  if (!shapes.empty()) add_colors(shapes, table);
+  const SceneContent content(shown, camera, options_, origin_, table);
   if (run_.colors && table.colors().size() > run_.colors->size())
     throw Error(fmt::format("frame {} has a colour that the run does not have", run_.frames[place]));
   OutputFolder output(folder_, options_.existing);
   SceneReport report;
-  const auto begin_file = [&](const char* what, const char* ending) -> OutputFile& {
+  const auto begin_file = [&](const std::string& what, const char* ending = ".inc") -> OutputFile& {
     const std::string name = fmt::format("{}_{}_{:05}{}", options_.name, what, run_.frames[place], ending);
     report.files.push_back(folder_ / name);
     return output.file(name);
   };
+  const Geometry& geometry = content.geometry();
   if (geometry.declares()) begin_file("objects", ".json").write(geometry.names_json({}));
   const std::uint32_t palette = run_.colors ? palette_ : palette_number(table.colors(), origin_);
-  if (!run_.colors) begin_file("colors", ".inc").write(frame_colors_text(table.colors(), options_, palette_, palette));
-  geometry.write(begin_file("geometry", ".inc"), palette_check(palette));
-  if (run_.caps) geometry.write_caps(begin_file("caps", ".inc"), cut);
-  if (run_.shapes) write_shapes(begin_file("shapes", ".inc"), shapes, origin_, table);
+  if (!run_.colors) begin_file("colors").write(frame_colors_text(table.colors(), options_, palette_, palette));
+  content.write(parts(), begin_file, palette_check(palette));
   output.commit();
-  report.object_count = geometry.primitive_count();
+  report.object_count = content.primitive_count();
   report.origin = origin_;
-  report.notes = notes(objects, geometry, camera);
+  report.notes = notes(content.objects(), geometry, camera);
   return report;
 }
 

@@ -13,8 +13,11 @@
 
 #include "core/camera/camera.h"
 #include "core/color/color_scale.h"
+#include "core/math/box.h"
 #include "exporters/povray/palette.h"
 #include "exporters/povray/scene.h"
+#include "exporters/povray/scene_content.h"
+#include "exporters/povray/scene_files.h"
 
 namespace meniscus::povray {
 
@@ -24,10 +27,13 @@ struct Run {
   std::vector<Camera> cameras;        ///< one for all, or one a frame; of one projection
   /// All that may occur, in the order of the style file; nothing: they change, and each frame has a file of its own.
   std::optional<std::vector<SceneColor>> colors;
-  glm::dvec3 low{0.0}, high{0.0};               ///< Å: a box around all atoms at all frames
-  bool shapes = false;                          ///< every frame has some beside the surface
-  bool caps = false;                            ///< every frame is cut by planes
+  Box extent;                                   ///< Å: around all that is shown at all frames
+  bool surface = true;                          ///< shown; else `colors` must be nothing
+  bool shapes = false;                          ///< every frame has a file of those beside the surface
+  bool caps = false;                            ///< the surface is cut by planes in every frame
   bool translucent = false;                     ///< some colour of some frame may be seen through
+  std::vector<ObjectPart> objects = {};         ///< further ones, of every frame: what each is
+  std::vector<MaterialRequest> materials = {};  ///< theirs (SceneStyle::materials)
   std::shared_ptr<const VolumePaint> map = {};  ///< of the colours that are by one
 };
 
@@ -42,14 +48,16 @@ class SequenceScene {
   /// are written, all or none. Throws OutputError.
   SceneReport write_shared() const;
 
-  /// Writes <name>_geometry_#####.inc, numbered by the frame of the trajectory, and where there are several objects
-  /// <name>_objects_#####.json; with shapes <name>_shapes_#####.inc, with caps <name>_caps_#####.inc, with colours of
-  /// its own <name>_colors_#####.inc. place: in the run, from 0. planes: those that cut this frame, some if the run has
-  /// caps. Throws what write_scene throws, and Error for a colour that is not the run's.
-  SceneReport write_frame(std::span<const SurfaceObject> given, std::size_t place, const ColoredShapes& shapes = {},
-                          std::span<const ClipPlane> planes = {}) const;
+  /// Writes <name>_geometry_#####.inc, numbered by the frame of the trajectory, and where the surface is several
+  /// objects <name>_objects_#####.json; with shapes <name>_shapes_#####.inc, with caps <name>_caps_#####.inc, with
+  /// further objects <name>_object_1_#####.inc, ..., with colours of its own <name>_colors_#####.inc. Each may show
+  /// nothing. place: in the run, from 0. shown: all that the run has. Throws what write_scene throws, and Error for a
+  /// colour that is not the run's.
+  SceneReport write_frame(std::size_t place, const Shown& shown) const;
 
  private:
+  SceneParts parts() const;
+
   Run run_;
   SceneOptions options_;
   std::filesystem::path folder_;

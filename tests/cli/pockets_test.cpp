@@ -177,7 +177,8 @@ TEST(Pockets, WhatMakesNoSenseIsSaid) {
            {{kProtease, "--mesh", "p.smesh"}, 2, "--mesh 'p.smesh'"},
            {{kProtease, "--figure", "p.png"}, 2, "--figure 'p.png'"},
            {{kProtease, "--figure", "p.json", "--csv", "p.json"}, 2, "--csv and --figure name the same file"},
-           {{kProtease, "--frames", "all", "--mesh", "p.ply"}, 2, "--mesh and --figure are of one molecule"},
+           {{kProtease, "--frames", "all", "--mesh", "p.ply"}, 2, "p_#####.ply"},
+           {{kProtease, "--frames", "all", "--figure", "p.json"}, 2, "p_#####.json"},
            {{ligand_alone}, 3, "nothing is left for pockets"},
            {{nowhere}, 3, "n.pdb"},
            {{"-", "--figure", "p.json"}, 2, "standard input"}}) {

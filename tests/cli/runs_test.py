@@ -3,6 +3,7 @@
 """A picture is a run of one frame: what a command makes of one model, it makes of the frame of a run that is this model."""
 
 import json
+import math
 import subprocess
 import sys
 import tempfile
@@ -38,6 +39,21 @@ def pairs(count, apart=None):
             chain, (layer, row, column) = "AB"[n // 12], (n // 12, n % 12 // 4, n % 4)
             x, y, z = 2.6 * column + 0.3 * model * layer, 2.7 * row, (33.3 if model == apart else 3.3) * layer + 0.1 * model * layer * column
             lines.append(f"ATOM  {n + 1:5d}  CA  ALA {chain}{n % 12 + 1:4d}    {x:8.3f}{y:8.3f}{z:8.3f}  1.00 10.00           C")
+        lines.append("ENDMDL")
+    return "\n".join(lines + ["END", ""])
+
+
+def shells(count):
+    """Atoms on a sphere, around a cavity; in the second model they are scattered and enclose nothing."""
+    lines = []
+    for model in range(count):
+        lines.append(f"MODEL     {model + 1:4d}")
+        radius = 30.0 if model == 1 else 5.0 + 0.2 * model
+        for n in range(60):
+            z = 1.0 - (2 * n + 1) / 60
+            around, turn = radius * (1.0 - z * z) ** 0.5, 2.399963 * n
+            lines.append(f"ATOM  {n + 1:5d}  CA  ALA A{n + 1:4d}    {around * math.cos(turn):8.3f}{around * math.sin(turn):8.3f}"
+                         f"{radius * z:8.3f}  1.00 10.00           C")
         lines.append("ENDMDL")
     return "\n".join(lines + ["END", ""])
 
@@ -177,12 +193,42 @@ class RunsLikePictures(unittest.TestCase):
                  for words in ([], ["--instances", "separate"])]
         self.assertEqual(areas[0], areas[1])
 
+    def test_pockets(self):
+        """Meshes and scenes are those of the models, and a scene shows its frame alone; a frame may have none."""
+        (self.folder / "shells.pdb").write_text(shells(3))
+        words = ["pockets", "shells.pdb", "--min-volume", "1", "-q"]
+        self.run_program(*words, "--frames", "all", "--mesh", "mesh_#.ply", "--figure", "figure_#.json")
+        for n in (0, 2):
+            self.run_program(*words, "--model", str(n + 1), "--mesh", "one.ply", "--force")
+            self.assertEqual((self.folder / f"mesh_{n}.ply").read_bytes(), (self.folder / "one.ply").read_bytes(), n)
+            scene = json.loads((self.folder / f"figure_{n}.json").read_text())
+            self.assertEqual(scene["frames"]["frames"], n)
+            self.assertIn("=#", scene["objects"][0]["color"][1])
+        self.assertFalse((self.folder / "mesh_1.ply").exists())
+        self.run_program("render", "--scene", "figure_2.json", "--trust-scene", "-o", "p_#.png", "--size", "80x60", "-q")
+        self.assertTrue((self.folder / "p_2.png").exists())
+
     def test_a_surface_that_is_hidden(self):
         words = ["--hide-surface", "--sticks", "all", "--camera", json.dumps(CAMERA), "-q"]
         self.run_program("export", "blender", "run.pdb", "--frames", "0-1", "-o", "blender", *words)
         self.run_program("export", "blender", "run.pdb", "--frames", "0-1", "-o", "both", *words[1:])
         hidden, both = (self.folder / f"{name}/surface_00001.mns" for name in ("blender", "both"))
         self.assertLess(hidden.stat().st_size, both.stat().st_size)
+
+    def test_a_legend_beside_a_bundle(self):
+        """It is written when the bundle is made, as the command itself writes it; workers have nothing to do with it."""
+        words = ["render", "run.pdb", "--frames", "all", "--color", "radial", "--size", "480x360", "--samples", "1"]
+        self.run_program(*words, "-o", "f_#.png", "--legend-file", "legend.png", "-q")
+        bundle = ["farm", "bundle", "bundle", "--engine", "make", "--chunk-frames", "1", "--", *words, "--legend-file", "beside.png"]
+        self.run_program(*bundle)
+        self.assertTrue((self.pixels("legend.png") == self.pixels("beside.png")).all())
+        self.assertNotIn("legend", (self.folder / "bundle/bundle.json").read_text())
+        self.run_program("work", "bundle")
+        self.assertTrue((self.pixels("f_2.png") == self.pixels("bundle/images/frame_00002.png")).all())
+        self.run_program(*bundle)  # there is nothing to do
+        done = subprocess.run([PROGRAM, *bundle[:2], "other", *bundle[3:]], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 6, done.stderr)
+        self.assertFalse((self.folder / "other").exists())
 
     def test_layers_in_a_bundle(self):
         self.run_program("farm", "bundle", "bundle", "--engine", "make", "--chunk-frames", "1", "--", "render", "run.pdb",

@@ -215,17 +215,21 @@ class Hostile(FarmCase):
     def test_scenes_of_this_program_are_run(self):
         """With all that changes their words."""
         for more in (("--material", "glass", "--by", "residue"), ("--color", "radial", "--turntable", "1"),
-                     ("--probe", "0", "--projection", "orthographic"), ("--color", "component", "--cavities", "drop")):
+                     ("--probe", "0", "--projection", "orthographic"), ("--color", "component", "--cavities", "drop"),
+                     ("--hide-surface", "--sticks", "all", "--object",
+                      json.dumps({"selection": "all", "clip": "depth>0.5", "specular": 0.3}))):
             shutil.rmtree(self.folder / "varied", ignore_errors=True)
             folder = self.bundle("varied", "export", "povray", self.molecule, "--frames", "all", "--size", "40x30",
                                  *more, "--", "surface.ini[ghost]", "+Q5", "-A")
             self.meniscus("work", folder)
 
-    def test_colors_of_frames_are_read_like_the_rest_of_a_scene(self):
+    def test_includes_of_frames_are_read_like_the_rest_of_a_scene(self):
         folder = self.bundle("colors", "export", "povray", self.molecule, "--frames", "all", "--size", "40x30", "--color", "radial",
-                             "--", "-A")
+                             "--object", json.dumps({"selection": "all", "representation": "sticks"}), "--", "-A")
         self.meniscus("work", folder)
-        self.assert_scene_refused(folder, "scene/surface_colors_00001.inc", f'#fopen F "{self.outside / "hit"}" write\n')
+        for part in ("colors", "object_1"):
+            copy = self.copy(folder)
+            self.assert_scene_refused(copy, f"scene/surface_{part}_00001.inc", f'#fopen F "{self.outside / "hit"}" write\n')
 
     def test_programs_are_not_looked_for_in_the_bundle(self):
         folder = self.copy(self.povray)

@@ -51,8 +51,8 @@ TEST_F(RunFramings, ReadEachFrameOnce) {
   EXPECT_LT(read, size * 3 / 2);
   EXPECT_EQ(framing.cameras.size(), 1u);
   // Atom a of frame f stands at f + a / 8 - 10 times the axis.
-  EXPECT_EQ(framing.low, glm::dvec3(-1.5, -11.5, -21.5));
-  EXPECT_EQ(framing.high, glm::dvec3(0.375 + 1.5 + kFrames - 1) - glm::dvec3(0, 10, 20));
+  EXPECT_EQ(framing.extent.surface.low, glm::dvec3(-1.5, -11.5, -21.5));
+  EXPECT_EQ(framing.extent.surface.high, glm::dvec3(0.375 + 1.5 + kFrames - 1) - glm::dvec3(0, 10, 20));
 }
 
 // A camera of a file asks for no pass, but the box of all atoms does.
@@ -62,8 +62,8 @@ TEST_F(RunFramings, HaveTheBoxBesideACameraOfTheirOwn) {
   ShownFrames shown(molecule_, frames);
   const RunFraming framing = run_framing({}, {}, {.still = camera, .path = {}}, shown);
   EXPECT_EQ(framing.cameras.front().position, camera.position);
-  EXPECT_EQ(framing.low.z, -21.5);
-  EXPECT_EQ(framing.high.x, 0.375 + 1.5 + kFrames - 1);
+  EXPECT_EQ(framing.extent.surface.low.z, -21.5);
+  EXPECT_EQ(framing.extent.surface.high.x, 0.375 + 1.5 + kFrames - 1);
 }
 
 // Atom a of frame f stands at f + a / 8 - 10 times the axis: each coordinate takes N values, 1 Å apart.

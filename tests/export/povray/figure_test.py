@@ -153,6 +153,16 @@ class Figure(unittest.TestCase):
         self.check("spheres seen through", "--hide-surface", "--object",
                    json.dumps({"representation": "spheres", "selection": "resi 1-40", "color": "element", "opacity": 0.4}))
 
+    def test_objects_of_a_run(self):
+        """They are those of each frame, with or without the surface."""
+        part = json.dumps({"representation": "surface", "selection": "resi 21-40", "color": "residue", "opacity": 0.5,
+                           "film_opacity": True, "clip": "depth>0.3"})
+        near = json.dumps({"representation": "balls", "selection": "within 6 of (resi 30 and name CA)", "color": "gold"})
+        pictures = self.check_run("objects", "--select", "resi 1-20", "--object", part, "--object", near, "--color", "element")
+        self.assertGreater(self.difference("the third", pictures[0], pictures[2]), 0.3)
+        self.check_run("objects alone", "--hide-surface", "--object", part, "--spheres", "resi 5")
+        self.check_run("shapes alone", "--hide-surface", "--sticks", "all", "--color", "residue")
+
     def test_interface(self):
         self.check("an interface", "--interface", "resi 1-35:resi 36-76")
         pictures = self.check_run("an interface in frames", "--interface", "resi 1-20:resi 21-40")

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The run of frames of `meniscus surface`: numbers of each as a line or a row, cavities followed from one to the next.
+// What `meniscus surface` prints and writes: numbers of a molecule, or of each frame as a line or a row, with cavities
+// followed from one to the next.
 #include <algorithm>
 #include <iostream>
 #include <iterator>
@@ -10,13 +11,11 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
+#include "app/commands/number_run.h"
 #include "app/commands/surface_command.h"
-#include "app/process/program_error.h"
 #include "app/reports/csv_tables.h"
 #include "app/reports/notes.h"
-#include "app/reports/run_frames.h"
 #include "app/reports/series_plot.h"
 #include "app/reports/surface_report.h"
 #include "core/base/output_file.h"
@@ -29,17 +28,20 @@
 namespace meniscus {
 namespace {
 
-/// What is known of a frame before its place among the others matters.
-struct FrameNumbers {
+/// What is known of a molecule, or of a frame before its place among the others matters.
+struct SurfaceNumbers {
   std::vector<SeriesValue> values;
   std::string printed, atom_header, atoms, residue_header, residues, gradient_header, gradients;
   std::vector<Cavity> cavities;
   std::vector<std::string> lining;  ///< of each
 };
 
-class SurfaceFrames {
+/// What a frame adds to the front of its rows; nothing of a single molecule.
+std::string prefix_of(const std::optional<FrameNote>& note) { return note ? frame_cells(*note) + "," : std::string(); }
+
+class SurfaceTables {
  public:
-  explicit SurfaceFrames(const SurfaceCommand& command)
+  explicit SurfaceTables(const SurfaceCommand& command)
       : command_(command),
         series_(command.series_csv, command.existing()),
         atoms_(command.atom_csv, command.existing()),
@@ -50,97 +52,91 @@ class SurfaceFrames {
     if (!command.plot.empty()) plot_.emplace(command.plot, command.existing());
   }
 
-  void run() {
-    SceneCommand command = command_;
-    FrameRun frames(command.scene.molecule, command.scene.frames);
-    tell_run(command, frames);
-    if (!command_.json && !command_.prints_csv()) std::cout << report_row_header(command_.scene.molecule);
-    // On a terminal the rows themselves tell how far it is; a bar would run into them.
-    ProgressStyle& progress = command.reporting.progress;
-    if (progress == ProgressStyle::automatic && ::isatty(STDOUT_FILENO)) progress = ProgressStyle::none;
-    std::vector<FrameWorker> workers;
-    for (const auto& builder : frame_builders(frames, command, kSurfaceBytesPerAtom * frames.structure().atoms.size()))
-      workers.push_back(worker(builder));
-    try {
-      run_frames(frames, command, std::move(workers));
-    } catch (const RunError&) {
-      commit();  // of a run that misses some frames the others are kept; the exit code tells
-      throw;
-    }
-    commit();
+  void make() {
+    NumberRun run(command_);
+    if (run.is_run() && !command_.json && !command_.prints_csv())
+      std::cout << report_row_header(command_.scene.molecule);
+    run.make(
+        kSurfaceBytesPerAtom, [this](const auto& builder) { return worker(builder); }, [this] { commit(); });
   }
 
  private:
-  FrameWorker worker(const std::shared_ptr<MoleculeBuilder>& builder) {
-    return [this, builder](RunFrame frame) -> FinishFrame {
-      const FrameNote note{frame.source, frame.time};
-      const Structure together = std::move(frame.together);
-      const Molecule molecule = builder->build(std::move(frame.structure));
-      auto numbers = std::make_shared<FrameNumbers>(numbers_of(molecule, together, note, builder->computer()));
+  NumberRun::Worker worker(const std::shared_ptr<MoleculeBuilder>& builder) {
+    return [this, builder](NumberedStructure numbered) -> FinishFrame {
+      const std::optional<FrameNote> note = numbered.note;
+      const Molecule molecule = builder->build(std::move(numbered.structure));
+      if (!note) tell_built(command_, molecule);
+      auto numbers = std::make_shared<SurfaceNumbers>(numbers_of(molecule, numbered.together, note, *builder));
       return [this, numbers, note] { return finish(*numbers, note); };
     };
   }
 
-  FrameNumbers numbers_of(const Molecule& molecule, const Structure& together, const FrameNote& note,
-                          SurfaceComputer& computer) const {
-    FrameNumbers numbers;
+  SurfaceNumbers numbers_of(const Molecule& molecule, const Structure& together, const std::optional<FrameNote>& note,
+                            MoleculeBuilder& builder) const {
+    SurfaceNumbers numbers;
     const SurfaceKind kind = command_.scene.molecule.surface.kind;
-    const bool by_atom = command_.json || command_.context || atoms_.is_wanted() || residues_.is_wanted();
+    const bool by_atom = !note || command_.json || command_.context || atoms_.is_wanted() || residues_.is_wanted();
     std::vector<AreaColumn> columns =
         by_atom ? area_columns(molecule.structure, molecule.objects, kind) : area_totals(molecule.objects, kind);
     std::optional<ContextNote> context;
     if (command_.context) {
-      ContextAreas areas = context_areas(command_.scene.molecule, together, molecule, columns, computer);
+      ContextAreas areas = context_areas(command_.scene.molecule, together, molecule, columns, builder.computer());
       context = ContextNote{command_.context->text(), areas.atoms};
       std::move(areas.columns.begin(), areas.columns.end(), std::back_inserter(columns));
     }
-    const SurfaceReport report{molecule, command_.scene.molecule, columns, context};
-    if (!command_.prints_csv())
-      numbers.printed = command_.json ? report_json_line(report, note) : report_row(report, note);
+    if (!command_.prints_csv()) numbers.printed = printed({molecule, command_.scene.molecule, columns, context}, note);
     if (series_.is_wanted() || plot_) numbers.values = series_values(molecule, columns);
-    const std::string prefix = frame_cells(note) + ",";
+    const std::string prefix = prefix_of(note), more_columns = note ? std::string(kFrameColumns) + "," : std::string();
     if (atoms_.is_wanted()) {
-      numbers.atom_header = kFrameColumns + ("," + atom_csv_header(columns));
+      numbers.atom_header = more_columns + atom_csv_header(columns);
       numbers.atoms = atom_csv_rows(molecule.structure, columns, prefix);
     }
     if (residues_.is_wanted()) {
-      numbers.residue_header = kFrameColumns + ("," + residue_csv_header(columns));
+      numbers.residue_header = more_columns + residue_csv_header(columns);
       numbers.residues = residue_csv_rows(molecule.structure, columns, prefix);
     }
     if (gradients_.is_wanted()) {
       const std::vector<GradientColumn> gradients = gradient_columns(molecule.structure, molecule.objects, kind);
-      numbers.gradient_header = kFrameColumns + ("," + gradient_csv_header(gradients));
+      numbers.gradient_header = more_columns + gradient_csv_header(gradients);
       numbers.gradients = gradient_csv_rows(molecule.structure, gradients, prefix);
     }
     if (cavities_.is_wanted()) {
-      numbers.cavities = cavities_of(molecule.surface());
+      const SurfaceObject& object = molecule.objects.front();
+      numbers.cavities = cavities_of(object.surface);
       for (Cavity& cavity : numbers.cavities) {
-        numbers.lining.push_back(lining_residues(molecule.structure, molecule.objects.front(), cavity));
-        for (std::uint32_t& atom : cavity.atoms)  // of the file, which are the same in all frames
-          atom = molecule.structure.atoms[molecule.objects.front().atom[atom]].index;
+        numbers.lining.push_back(lining_residues(molecule.structure, object, cavity));
+        for (std::uint32_t& atom : cavity.atoms) atom = lasting_number(molecule.structure, object.atom[atom]);
       }
     }
     return numbers;
   }
 
-  MadeFrame finish(FrameNumbers& numbers, const FrameNote& note) {
+  std::string printed(const SurfaceReport& report, const std::optional<FrameNote>& note) const {
+    if (!note) return command_.json ? report_json(report) : report_table(report);
+    return command_.json ? report_json_line(report, *note) : report_row(report, *note);
+  }
+
+  MadeFrame finish(SurfaceNumbers& numbers, const std::optional<FrameNote>& note) {
     if (!command_.prints_csv()) print_now(numbers.printed);
-    if (series_.is_wanted()) series_.write(series_csv_header(numbers.values), series_csv_row(numbers.values, note));
-    if (plot_) plot_frame(numbers.values, note);
     atoms_.write(numbers.atom_header, numbers.atoms);
     residues_.write(numbers.residue_header, numbers.residues);
     gradients_.write(numbers.gradient_header, numbers.gradients);
-    if (cavities_.is_wanted()) {
-      std::string rows;
-      const std::vector<CavityStep> steps = tracks_.follow(numbers.cavities);
-      for (const CavityStep& step : steps) {
-        const bool is_there = step.cavity != kNone;
-        rows += cavity_csv_row(note, step, is_there ? &numbers.cavities[step.cavity] : nullptr,
-                               is_there ? numbers.lining[step.cavity] : "");
-      }
-      cavities_.write(cavity_csv_header(), rows);
-    }
+    if (note) follow(numbers, *note);
     return {};
+  }
+
+  /// What goes on from one frame to the next.
+  void follow(SurfaceNumbers& numbers, const FrameNote& note) {
+    if (series_.is_wanted()) series_.write(series_csv_header(numbers.values), series_csv_row(numbers.values, note));
+    if (plot_) plot_frame(numbers.values, note);
+    if (!cavities_.is_wanted()) return;
+    std::string rows;
+    for (const CavityStep& step : tracks_.follow(numbers.cavities)) {
+      const bool is_there = step.cavity != kNone;
+      rows += cavity_csv_row(note, step, is_there ? &numbers.cavities[step.cavity] : nullptr,
+                             is_there ? numbers.lining[step.cavity] : "");
+    }
+    cavities_.write(cavity_csv_header(), rows);
   }
 
   void commit() {
@@ -182,12 +178,12 @@ class SurfaceFrames {
 
 }  // namespace
 
-void surface_frames(const SurfaceCommand& asked) {
+void print_surface(const SurfaceCommand& asked) {
   check_outputs(asked);
   SurfaceCommand command = asked;
   command.scene.frames.context = command.context;
   settle_selections(command.scene.molecule, command.scene.frames);
-  SurfaceFrames(command).run();
+  SurfaceTables(command).make();
 }
 
 }  // namespace meniscus
