@@ -14,7 +14,7 @@
 #include <glm/vec4.hpp>
 #include <tbb/parallel_for.h>
 
-#include "core/color/color_scale.h"
+#include "core/color/color_maps.h"
 #include "core/image/color_space.h"
 
 namespace meniscus {
