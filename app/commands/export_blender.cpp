@@ -23,7 +23,7 @@
 #include "core/mesh/velocity.h"
 #include "core/queries/copies.h"
 #include "core/scene/copied_atoms.h"
-#include "exporters/blender/atom_arrays.h"
+#include "exporters/blender/mns_file.h"
 #include "exporters/blender/sequence_manifest.h"
 #include "exporters/blender/surface_file.h"
 #include "exporters/blender/surface_numbers.h"

@@ -19,7 +19,7 @@
 #include "app/reports/notes.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/color/color_scale.h"
+#include "core/color/color_maps.h"
 #include "core/queries/copies.h"
 #include "exporters/povray/scene.h"
 #include "exporters/povray/sequence.h"

@@ -24,6 +24,7 @@
 #include "core/base/text.h"
 #include "core/color/color_atoms.h"
 #include "core/gpu/egl_context.h"
+#include "core/render/picture.h"
 #include "core/render/renderer.h"
 #include "core/scene/hidden_atoms.h"
 #include "core/scene/molecule.h"
@@ -31,7 +32,6 @@
 #include "core/scene/run_framing.h"
 #include "core/scene/settled_selections.h"
 #include "core/scene/view_aim.h"
-#include "core/visible_surface/extent.h"
 #include "core/visible_surface/view_pipeline.h"
 
 namespace meniscus {

@@ -10,7 +10,7 @@
 #include "app/preview/preview_state.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/color/color_scale.h"
+#include "core/color/color_maps.h"
 #include "core/properties/properties.h"
 #include "core/render/image_output.h"
 #include "core/scene/scene_json.h"

@@ -7,16 +7,16 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 
-#include "core/scene/object_json.h"
 #include "app/preview/command_json.h"
 #include "app/preview/commands.h"
 #include "app/preview/look_json.h"
 #include "core/base/text.h"
 #include "core/camera/camera_json.h"
-#include "core/color/color_scale.h"
+#include "core/color/color_maps.h"
 #include "core/color/named_colors.h"
 #include "core/properties/properties.h"
 #include "core/scene/copied_atoms.h"
+#include "core/scene/object_json.h"
 #include "core/structure/element_tables.h"
 
 namespace meniscus {

@@ -20,7 +20,6 @@
 #include "core/color/coloring.h"
 #include "core/render/legend.h"
 #include "core/scene/figure.h"
-#include "core/structure/atom_groups.h"
 #include "core/structure/structure.h"
 
 namespace meniscus {

@@ -27,7 +27,7 @@
 #include "core/scene/molecule.h"
 #include "core/scene/surface_computer.h"
 #include "core/surface/compute_surface.h"
-#include "exporters/blender/atom_arrays.h"
+#include "exporters/blender/mns_file.h"
 #include "exporters/blender/surface_file.h"
 #include "exporters/povray/scene.h"
 

@@ -101,8 +101,8 @@ ExitCode report_current_error() noexcept {
   ::_exit(code);
 }
 
-}  // namespace
-
+/// A standard stream that is closed gets a descriptor that nothing can be read from or written to, lest the next file
+/// opened takes its number and messages are written into it.
 void hold_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) >= 0) continue;
@@ -110,6 +110,8 @@ void hold_standard_streams() {
     [[maybe_unused]] const int held = ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
   }
 }
+
+}  // namespace
 
 void finish_standard_output() {
   std::cout.flush();

@@ -100,12 +100,7 @@ std::string on_command_line(std::string_view name) { return "--" + std::string(n
 
 OptionSpelling spelling_of_door = on_command_line;
 
-}  // namespace
-
-std::string option_name(std::string_view name) { return spelling_of_door(name); }
-
-void spell_options(OptionSpelling spelling) { spelling_of_door = spelling; }
-
+/// Letters (bytes) to change, insert or drop to get from one word to the other (Levenshtein 1966).
 std::size_t letters_apart(std::string_view from, std::string_view to) {
   std::vector<std::size_t> row(to.size() + 1);
   for (std::size_t j = 0; j <= to.size(); ++j) row[j] = j;
@@ -120,6 +115,12 @@ std::size_t letters_apart(std::string_view from, std::string_view to) {
   }
   return row[to.size()];
 }
+
+}  // namespace
+
+std::string option_name(std::string_view name) { return spelling_of_door(name); }
+
+void spell_options(OptionSpelling spelling) { spelling_of_door = spelling; }
 
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> known) {
   constexpr std::size_t kLongestWord = 40;

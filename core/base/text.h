@@ -43,9 +43,6 @@ std::string option_name(std::string_view name);
 using OptionSpelling = std::string (*)(std::string_view name);
 void spell_options(OptionSpelling spelling);
 
-/// Letters (bytes) to change, insert or drop to get from one word to the other (Levenshtein 1966).
-std::size_t letters_apart(std::string_view from, std::string_view to);
-
 /// The first of the nearest known words of more than two letters, if at most two letters differ, and of short words at
 /// most half; else empty.
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> known);

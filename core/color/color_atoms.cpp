@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/color/color_key.h"
-#include "core/color/color_scale.h"
+#include "core/color/color_maps.h"
 #include "core/color/coloring.h"
 #include "core/color/named_colors.h"
 #include "core/structure/structure.h"

@@ -13,7 +13,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/color/color_scale.h"
+#include "core/color/color_maps.h"
 #include "core/color/named_colors.h"
 #include "core/structure/element_tables.h"
 #include "core/structure/structure.h"

@@ -11,7 +11,7 @@
 #include <glm/vec3.hpp>
 #include <nlohmann/json_fwd.hpp>
 
-#include "core/color/color_scale.h"
+#include "core/color/color_maps.h"
 #include "core/color/color_schemes.h"
 
 namespace meniscus {

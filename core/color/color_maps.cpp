@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Holds the built-in colour maps and interpolates in them and in maps of the user's own.
+// Holds the built-in maps, and looks up the colour of a number on a map or on a scale.
 #include "core/color/color_maps.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 
 #include "core/color/named_colors.h"
@@ -127,6 +128,16 @@ glm::vec3 ColorRamp::color(double t) const {
       std::clamp<std::size_t>(static_cast<std::size_t>(behind - places.begin()), 1, places.size() - 1);
   const auto share = static_cast<float>((t - places[above - 1]) / (places[above] - places[above - 1]));
   return (1.0f - share) * colors[above - 1] + share * colors[above];
+}
+
+glm::vec3 ColorScale::color(double number) const {
+  if (std::isnan(number)) return missing_color;
+  if (map == ColorMap::categorical) {
+    return categorical_color(static_cast<std::size_t>(std::ranges::lower_bound(classes, number) - classes.begin()));
+  }
+  const double width = range[1] - range[0];
+  const double t = width > 0.0 ? (number - range[0]) / width : 0.5;
+  return own_map ? own_map->color(t) : mapped_color(map, t);
 }
 
 }  // namespace meniscus

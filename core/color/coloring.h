@@ -2,6 +2,7 @@
 // The colours of a surface, as picture, POV-Ray scene and Blender file share them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -41,8 +42,12 @@ struct Coloring {
   bool shows(std::uint32_t a) const { return (hidden.empty() || !hidden[a]) && opacity_of(a) > 0.0f; }
   float opacity_of(std::uint32_t a) const { return opacity.empty() ? 1.0f : opacity[a]; }
   /// Whether points of some atom are not drawn, or let through what lies behind them.
-  bool hides_some() const;
-  bool is_translucent() const;
+  bool hides_some() const {
+    return std::ranges::find(hidden, true) != hidden.end() || std::ranges::find(opacity, 0.0f) != opacity.end();
+  }
+  bool is_translucent() const {
+    return std::ranges::any_of(opacity, [](float share) { return share > 0.0f && share < 1.0f; });
+  }
 };
 
 }  // namespace meniscus

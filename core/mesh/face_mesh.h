@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangles of one face, bounded by samples of its borders, and the angle-preserving maps to the plane in which it is
-// meshed.
+// Triangles of one face, bounded by samples of its borders: maps to the plane that keep angles, points to put inside,
+// triangles.
 #pragma once
 
 #include <array>
@@ -13,10 +13,21 @@
 #include <glm/vec3.hpp>
 
 #include "core/mesh/border_samples.h"
-#include "core/mesh/sphere_lattice.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
+
+/// Unit directions and the counter-clockwise triangles between them (seen from outside).
+struct SphereLattice {
+  std::vector<glm::dvec3> directions;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// Each edge of the icosahedron in `frequency` >= 1 parts: 10 frequency^2 + 2 directions.
+SphereLattice sphere_lattice(int frequency);
+
+/// The smallest frequency whose edges are all at most `angle` radian long.
+int lattice_frequency(double angle);
 
 /// A mesh vertex of one face. `angles` is used on tori only: (theta about the axis from the patch's start, tube angle).
 struct FacePoint {

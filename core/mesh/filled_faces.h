@@ -8,7 +8,6 @@
 
 #include "core/mesh/border_samples.h"
 #include "core/mesh/face_mesh.h"
-#include "core/mesh/sphere_lattice.h"
 
 namespace meniscus {
 

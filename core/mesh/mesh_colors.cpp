@@ -13,7 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/error.h"
-#include "core/color/color_scale.h"
+#include "core/color/color_maps.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/surface/walks.h"
 

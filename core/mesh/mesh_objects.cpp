@@ -16,6 +16,7 @@
 #include "core/mesh/even_mesh.h"
 #include "core/mesh/mesh_colors.h"
 #include "core/mesh/tessellate.h"
+#include "core/queries/surface_object.h"
 
 namespace meniscus {
 

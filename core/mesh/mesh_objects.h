@@ -11,13 +11,13 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "core/math/ball.h"
-#include "core/queries/surface_object.h"
-
 namespace meniscus {
 
+struct Ball;
 struct Camera;
 struct FineMesh;
+struct Surface;
+struct SurfaceObject;
 struct TriangleMesh;
 
 /// What a camera is for: nothing finer than this many pixels can be seen.

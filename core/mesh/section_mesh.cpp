@@ -158,18 +158,8 @@ void drop_hidden(CapMesh& caps, const std::vector<bool>& shown) {
   caps = std::move(kept);
 }
 
-}  // namespace
-
-CutMesh cut_mesh(TriangleMesh mesh, std::span<const ClipPlane> planes, const CapAtoms& atoms) {
-  if (planes.empty()) return {std::move(mesh), {}};
-  const double border_length = std::sqrt(8.0 * mesh.tolerance);
-  Solid solid{mesh.positions, mesh.normals, {}, mesh.sharp_edges};
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-    solid.pieces.push_back({mesh.triangles[t], t, kNone, kNone});
-  for (std::uint32_t n = 0; n < planes.size(); ++n) solid = cut_solid(solid, planes[n], n, atoms, border_length);
-  return Sorter(mesh, solid).run();
-}
-
+/// For each atom of placed_balls(objects), the number of its look: atoms of one colour, opacity and hiddenness are a
+/// part. one_color: only opacity and hiddenness count.
 std::vector<std::uint32_t> cap_parts(std::span<const SurfaceObject> objects, bool one_color) {
   std::map<std::tuple<float, float, float, float>, std::uint32_t> known;
   std::vector<std::uint32_t> parts;
@@ -185,6 +175,18 @@ std::vector<std::uint32_t> cap_parts(std::span<const SurfaceObject> objects, boo
                 .first->second);
       }
   return parts;
+}
+
+}  // namespace
+
+CutMesh cut_mesh(TriangleMesh mesh, std::span<const ClipPlane> planes, const CapAtoms& atoms) {
+  if (planes.empty()) return {std::move(mesh), {}};
+  const double border_length = std::sqrt(8.0 * mesh.tolerance);
+  Solid solid{mesh.positions, mesh.normals, {}, mesh.sharp_edges};
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    solid.pieces.push_back({mesh.triangles[t], t, kNone, kNone});
+  for (std::uint32_t n = 0; n < planes.size(); ++n) solid = cut_solid(solid, planes[n], n, atoms, border_length);
+  return Sorter(mesh, solid).run();
 }
 
 CapMesh section_caps(std::span<const SurfaceObject> objects, std::span<const ClipPlane> planes, bool one_color,

@@ -41,10 +41,6 @@ struct CutMesh {
 /// than 1e-5 Å. Throws OpenSurfaceError if that does not help.
 CutMesh cut_mesh(TriangleMesh mesh, std::span<const ClipPlane> planes, const CapAtoms& atoms);
 
-/// For each atom of placed_balls(objects), the number of its look: atoms of one colour, opacity and hiddenness are a
-/// part. one_color: only opacity and hiddenness count.
-std::vector<std::uint32_t> cap_parts(std::span<const SurfaceObject> objects, bool one_color);
-
 /// The caps of all copies of all objects, of meshes of this tolerance (Å). CapMesh::atom: into placed_balls(objects);
 /// CapMesh::rim is empty. Triangles of hidden atoms are left out. Where solids of copies overlap, so do their caps,
 /// which have the same colours there. Throws as tessellate() and cut_mesh() do.

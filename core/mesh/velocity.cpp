@@ -58,11 +58,11 @@ glm::dvec3 radial(const ToroidalPatch& t, const glm::dvec3& x) {
 
 /// How far a direction is along the patch's arc, 0 to 1; outside of it the nearer end.
 double share_of_arc(const ToroidalPatch& t, const glm::dvec3& direction) {
-  constexpr double kTurn = 2.0 * std::numbers::pi;
+  constexpr double whole = 2.0 * std::numbers::pi;
   const double angle = std::atan2(glm::dot(direction, glm::cross(t.axis, t.start)), glm::dot(direction, t.start));
-  const double ahead = angle < 0.0 ? angle + kTurn : angle;
+  const double ahead = angle < 0.0 ? angle + whole : angle;
   if (ahead <= t.sweep) return ahead / t.sweep;
-  return ahead - t.sweep < kTurn - ahead ? 1.0 : 0.0;
+  return ahead - t.sweep < whole - ahead ? 1.0 : 0.0;
 }
 
 }  // namespace

@@ -5,31 +5,70 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cerrno>
 #include <charconv>
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include "core/base/constants.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/uninterrupted.h"
 #include "core/image/color_space.h"
 #include "core/image/image_codec.h"
-#include "core/image/memory_file.h"
 #include "core/image/png_file.h"
 
 namespace meniscus {
 namespace {
+
+/// Nobody else sees it, and it is gone with this object. A limit on the size of files (RLIMIT_FSIZE) holds for it too.
+/// Throws CapacityError where the system gives none.
+class MemoryFile {
+ public:
+  MemoryFile() : descriptor_(::memfd_create("meniscus", MFD_CLOEXEC)) {
+    if (descriptor_ < 0) throw CapacityError(std::string("no file in memory: ") + std::strerror(errno));
+  }
+  ~MemoryFile() { ::close(descriptor_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  std::string name() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+  /// All that was written to it, piece by piece: take(span of bytes).
+  void read(const auto& take) const {
+    constexpr std::size_t kPiece = 1 << 20;
+    struct stat status {};
+    ::fstat(descriptor_, &status);
+    std::vector<std::byte> piece(kPiece);
+    for (off_t taken = 0; taken < status.st_size;) {
+      const ssize_t count = uninterrupted([&] { return ::pread(descriptor_, piece.data(), piece.size(), taken); });
+      if (count <= 0) throw CapacityError(std::string("a file in memory cannot be read: ") + std::strerror(errno));
+      take(std::span<const std::byte>(piece).first(static_cast<std::size_t>(count)));
+      taken += count;
+    }
+  }
+
+ private:
+  int descriptor_;
+};
 
 std::string extension_of(const std::filesystem::path& path) {
   std::string extension = path.extension().string();

@@ -98,8 +98,7 @@ void take(const std::optional<T>& asked, U& value) {
   if (asked) value = *asked;
 }
 
-}  // namespace
-
+/// The lines of a preset are so many pixels wide in a picture of 960 pixels, and wider in larger ones.
 Look preset_look(LookPreset preset, glm::ivec2 picture_size) {
   switch (preset) {
     case LookPreset::publication:
@@ -115,6 +114,8 @@ Look preset_look(LookPreset preset, glm::ivec2 picture_size) {
   }
   return {};
 }
+
+}  // namespace
 
 std::span<const LookNumber> look_numbers() { return kNumbers; }
 

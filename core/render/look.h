@@ -150,9 +150,6 @@ Hues hues_of(const ColorScheme& color, bool legend);
 /// "--depth-cue fades them"; empty: nothing.
 std::string hue_changes(const LookRequest& request);
 
-/// The lines of a preset are so many pixels wide in a picture of 960 pixels, and wider in larger ones.
-Look preset_look(LookPreset preset, glm::ivec2 picture_size);
-
 /// background: nothing for a transparent one, in which what is far takes the colour of white paper. What the request
 /// says itself counts before `hues`.
 Look look_of(const LookRequest& request, glm::ivec2 picture_size, const std::optional<glm::vec3>& background,

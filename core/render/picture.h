@@ -50,4 +50,10 @@ struct RenderSettings {
   std::function<void(Framebuffer band, int first_row)> take_band{};
 };
 
+enum class Extent {
+  complete,  ///< all of it
+  visible,   ///< what can matter for a pixel (theorem 2): the same picture
+  paper      ///< what Krone, Dachsbacher & Ertl 2010 select: faces in deep clefts may be missing
+};
+
 }  // namespace meniscus

@@ -5,10 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/surface_computer.h"
-#include "core/structure/atom_groups.h"
-#include "core/structure/structure.h"
 #include "core/queries/surface_object.h"
+#include "core/scene/surface_computer.h"
+#include "core/structure/structure.h"
 
 namespace meniscus {
 

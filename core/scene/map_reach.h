@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "core/color/color_scale.h"
+#include "core/color/color_maps.h"
 #include "core/queries/surface_object.h"
 
 namespace meniscus {

@@ -11,7 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/color_atoms.h"
-#include "core/color/color_scale.h"
+#include "core/color/color_maps.h"
 #include "core/math/box.h"
 #include "core/queries/copies.h"
 #include "core/scene/hidden_atoms.h"

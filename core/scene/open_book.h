@@ -12,7 +12,6 @@
 #include <glm/vec3.hpp>
 
 #include "core/scene/surface_computer.h"
-#include "core/structure/atom_groups.h"
 #include "core/structure/selection/selection.h"
 #include "core/structure/structure.h"
 

@@ -8,7 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/mesh/mesh_objects.h"
-#include "core/visible_surface/extent.h"
+#include "core/render/picture.h"
 
 namespace meniscus {
 

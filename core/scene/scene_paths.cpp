@@ -37,17 +37,18 @@ std::string SceneTrust::path(const Property& property, const std::string& text, 
       fail(file, place, fmt::format("is {}, outside of the scene's folder; {}", in_quotes(text), advice));
     return path;
   }
-  const std::string advice = fmt::format("name it by {} FILE, or add --trust-scene if the scene is yours",
-                                         property.key == "output.file" ? "-o" : std::string(property.long_option()));
+  const std::string own_advice =
+      fmt::format("name it by {} FILE, or add --trust-scene if the scene is yours",
+                  property.key == "output.file" ? "-o" : std::string(property.long_option()));
   if (given != given.filename())
-    fail(
-        file, place,
-        fmt::format("is {}; a scene does not say in which folder its picture is written: {}", in_quotes(text), advice));
+    fail(file, place,
+         fmt::format("is {}; a scene does not say in which folder its picture is written: {}", in_quotes(text),
+                     own_advice));
   std::error_code ignored;
   if (replaces && fs::exists(fs::symlink_status(path, ignored)))
     fail(file, place,
          fmt::format("is {}, which exists already; --force replaces what is named on the command line: {}",
-                     in_quotes(text), advice));
+                     in_quotes(text), own_advice));
   return path;
 }
 

@@ -8,18 +8,18 @@
 #include <span>
 #include <vector>
 
-#include "core/gpu/kernel_lists.h"
 #include "core/gpu/buffer.h"
+#include "core/gpu/kernel_lists.h"
 #include "core/gpu/kernel_records.h"
 #include "core/gpu/program.h"
-#include "core/render/drawable.h"
-#include "core/render/gpu_scene.h"
-#include "core/render/ray_cast_scene.h"
 #include "core/reduced_surface/gpu/gpu_arcs.h"
 #include "core/reduced_surface/gpu/gpu_neighbors.h"
 #include "core/reduced_surface/reduced_surface.h"
+#include "core/render/gpu_scene.h"
+#include "core/render/picture.h"
+#include "core/render/ray_cast_scene.h"
+#include "core/render/renderer.h"
 #include "core/surface/primitives.h"
-#include "core/visible_surface/extent.h"
 #include "core/visible_surface/paper_selection.h"
 #include "core/visible_surface/visible_atoms.h"
 

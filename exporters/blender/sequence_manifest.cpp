@@ -12,7 +12,6 @@
 
 #include "core/base/output_file.h"
 #include "core/color/color_key.h"
-#include "exporters/blender/atom_arrays.h"
 #include "exporters/blender/mns_file.h"
 
 namespace meniscus::blender {

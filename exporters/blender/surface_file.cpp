@@ -12,7 +12,7 @@
 
 #include "core/base/text.h"
 #include "core/color/color_key.h"
-#include "core/color/color_scale.h"
+#include "core/color/color_maps.h"
 #include "core/mesh/mesh_colors.h"
 #include "exporters/blender/mns_file.h"
 

@@ -13,7 +13,6 @@
 #include "core/mesh/triangle_mesh.h"
 #include "core/queries/surface_object.h"
 #include "core/render/picture_object.h"
-#include "exporters/blender/atom_arrays.h"
 #include "exporters/blender/mns_file.h"
 #include "exporters/mesh_files/mesh_file.h"
 #include "exporters/mesh_files/mesh_formats.h"

@@ -55,7 +55,4 @@ struct MeshFile {
   std::vector<InnerPoint> cavities, solids;
 };
 
-/// One object that has them all; the name of the first.
-FileObject joined(std::vector<FileObject> objects);
-
 }  // namespace meniscus

@@ -12,6 +12,31 @@
 namespace meniscus {
 namespace {
 
+template <class T>
+void append(std::vector<T>& to, const std::vector<T>& more) {
+  to.insert(to.end(), more.begin(), more.end());
+}
+
+/// One object that has them all; the name of the first.
+FileObject joined(std::vector<FileObject> objects) {
+  FileObject whole = std::move(objects.front());
+  for (std::size_t n = 1; n < objects.size(); ++n) {
+    FileObject& next = objects[n];
+    const auto first = static_cast<std::uint32_t>(whole.positions.size());
+    append(whole.positions, next.positions);
+    append(whole.normals, next.normals);
+    append(whole.colors, next.colors);
+    append(whole.atom, next.atom);
+    append(whole.kind, next.kind);
+    append(whole.component, next.component);
+    for (const auto& [a, b, c] : next.triangles) whole.triangles.push_back({first + a, first + b, first + c});
+    for (std::size_t k = 0; k < whole.numbers.size(); ++k) append(whole.numbers[k].values, next.numbers[k].values);
+    whole.is_cavity = whole.is_cavity && next.is_cavity;
+    next = {};
+  }
+  return whole;
+}
+
 constexpr auto kFormats = std::to_array<MeshFormat>({
     // word, title, unit, objects, colors, numbers, solid, atoms
     {"stl", "STL, binary", "", false, false, false, false, false, write_stl},

@@ -186,6 +186,27 @@ std::vector<SceneMesh> split(const std::vector<SceneMesh>& meshes) {
   return parts;
 }
 
+/// Positions, normals and, where asked for, colours as floats r, g, b, which Mitsuba reads as "vertex_color".
+void write_mesh(OutputFile& file, const SceneMesh& mesh, bool with_colors) {
+  std::string header = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", mesh.positions.size());
+  for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) header += fmt::format("property float {}\n", name);
+  if (with_colors)
+    for (const char* name : {"r", "g", "b"}) header += fmt::format("property float {}\n", name);
+  header += fmt::format("element face {}\nproperty list uchar int vertex_indices\nend_header\n", mesh.triangles.size());
+  BinaryRows rows;
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    rows.put(mesh.positions[v]);
+    rows.put(mesh.normals[v]);
+    if (with_colors) rows.put(mesh.colors[v]);
+  }
+  for (const auto& triangle : mesh.triangles) {
+    rows.put(std::uint8_t{3});
+    rows.put(triangle);
+  }
+  file.write(header);
+  file.write(rows.bytes());
+}
+
 }  // namespace
 
 SceneReport write_scene(const Scene& given, const SceneTarget& target) {
@@ -219,26 +240,6 @@ SceneReport write_scene(const Scene& given, const SceneTarget& target) {
 }
 
 // Turk 1994).
-
-void write_mesh(OutputFile& file, const SceneMesh& mesh, bool with_colors) {
-  std::string header = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", mesh.positions.size());
-  for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) header += fmt::format("property float {}\n", name);
-  if (with_colors)
-    for (const char* name : {"r", "g", "b"}) header += fmt::format("property float {}\n", name);
-  header += fmt::format("element face {}\nproperty list uchar int vertex_indices\nend_header\n", mesh.triangles.size());
-  BinaryRows rows;
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    rows.put(mesh.positions[v]);
-    rows.put(mesh.normals[v]);
-    if (with_colors) rows.put(mesh.colors[v]);
-  }
-  for (const auto& triangle : mesh.triangles) {
-    rows.put(std::uint8_t{3});
-    rows.put(triangle);
-  }
-  file.write(header);
-  file.write(rows.bytes());
-}
 
 namespace {
 

@@ -56,9 +56,6 @@ struct SceneReport {
 /// nothing, OutputError.
 SceneReport write_scene(const Scene& scene, const SceneTarget& target);
 
-/// Positions, normals and, where asked for, colours as floats r, g, b, which Mitsuba reads as "vertex_color".
-void write_mesh(OutputFile& file, const SceneMesh& mesh, bool with_colors);
-
 /// In the order in which colours occur; those that are alike in sRGB of 8 bits a channel are one, that which it is
 /// there. The colour of a triangle is that of its corners, which is one.
 std::vector<SceneMesh> split_colors(const SceneMesh& mesh);

@@ -12,7 +12,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/camera/camera.h"
-#include "core/color/color_scale.h"
+#include "core/color/color_maps.h"
 #include "core/math/box.h"
 #include "exporters/povray/palette.h"
 #include "exporters/povray/scene_options.h"

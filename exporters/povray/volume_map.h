@@ -8,7 +8,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/color/color_scale.h"
+#include "core/color/color_maps.h"
 #include "exporters/povray/scene_text.h"
 
 namespace meniscus::povray {

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/preview/window/latency.h"
-#include "app/preview/window/session_thread.h"
+#include "app/preview/window/session_link.h"
 
 namespace meniscus {
 

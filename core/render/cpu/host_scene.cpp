@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lists, on the CPU, the primitives that may show in each tile of a picture.
+// Lists, on the CPU, the primitives that may show in each tile of a picture, and asks volume maps for colours of
+// points.
 #include "core/render/cpu/host_scene.h"
 
 #include <algorithm>
@@ -12,6 +13,9 @@
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 #include <tbb/parallel_for.h>
+
+#include "core/color/color_maps.h"
+#include "core/image/color_space.h"
 
 namespace meniscus {
 namespace {
@@ -92,6 +96,12 @@ LaneList SortedList::sort(std::span<const std::uint32_t> entries, std::span<cons
           numbers_[3].data(),
           numbers_[4].data(),
           primitives_.data()};
+}
+
+glm::vec3 painted(const PointPaint& paint, std::uint32_t atom, const glm::vec4& atom_color, const glm::vec3& x,
+                  const glm::vec3& normal) {
+  if (paint.keeps_color[atom]) return glm::vec3(atom_color);
+  return linear_from_srgb(paint.map->color(paint.pivot + glm::dvec3(x), glm::dvec3(normal)));
 }
 
 }  // namespace meniscus

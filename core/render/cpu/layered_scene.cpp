@@ -10,7 +10,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/color/color_scale.h"
+#include "core/color/color_maps.h"
 #include "core/image/color_space.h"
 #include "core/render/linear_colors.h"
 #include "core/render/shape_packing.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads H5MD, and the HDF5 of MDTraj, through the HDF5 library: a module of its own, see h5md_format.cpp.
-#include "core/trajectory/formats/read_h5md.h"
+// Reads H5MD, and the HDF5 of MDTraj, through the HDF5 library: a module of its own, see
+// trajectory_formats.cpp.
+#include "core/trajectory/formats/trajectory_formats.h"
 
 #include <hdf5.h>
 

@@ -13,7 +13,6 @@
 #include "core/base/text_file.h"
 #include "core/structure/formats/structure_formats.h"
 #include "core/trajectory/formats/binary_file.h"
-#include "core/trajectory/formats/read_h5md.h"
 #include "core/trajectory/trajectory.h"
 
 namespace meniscus {

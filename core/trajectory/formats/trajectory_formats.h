@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of trajectory formats.
+// The table of trajectory formats, and what the module that reads H5MD gives to the program.
 #pragma once
 
 #include <memory>
@@ -40,5 +40,8 @@ extern const TrajectoryFormat kH5mdFormat;
 extern const TrajectoryFormat kLammpsFormat;
 extern const TrajectoryFormat kMdcrdFormat;
 extern const TrajectoryFormat kModelsFormat;
+
+/// Opens a file. Throws InputError.
+using OpenH5md = std::unique_ptr<Trajectory>(const std::string& path);
 
 }  // namespace meniscus

@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/mesh/face_mesh.h"
 #include "core/mesh/planar_triangulation.h"
-#include "core/mesh/sphere_lattice.h"
 
 namespace meniscus {
 namespace {
