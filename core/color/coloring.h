@@ -19,23 +19,23 @@ struct VolumePaint;
 /// A point on a toroidal or concave patch takes the colour of the touched atom a whose contact direction
 /// (c_a - s)/|c_a - s|, seen from the probe centre s, is nearest to (x - s)/p: borders of colour are planes through s.
 struct Coloring {
-  std::vector<glm::vec3> atom;                   ///< one per Surface::atoms
-  std::optional<std::array<glm::vec3, 3>> kind;  ///< if set, this by PatchKind (convex, toroidal, concave) instead
+  std::vector<glm::vec3> atom{};                   ///< one per Surface::atoms
+  std::optional<std::array<glm::vec3, 3>> kind{};  ///< if set, this by PatchKind (convex, toroidal, concave) instead
   /// If set, points take their colours from this map instead, but those of atoms with own_color.
-  std::shared_ptr<const VolumePaint> volume;
-  std::vector<bool> own_color;  ///< empty: none; else one per Surface::atoms
+  std::shared_ptr<const VolumePaint> volume{};
+  std::vector<bool> own_color{};  ///< empty: none; else one per Surface::atoms
 
   /// Empty: everything is drawn. Else one per Surface::atoms: points that take the colour of an atom marked here are
   /// not drawn, in pictures and in exports, whatever colours are by.
-  std::vector<bool> hidden;
+  std::vector<bool> hidden{};
 
   /// Empty: everything is opaque. Else one per Surface::atoms, in [0, 1]: how much of what lies behind the points of
   /// this atom they cover. 0 is the same as hidden.
-  std::vector<float> opacity;
+  std::vector<float> opacity{};
 
   /// Empty, or the part of each of Surface::atoms, such as its chain: pictures with silhouettes have lines where parts
   /// meet.
-  std::vector<std::uint32_t> part;
+  std::vector<std::uint32_t> part{};
 
   /// Whether the map colours the points of this atom.
   bool by_volume(std::uint32_t a) const { return volume && (own_color.empty() || !own_color[a]); }

@@ -12,12 +12,12 @@ namespace meniscus {
 /// What somebody who uses a scene has said of files. Unless it is trusted as a whole a scene names no files outside of
 /// its folder but those that are typed or named before, and writes to none but a new one beside it.
 struct SceneTrust {
-  std::string file;                ///< of the scene
-  std::vector<std::string> typed;  ///< words of the command line
-  std::vector<std::string> named;  ///< of an earlier one
-  bool is_whole = false;           ///< --trust-scene
-  bool replaces = false;           ///< --force
-  std::string advice;              ///< how this door lets a scene name a file outside: the end of a sentence
+  std::string file{};                ///< of the scene
+  std::vector<std::string> typed{};  ///< words of the command line
+  std::vector<std::string> named{};  ///< of an earlier one
+  bool is_whole = false;             ///< --trust-scene
+  bool replaces = false;             ///< --force
+  std::string advice{};              ///< how this door lets a scene name a file outside: the end of a sentence
 
   /// A path of the scene as seen from here. Throws InputError for one that it may not name. place: in the scene.
   std::string path(const Property& property, const std::string& text, const std::string& place) const;

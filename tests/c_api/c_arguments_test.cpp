@@ -290,12 +290,12 @@ const Pointer kPointers[] = {
      }, true},
     ARGUMENT(meniscus_scene_new, scene, false, as<meniscus_scene*>(p)),
     {"meniscus_scene_read path", false,
-     [](World& w, const void* p) {
+     [](World&, const void* p) {
        return refused<meniscus_scene>([&](auto** to) { return meniscus_scene_read(as<const char>(p), to); });
      }, true},
     ARGUMENT(meniscus_scene_read, scene, false, molecule().c_str(), as<meniscus_scene*>(p)),
     {"meniscus_scene_parse json", false,
-     [](World& w, const void* p) {
+     [](World&, const void* p) {
        return refused<meniscus_scene>([&](auto** to) { return meniscus_scene_parse(as<const char>(p), to); });
      }, true},
     ARGUMENT(meniscus_scene_parse, scene, false, "{}", as<meniscus_scene*>(p)),

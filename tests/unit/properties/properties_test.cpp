@@ -8,7 +8,7 @@
 
 #include "app/farm/command_options.h"
 #include "core/base/error.h"
-#include "core/mesh/mesh_objects.h"
+#include "core/mesh/triangle_mesh.h"
 #include "core/properties/properties.h"
 #include "core/render/look.h"
 #include "exporters/mesh_files/mesh_formats.h"
