@@ -57,8 +57,8 @@ TEST(Properties, WordsHaveTheDefaultAmongThem) {
     if (property->type != ValueType::word) continue;
     const std::vector<std::string> words = words_of(*property);
     EXPECT_GT(words.size(), 1u) << property->key;
-    if (!property->initial.empty())
-      EXPECT_NE(std::ranges::find(words, property->initial), words.end()) << property->key;
+    if (property->initial.empty()) continue;
+    EXPECT_NE(std::ranges::find(words, property->initial), words.end()) << property->key;
   }
 }
 
@@ -95,8 +95,8 @@ TEST(Properties, EveryNumberOfALookIsEverywhere) {
 
 TEST(Properties, BundlesHaveNoPropertyThatWritesAFile) {
   for (const Property* property : properties()) {
-    const std::string option(property->long_option());
-    if (property->has(in_bundle)) EXPECT_NE(property->type, ValueType::new_file) << property->key;
+    if (!property->has(in_bundle)) continue;
+    EXPECT_NE(property->type, ValueType::new_file) << property->key;
   }
   for (const char* word : {"--output", "--legend-file", "--save-camera", "--force", "--save-scene", "--only"})
     EXPECT_THROW(farm::read_command_options({word, "x"}), RequestError) << word;
