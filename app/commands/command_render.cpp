@@ -64,12 +64,10 @@ void name_output(RenderCommand& command) {
 /// Before anything is read.
 void check_scene(const RenderCommand& command) {
   const Scene& scene = command.scene;
-  const bool is_run = scene.frames.asked();
-  if (is_run && command.stats) throw UsageError("--stats: of one picture only; leave --frames away");
-  if (!is_run) check_image_path(scene.output);
+  if (!scene.frames.asked()) check_image_path(scene.output);
   if (scene.image.aovs && !holds_aovs(scene.output))
     throw UsageError("--aovs needs an .exr output; other formats hold colour only");
-  if (scene.image.extent && !is_run && scene.image.aovs)
+  if (scene.image.extent && scene.image.aovs)
     throw UsageError("--aovs needs the complete surface; leave --extent away");
   if (scene.image.extent && (!scene.figure.plain() || !scene.molecule.color.opacities.empty()))
     throw UsageError(
@@ -149,8 +147,8 @@ ImageSettings image_settings(const RenderCommand& command) {
 
 RenderSettings picture_settings(const RenderCommand& command, const PictureLayout& layout) {
   RenderSettings settings = render_settings(command.scene, layout);
-  // For a picture whose times are said.
-  if (!command.scene.frames.asked() && (command.stats || !command.reporting.quiet))
+  // For pictures whose times are said.
+  if (command.stats || (!command.scene.frames.asked() && !command.reporting.quiet))
     settings.timing = StageTiming::exact;
   return settings;
 }

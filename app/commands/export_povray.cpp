@@ -65,12 +65,11 @@ std::optional<std::vector<povray::SceneColor>> colors_of_run(const Scene& asked,
   return all.colors();
 }
 
-// Of all atoms of the structure, if comments shall tell them.
+// Of all atoms that are shown, if comments shall tell them.
 std::vector<std::string> comment_names(const Scene& scene, const Structure& structure) {
   std::vector<std::string> names;
   if (!scene.renderer.comments) return names;
-  names.reserve(structure.atoms.size());
-  for (const Atom& atom : structure.atoms) {
+  for (const Atom& atom : shown_atoms(structure)) {
     if (atom.residue_name.empty()) {  // as --csv and selections number it
       names.push_back(fmt::format("{} index {}", atom.name, atom.index));
       names.back().erase(0, names.back().find_first_not_of(' '));
@@ -118,11 +117,7 @@ povray::SequenceScene sequence_of(FigureRun& run, povray::SceneOptions options) 
   const FigureRequest& figure = asked.figure;
   const Structure& reach = run.frames().reach();
   const ColorScheme scheme = color_of(asked.molecule);
-  if (asked.renderer.comments && run.frames().atoms_change())
-    throw UsageError(
-        "--comments names the atoms of all frames once, but --select means others in each; add --select-once");
   options.origin = run.framing().origin();
-  options.atom_names = comment_names(asked, run.structure());
   const ColoredShapes beside = shown_shapes(reach, figure.representations, scheme);
   const auto sees_through = [](const OpacityRule& rule) { return rule.opacity > 0.0f && rule.opacity < 1.0f; };
   povray::Run shared{run.frames().numbers(), run.framing().cameras,
@@ -150,8 +145,9 @@ povray::SceneReport write_figure(const Scene& asked, povray::SceneOptions option
   const std::span<const SurfaceObject> surface =
       asked.figure.hides_surface ? std::span<const SurfaceObject>{} : objects;
   options.cut.planes = surface_planes(asked.figure, frame.camera, objects);
-  if (sequence) return sequence->write_frame(frame.place, {surface, options.cut, &figure.beside.shapes, more});
   options.atom_names = comment_names(asked, figure.molecule.structure);
+  if (sequence)
+    return sequence->write_frame(frame.place, {surface, options.cut, &figure.beside.shapes, more, options.atom_names});
   options.shapes = &figure.beside.shapes;
   options.objects = more;
   if (asked.figure.hides_surface && figure.beside.shapes.empty() && more.empty())

@@ -69,10 +69,10 @@ void check_view_options(const MoleculeRequest& request) {
   if (request.surface.kind != SurfaceKind::ses) refuse("--surface sas or vdw");
 }
 
-ColoredAtoms colored_atoms(const MoleculeRequest& request, Structure molecule) {
+ColoredAtoms colored_atoms(const MoleculeRequest& request, const ColorScheme& color, Structure molecule) {
   ColoredAtoms atoms;
   atoms.molecule.structure = std::move(molecule);
-  atoms.molecule.color = color_of(request);
+  atoms.molecule.color = color;
   const Structure& structure = atoms.molecule.structure;
   atoms.balls = balls_of(structure);
   std::vector<std::uint32_t> all(structure.atoms.size());
@@ -109,7 +109,7 @@ std::string stats_text(const ViewStats& n, const std::vector<StageTime>& times, 
               fmt::format("{}x{} pixels", picture_size.x, picture_size.y));
 }
 
-/// The atoms of the molecule, or of the first frame of a run, and the cameras that see them.
+/// The atoms of the molecule, or of a frame of a run, and the cameras that see them.
 struct Viewed {
   std::unique_ptr<FrameRun> run;
   std::unique_ptr<ShownFrames> frames;
@@ -120,7 +120,7 @@ struct Viewed {
   explicit Viewed(RenderCommand& command) : given(given_cameras(command.scene.picture, command.scene.run_camera)) {
     Scene& scene = command.scene;
     if (!scene.frames.asked()) {
-      atoms = colored_atoms(scene.molecule, read_and_tell(command));
+      atoms = colored_atoms(scene.molecule, color_of(scene.molecule), read_and_tell(command));
       aim.emplace(scene.picture, scene.molecule.show, atoms.molecule.structure);
       return;
     }
@@ -128,13 +128,6 @@ struct Viewed {
     frames = std::make_unique<ShownFrames>(scene.molecule, *run);
     tell_run(command, *run);
     measure_colors(scene.molecule.color, *frames);
-    if (scene.molecule.color.changes_with_frames())
-      throw UsageError("colours that change from frame to frame need the complete surface; leave --extent away");
-    if (selects_by_positions(scene.molecule))
-      throw UsageError(
-          "--extent: what a selection by distance means changes from frame to frame; add --select-once, or leave "
-          "--extent away");
-    atoms = colored_atoms(scene.molecule, run->structure());
   }
 
   ColorKey key(const Scene& scene) const {
@@ -167,10 +160,17 @@ void render_views(const RenderCommand& asked) {
         picture, sink.annotations(picture, viewed.atoms.molecule.structure),
         [&](const RenderSettings& settings) { return renderer.render(pipeline, picture.camera, settings); });
   };
+  const auto stats = [&] { return stats_text(pipeline.stats(), renderer.times(), layout.size.size()); };
   if (viewed.run) {
-    run_frames(*viewed.run, command, {[&](const RunFrame& frame) -> FinishFrame {
-      viewed.atoms.balls = balls_of(frame.structure);
-      return keep({frame.number, frame.place, frame.source, frame.time, cameras[frame.place]});
+    const ColorScheme color = color_of(scene.molecule);
+    run_frames(*viewed.run, command, {[&](RunFrame frame) -> FinishFrame {
+      viewed.atoms = colored_atoms(scene.molecule, color, std::move(frame.structure));
+      const FinishFrame finish = keep({frame.number, frame.place, frame.source, frame.time, cameras[frame.place]});
+      if (!command.stats) return finish;
+      return [finish, text = fmt::format("frame {}\n{}", frame.number, stats())] {
+        fmt::print(std::cerr, "{}", text);
+        return finish();
+      };
     }});
   } else if (keep({.camera = cameras.front()})().shows_nothing) {
     say(command, kShowsNothing);
@@ -179,7 +179,7 @@ void render_views(const RenderCommand& asked) {
   if (layout.legend_alone) write_image(scene.legend.file, *layout.legend_alone, image_settings(asked));
   save_camera(command, cameras.front());
   if (viewed.run) return;
-  if (command.stats) fmt::print(std::cerr, "{}", stats_text(pipeline.stats(), renderer.times(), layout.size.size()));
+  if (command.stats) fmt::print(std::cerr, "{}", stats());
   say_times(command, gl_words(context), renderer.times());
 }
 

@@ -76,11 +76,4 @@ void settle_selections(MoleculeRequest& molecule, RunRequest& run, const OtherSe
   settle(expressions.of_surface, shown_atoms(frames.structure()));
 }
 
-bool selects_by_positions(MoleculeRequest molecule) {
-  Expressions expressions;
-  expressions.add(molecule);
-  expressions.keep_by_positions();
-  return !expressions.of_file.empty() || !expressions.of_surface.empty();
-}
-
 }  // namespace meniscus

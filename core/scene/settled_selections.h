@@ -24,7 +24,4 @@ struct OtherSelections {
 /// made of them. Throws RequestError where there are none; else as FrameRun.
 void settle_selections(MoleculeRequest& molecule, RunRequest& run, const OtherSelections& others = {});
 
-/// Does any expression of the request ask for positions?
-bool selects_by_positions(MoleculeRequest molecule);
-
 }  // namespace meniscus

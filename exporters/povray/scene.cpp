@@ -55,7 +55,8 @@ SceneReport write_scene(std::span<const SurfaceObject> given, const Camera& came
   const Box extent = scene_extent(given, options);
   const glm::dvec3 origin = options.origin ? *options.origin : middle(given.empty() ? extent : atom_extent(given));
   ColorTable table;
-  const SceneContent content({given, options.cut, options.shapes, options.objects}, camera, options, origin, table);
+  const Shown shown{given, options.cut, options.shapes, options.objects, options.atom_names};
+  const SceneContent content(shown, camera, options, origin, table);
   const Geometry& geometry = content.geometry();
   const bool has_surface = geometry.primitive_count() > 0;
   const SceneParts parts{has_surface,          geometry.is_one_item(), has_surface && content.has_caps(),

@@ -21,7 +21,7 @@ SceneContent::SceneContent(const Shown& shown, const Camera& camera, const Scene
       origin_(origin),
       table_(table),
       cut_(shown.surface, shown_.cut, camera, options),
-      geometry_(cut_.objects(), origin, table, {options.film, 0}, shown_.cut.planes, options.atom_names) {
+      geometry_(cut_.objects(), origin, table, {options.film, 0}, shown_.cut.planes, shown.names) {
   if (has_shapes()) add_colors(*shown.shapes, table);
   if (cut_.has_caps()) geometry_.add_caps(cut_.caps(), cut_.objects(), shown_.cut, table);
   for (const SceneObject& object : shown.objects) add(object, camera, options);
@@ -35,8 +35,7 @@ void SceneContent::add(const SceneObject& object, const Camera& camera, const Sc
   if (object.shapes) add_colors(*object.shapes, table_, further.style);
   if (!object.surface) return;
   further.cut.emplace(std::span(object.surface, 1), object.cut, camera, options);
-  further.geometry.emplace(further.cut->objects(), origin_, table_, further.style, object.cut.planes,
-                           options.atom_names);
+  further.geometry.emplace(further.cut->objects(), origin_, table_, further.style, object.cut.planes, shown_.names);
   if (further.cut->has_caps())
     further.geometry->add_caps(further.cut->caps(), further.cut->objects(), object.cut, table_);
 }

@@ -31,6 +31,7 @@ struct Shown {
   SurfaceCut cut;                          ///< of the surface
   const ColoredShapes* shapes = nullptr;   ///< beside it
   std::span<const SceneObject> objects;    ///< likewise
+  std::span<const std::string> names;      ///< of atoms (SceneOptions::atom_names)
 };
 
 /// The materials of objects, in the order of SceneColor::finish.

@@ -56,7 +56,8 @@ struct SceneOptions {
   bool film = false;                      ///< a surface that is seen through is denser where the view grazes it
   std::optional<ColorKey> colors;         ///< what the colours mean: for <name>_objects.json, and beside the colours
   /// Nothing, or a name for each of the atoms that SurfaceObject::atom counts: pieces then have comments that tell
-  /// their kind and atoms. They may come from a molecule file; what is not harmless (scene_report.h) is left out.
+  /// their kind and atoms. Of a run each frame has its own. They may come from a molecule file; what is not harmless
+  /// (scene_report.h) is left out.
   std::vector<std::string> atom_names;
 };
 

@@ -4,6 +4,7 @@
 
 import json
 import math
+import re
 import subprocess
 import sys
 import tempfile
@@ -229,6 +230,40 @@ class RunsLikePictures(unittest.TestCase):
         done = subprocess.run([PROGRAM, *bundle[:2], "other", *bundle[3:]], cwd=self.folder, capture_output=True, text=True)
         self.assertEqual(done.returncode, 6, done.stderr)
         self.assertFalse((self.folder / "other").exists())
+
+    def test_views_without_the_whole_surface(self):
+        """Colours, selections and labels are those of each frame; so is what --stats tells."""
+        words = ["--extent", "visible", "--device", "software", "--camera", json.dumps(CAMERA), "--size", "160x120", "--samples", "1",
+                 "--color", "radial", "--color-range", "0:9", "--select", "within 7.6 of resid 1", "--label", "name CA=C"]
+        done = subprocess.run([PROGRAM, "render", "run.pdb", "--frames", "all", "-o", "f_#.png", "--stats", "-q", *words],
+                              cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        kept = re.findall(r"frame (\d+)\n.* of (\d+) atoms can matter", done.stderr)
+        for n in range(3):
+            self.run_program("render", "run.pdb", "--model", str(n + 1), "-o", f"one_{n}.png", "-q", *words)
+            self.assertTrue((self.pixels(f"f_{n}.png") == self.pixels(f"one_{n}.png")).all(), n)
+        self.assertEqual([number for number, _ in kept], ["0", "1", "2"])
+        self.assertGreater(int(kept[0][1]), int(kept[2][1]))
+        # Layers have components and atoms of the file, which a view does not know, in a run as little as in a picture.
+        for choice in ("--frames", "1", "-o", "a_#.exr"), ("--model", "1", "-o", "a.exr"):
+            done = subprocess.run([PROGRAM, "render", "run.pdb", *choice, "--extent", "visible", "--aovs"], cwd=self.folder,
+                                  capture_output=True, text=True)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("--aovs needs the complete surface", done.stderr)
+
+    def test_comments_name_the_atoms_of_each_frame(self):
+        words = ["export", "povray", "run.pdb", "--comments", "--select", "within 7.6 of resid 1", "-q", "--camera", json.dumps(CAMERA)]
+        self.run_program(*words, "--frames", "all", "-o", "povray")
+        for n in range(3):
+            self.run_program(*words, "--model", str(n + 1), "-o", f"one_{n}")
+            run, one = ({line for line in (self.folder / path).read_text().splitlines() if line.startswith("// ") and " ALA " in line}
+                        for path in (f"povray/surface_geometry_{n:05}.inc", f"one_{n}/surface_geometry.inc"))
+            self.assertGreater(len(one), 10)
+            self.assertEqual(run, one, n)
+        # What stands beside the surface has names, too.
+        self.run_program("export", "povray", "run.pdb", "--comments", "--select", "resid 1", "--object", '{"selection": "resid 2-5"}',
+                         "-o", "beside", "-q")
+        self.assertIn("ALA 5", (self.folder / "beside/surface_object_1.inc").read_text())
 
     def test_layers_in_a_bundle(self):
         self.run_program("farm", "bundle", "bundle", "--engine", "make", "--chunk-frames", "1", "--", "render", "run.pdb",

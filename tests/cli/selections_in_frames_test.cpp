@@ -159,8 +159,6 @@ TEST_F(SelectionsInFrames, WhatNeedsTheSameAtomsNamesTheWayOut) {
   expect_refused(with({"render", file_, "-q", "-o", out + "_#.png", "--color", "rmsf"}, run), "--select-once");
   expect_refused(with({"render", file_, "-q", "-o", out + "_#.png", "--color", "index", "--map", "categorical"}, run),
                  "--select-once");
-  expect_refused(with({"render", file_, "-q", "-o", out + "_#.png", "--extent", "visible"}, run), "--select-once");
-  expect_refused(with({"export", "povray", file_, "-q", "-o", out, "--comments"}, run), "--select-once");
   const ProgramResult atoms =
       meniscus(with({"export", "atoms", file_, "-q", "-o", out + ".atoms", "--select-once"}, run));
   EXPECT_EQ(atoms.exit_code, 0) << atoms.err;
