@@ -3,6 +3,8 @@
 #include "app/farm/check_scene.h"
 
 #include <algorithm>
+#include <fstream>
+#include <optional>
 #include <regex>
 #include <string>
 #include <vector>
@@ -254,8 +256,8 @@ std::string beginning(std::string_view word) {
   return text;
 }
 
-void check_text(const fs::path& folder, const fs::path& inner, std::string_view (*wrong)(std::string_view)) {
-  const std::optional<std::string> text = inner_text(folder, inner, kMostBytes);
+std::string checked_text(const fs::path& folder, const fs::path& inner, std::string_view (*wrong)(std::string_view)) {
+  std::optional<std::string> text = inner_text(folder, inner, kMostBytes);
   const std::string path = (folder / inner).string();
   if (!text) throw InputError(path, 0, "is missing; do the step surface first");
   const std::string_view word = wrong(*text);
@@ -264,6 +266,35 @@ void check_text(const fs::path& folder, const fs::path& inner, std::string_view 
                      fmt::format("has {}, which this program does not write; remove scene/ and state/ and do "
                                  "the step surface again",
                                  in_quotes(beginning(word))));
+  return std::move(*text);
+}
+
+void write_bytes(const fs::path& path, const std::string& bytes) {
+  std::ofstream file(path, std::ios::binary);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush();
+  if (!file) throw OutputError(path.string(), "cannot be written; is the disk full?");
+}
+
+constexpr const char* kSettings = "surface.ini";
+constexpr const char* kShared[] = {"surface.pov", "surface_style.inc", "surface_aov.inc"};
+
+std::string include_name(std::string_view part, std::uint64_t frame) {
+  return fmt::format("surface_{}_{}.inc", part, frame_digits(frame));
+}
+
+/// Of those that scene/ has; what a frame must have is among them.
+std::vector<std::string> includes_of(const fs::path& folder, std::uint64_t frame) {
+  std::vector<std::string> parts{"geometry", "colors", "shapes", "caps"}, names;
+  for (std::size_t n = 1; n <= kMostShown; ++n) parts.push_back(fmt::format("object_{}", n));
+  for (const std::string& part : parts)
+    if (const std::string name = include_name(part, frame);
+        inner_entry(folder, fs::path("scene") / name) != Entry::nothing)
+      names.push_back(name);
+  // A frame without a surface has colours of its own.
+  const std::string geometry = include_name("geometry", frame), colors = include_name("colors", frame);
+  if (std::ranges::find(names, colors) == names.end() && std::ranges::find(names, geometry) == names.end())
+    names.push_back(geometry);
+  return names;
 }
 
 }  // namespace
@@ -295,22 +326,23 @@ void check_scene(const fs::path& folder) {
     if (found != Entry::file || !is_scene_file(entry.path().filename().string()))
       throw InputError(entry.path().string(), 0, "is nothing that this program writes; take it away");
   }
-  check_text(folder, "scene/surface.ini", wrong_in_settings);
-  for (const char* shared : {"scene/surface.pov", "scene/surface_style.inc", "scene/surface_aov.inc"})
-    check_text(folder, shared, wrong_in_scene);
+  checked_text(folder, fs::path("scene") / kSettings, wrong_in_settings);
+  for (const char* shared : kShared) checked_text(folder, fs::path("scene") / shared, wrong_in_scene);
 }
 
-void check_scene_frame(const fs::path& folder, std::uint64_t frame) {
-  const auto include = [&](std::string_view part) -> fs::path {
-    return fmt::format("scene/surface_{}_{}.inc", part, frame_digits(frame));
+void copy_checked_scene(const fs::path& folder, std::uint64_t frame, const fs::path& to) {
+  const fs::path scene("scene");
+  const auto copy = [&](const std::string& name, std::string_view (*wrong)(std::string_view)) {
+    write_bytes(to / name, checked_text(folder, scene / name, wrong));
   };
-  const auto is_there = [&](std::string_view part) { return inner_entry(folder, include(part)) != Entry::nothing; };
-  // A frame without a surface has colours of its own.
-  if (!is_there("colors")) check_text(folder, include("geometry"), wrong_in_scene);
-  std::vector<std::string> parts{"geometry", "colors", "shapes", "caps"};
-  for (std::size_t n = 1; n <= kMostShown; ++n) parts.push_back(fmt::format("object_{}", n));
-  for (const std::string& part : parts)
-    if (is_there(part)) check_text(folder, include(part), wrong_in_scene);
+  copy(kSettings, wrong_in_settings);
+  for (const char* shared : kShared) copy(shared, wrong_in_scene);
+  for (const std::string& include : includes_of(folder, frame)) copy(include, wrong_in_scene);
+  // Density files hold numbers, whatever is in them.
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / scene))
+    if (entry.path().extension() == ".df3")
+      if (const std::optional<std::string> bytes = inner_text(folder, scene / entry.path().filename(), kMostBytes))
+        write_bytes(to / entry.path().filename(), *bytes);
 }
 
 }  // namespace meniscus::farm

@@ -9,12 +9,14 @@
 
 namespace meniscus::farm {
 
-/// What POV-Ray would find in scene/ and its shared files. Throws InputError: an entry that is no file of a scene, a
-/// link, a setting or a word that this program does not write.
+/// What stands in scene/. Throws InputError: an entry that is no file of a scene, or a link; a word in a shared file
+/// that this program does not write.
 void check_scene(const std::filesystem::path& folder);
 
-/// The geometry of one frame. Throws InputError likewise.
-void check_scene_frame(const std::filesystem::path& folder, std::uint64_t frame);
+/// Fills the folder `to` with what POV-Ray needs for one frame: the bytes that were checked, so that nothing else of
+/// scene/ is in its reach, whatever includes the scene names. Throws InputError for a setting or a word that this
+/// program does not write, for a file that is missing; OutputError.
+void copy_checked_scene(const std::filesystem::path& folder, std::uint64_t frame, const std::filesystem::path& to);
 
 /// The words that are wrong in a text of POV-Ray's scene language, of which this program writes a small part: no
 /// directive that opens a file but #include, no string from which a path out of the folder can be made, no function

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// POV-Ray renders one frame of the scene a process, into a folder of its own; the picture gets its name when whole,
-// without its date.
+// POV-Ray renders one frame of the scene a process, in a folder of its own that has what was checked; the picture gets
+// its name when whole, without its date.
 #include <algorithm>
 #include <chrono>
 
@@ -59,7 +59,7 @@ Ended run_povray(const std::vector<std::string>& command, const fs::path& folder
   return {code, last.words()};
 }
 
-/// A folder for the picture of one process, away with this object.
+/// A folder for the scene and the picture of one process, away with this object.
 class OwnFolder {
  public:
   explicit OwnFolder(fs::path path) : path_(std::move(path)) { fs::create_directories(path_); }
@@ -76,16 +76,14 @@ class OwnFolder {
 
 void render(const Step& step, const Workplace& place, std::uint64_t frame, const std::string& picture,
             const FrameListener& listener) {
-  const std::string name = own_name(frame);
-  const fs::path own = place.folder / "images" / name, scene = place.folder / "scene";
-  check_scene_frame(place.folder, frame);
+  const fs::path own = place.folder / "images" / own_name(frame);
   const OwnFolder folder(own);
-  const std::vector<std::string> command =
-      povray_command(step, place, frame, fmt::format("../images/{}/frame.png", name));
-  Ended ended = run_povray(command, scene, listener);
+  copy_checked_scene(place.folder, frame, own);
+  const std::vector<std::string> command = povray_command(step, place, frame, "frame.png");
+  Ended ended = run_povray(command, own, listener);
   if (ended.code > kSignalCode) {
     listener.tried_again(frame, signal_text(ended.code));
-    ended = run_povray(command, scene, listener);
+    ended = run_povray(command, own, listener);
   }
   if (ended.code > kSignalCode)
     throw RunError(static_cast<ExitCode>(signal_exit_code(ended.code)), signal_text(ended.code) + ", twice");

@@ -178,14 +178,19 @@ class Hostile(FarmCase):
         """With a text at the end of a file that the records say is whole."""
         with open(folder / name, "a") as scene:
             scene.write(text)
+        self.renew_records(folder)
+        result = self.meniscus("work", folder, "--step", "render", "--force", code=3)
+        self.assertIn("does not write", result.stderr, text)
+
+    @staticmethod
+    def renew_records(folder):
+        """The records say that the files are whole, as they are now."""
         for path in (folder / "state" / "surface").glob("*.json"):
             record = json.loads(path.read_text())
             for file in record["files"]:
                 content = (folder / file["path"]).read_bytes()
                 file.update(bytes=len(content), sha256=hashlib.sha256(content).hexdigest())
             path.write_text(json.dumps(record))
-        result = self.meniscus("work", folder, "--step", "render", "--force", code=3)
-        self.assertIn("does not write", result.stderr, text)
 
     def test_scenes(self):
         """POV-Ray's scenes are programs: one that this program would not have written is not run, whoever says it was
@@ -230,6 +235,21 @@ class Hostile(FarmCase):
         for part in ("colors", "object_1"):
             copy = self.copy(folder)
             self.assert_scene_refused(copy, f"scene/surface_{part}_00001.inc", f'#fopen F "{self.outside / "hit"}" write\n')
+
+    def test_a_scene_reaches_only_files_that_were_read(self):
+        """Other frames and files with names like theirs are not there for POV-Ray, however a scene comes to name them."""
+        hit = self.outside / "hit"
+        evil = f'#fopen F "{hit}" write\n#write (F, "x")\n#fclose F\n'
+        for victim, text in (("surface_evil.inc", '#include "surface_evil.inc"\n'),
+                             ("surface_geometry_00001.inc", '#include "surface_geometry_00001.inc"\n')):
+            folder = self.copy(self.povray)
+            with open(folder / "scene" / victim, "a") as file:
+                file.write(evil)
+            with open(folder / "scene" / "surface.pov", "a") as file:
+                file.write(text)
+            self.renew_records(folder)
+            self.meniscus("work", folder, "--step", "render", "--force", "--frames", "0", code=3)
+            self.assertFalse(hit.exists(), victim)
 
     def test_programs_are_not_looked_for_in_the_bundle(self):
         folder = self.copy(self.povray)

@@ -63,7 +63,7 @@ class DebianPackages(unittest.TestCase):
     def test_the_library_depends_on_little_and_works_without_gl(self):
         needed = {entry.split()[0] for entry in fields(self.packages["libmeniscus0"])["Depends"].split(", ")}
         # zlib1g: for molecules that are read as .gz.
-        self.assertEqual(needed, {"libc6", "libepoxy0", "libfmt9", "libgcc-s1", "libstdc++6", "libtbb12", "zlib1g"})
+        self.assertEqual(needed, {"libc6", "libepoxy0", "libfmt9", "libfreetype6", "libgcc-s1", "libstdc++6", "libtbb12", "zlib1g"})
 
     def test_what_uses_the_library_depends_on_it(self):
         self.assertEqual(fields(self.packages["libmeniscus-dev"])["Depends"], f"libmeniscus0 (= {self.version})")
