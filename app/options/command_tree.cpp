@@ -11,7 +11,7 @@
 namespace meniscus {
 namespace {
 
-/// Those that the checks of an option name: see one_of() and proposes() in app/options/value_words.h.
+/// Those that the checks of an option name: see one_of() and proposes() in app/options/property_options.h.
 std::vector<std::string> words_of(const CLI::Option& option) {
   std::vector<std::string> words;
   try {

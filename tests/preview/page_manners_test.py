@@ -112,7 +112,8 @@ class PageManners(PageCase):
             await self.press(page, "g")
             await page.until("JSON.parse(document.getElementById('picture').dataset.state).legend.on")
             after = await self.state(page)
-            del before["look"]["specular"], after["look"]["specular"]  # a legend turns highlights off
+            for turned_off in ("specular", "depth_cue"):  # by a legend, beside which they would change colours
+                del before["look"][turned_off], after["look"][turned_off]
             for kept in ("patch_kinds", "probe_radius", "look"):
                 self.assertEqual(after[kept], before[kept], kept)
             self.assertEqual(page.complaints, [])
@@ -167,7 +168,7 @@ class PageManners(PageCase):
             self.assertEqual(page.complaints, [])
 
     async def test_keys_of_frames_and_those_of_controls(self):
-        preview = self.serve(MODELS)
+        preview = self.serve(MODELS, "--preset", "classic")
         async with Browser(CHROMIUM, SIZE) as page:
             await page.open(preview.url)
             frames = (await self.state(page))["frames"]
@@ -203,7 +204,7 @@ class PageManners(PageCase):
             self.assertEqual(page.complaints, [])
 
     async def test_keys_do_what_the_page_says(self):
-        preview = self.serve(MOLECULE, "--select", "chain D")
+        preview = self.serve(MOLECULE, "--select", "chain D", "--preset", "classic")
         async with Browser(CHROMIUM, SIZE) as page:
             await page.open(preview.url)
             for key, changed in (("ArrowLeft", "camera"), ("-", "camera"), ("k", "patch_kinds"), ("]", "probe_radius"),

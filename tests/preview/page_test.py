@@ -283,7 +283,7 @@ class Page(PageCase):
             await page.until("!document.getElementById('picked').hidden")
             self.assertNotIn("exposed", await page.evaluate("document.getElementById('picked').textContent"))
             self.assertEqual(state["objects"], [{"representation": "surface", "selection": "chain C", "color": "#e69f00",
-                                                 "opacity": "0.5", "clip": "depth>0.4"}])
+                                                 "opacity": 0.5, "clip": "depth>0.4"}])
             await self.shoot(page, "objects.png")
             # The scene that is saved opens again, after all of it was undone.
             await page.click("#scene-form button[value=save]")
