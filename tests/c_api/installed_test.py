@@ -30,8 +30,8 @@ def document_program():
     """The C++ program of the document, and what it prints, by the comments at the ends of its lines."""
     text = re.search(r"```cpp\n(.*?)```", pathlib.Path(document).read_text(), re.S)[1]
     told = [float(number) for comment in re.findall(r"<<.*// ([-0-9., ]+)$", text, re.M) for number in comment.split(",")]
-    pi = math.pi  # balls of 2 and 1 Å, then two of 2 Å, apart; points 5 Å from one centre, and in the other
-    closed_forms = [20 * pi, 12 * pi, 16 * pi, 4 * pi, 3, -1, 16 * pi]
+    pi = math.pi  # balls of 2 and 1 Å, then two of 2 Å, apart; points 5 Å from one centre, and in the other; pixels
+    closed_forms = [20 * pi, 12 * pi, 16 * pi, 4 * pi, 3, -1, 16 * pi, 40]
     assert agree(told, closed_forms), told
     return text, told
 
