@@ -69,7 +69,11 @@ class PocketTables {
     left_out_ = taken_out(command_, run.structure());
     if (run.is_run() && !command_.json && command_.csv != "-") std::cout << pocket_row_header();
     run.make(
-        kPocketBytesPerAtom, [this](const auto&) { return worker(); }, [this] { rows_.commit(); });
+        kPocketBytesPerAtom, [this](const auto&) { return worker(); },
+        [this] {
+          rows_.commit();
+          print_now(held_);
+        });
   }
 
  private:
@@ -95,7 +99,8 @@ class PocketTables {
     MadeFrame made;
     write_mesh(report, numbered, made);
     write_figure(report, numbered, made);
-    if (command_.csv != "-") print_now(printed(report, note));
+    if (command_.csv != "-" && note) print_now(printed(report, note));
+    if (command_.csv != "-" && !note) held_ = printed(report, note);
     if (note)
       rows_.write(pocket_series_header(), pocket_series_rows(report, *note, tracks_.follow(cavities_of(report))));
     else
@@ -141,6 +146,7 @@ class PocketTables {
   bool takes_out_anew_ = false;  ///< in each frame
   std::vector<bool> left_out_;
   bool hinted_ = false;
+  std::string held_;  ///< of a single molecule: printed once its table is whole
 };
 
 }  // namespace

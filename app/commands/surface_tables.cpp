@@ -117,7 +117,8 @@ class SurfaceTables {
   }
 
   MadeFrame finish(SurfaceNumbers& numbers, const std::optional<FrameNote>& note) {
-    if (!command_.prints_csv()) print_now(numbers.printed);
+    if (note) print_now(numbers.printed);
+    if (!note) held_ = numbers.printed;
     atoms_.write(numbers.atom_header, numbers.atoms);
     residues_.write(numbers.residue_header, numbers.residues);
     gradients_.write(numbers.gradient_header, numbers.gradients);
@@ -145,6 +146,7 @@ class SurfaceTables {
       plot_->commit();
     }
     for (GrowingTable* table : {&series_, &atoms_, &residues_, &gradients_, &cavities_}) table->commit();
+    print_now(held_);
   }
 
   /// Over time if all frames have one, else over their numbers.
@@ -174,6 +176,7 @@ class SurfaceTables {
   std::optional<OutputFile> plot_;
   std::vector<FrameNote> plotted_;
   std::vector<PlotPanel> panels_;
+  std::string held_;  ///< of a single molecule: printed once its tables are whole
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds numbers, ranges and names of what a structure is coloured by.
 #include "core/color/color_key.h"
+#include "core/color/color_key_json.h"
 
 #include <algorithm>
 #include <cmath>

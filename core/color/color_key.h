@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What colours mean: the scale of a scheme of numbers, the names of a scheme of classes, as legends, JSON and exporters
-// take it.
+// What colours mean: the scale of a scheme of numbers, the names of a scheme of classes, as legends and exporters take
+// it.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <glm/vec3.hpp>
-#include <nlohmann/json_fwd.hpp>
 
 #include "core/color/color_maps.h"
 #include "core/color/color_schemes.h"
@@ -42,8 +41,5 @@ struct ColorKey {
 
 /// object_names: for ColorScheme::By::component. Throws as color_atoms does.
 ColorKey color_key(const Structure& structure, const ColorScheme& scheme, std::span<const std::string> object_names);
-
-/// title, and unit, map, range, missing, missing_color or classes.
-nlohmann::ordered_json color_key_json(const ColorKey& key);
 
 }  // namespace meniscus

@@ -13,7 +13,7 @@
 #include "core/base/error.h"
 #include "core/base/output_file.h"
 #include "core/base/text.h"
-#include "core/color/color_key.h"
+#include "core/color/color_key_json.h"
 #include "exporters/povray/scene_files.h"
 #include "exporters/povray/scene_report.h"
 #include "exporters/povray/scene_text.h"

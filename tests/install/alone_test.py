@@ -48,7 +48,7 @@ class Alone(unittest.TestCase):
         self.folder = folder.name
 
     def test_needs_three_libraries(self):
-        run = configure(self.folder, "-DMENISCUS_APP=OFF", "-DMENISCUS_PREVIEW=OFF",
+        run = configure(self.folder, "-DMENISCUS_APP=OFF", "-DMENISCUS_PREVIEW=OFF", "-DMENISCUS_UNITY=OFF",
                         *(f"-DMENISCUS_{part}=OFF" for part in PARTS))
         self.assertEqual(run.returncode, 0, run.stderr)
         for part in PARTS:
