@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds numbers, ranges and names of what a structure is coloured by.
 #include "core/color/color_key.h"
-#include "core/color/color_key_json.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +9,6 @@
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -273,21 +271,6 @@ ColorKey color_key(const Structure& structure, const ColorScheme& scheme, std::s
   for (const ColorRule& rule : scheme.rules)
     if (rule.paint.by == By::fixed) key.classes.push_back({rule.atoms.text(), rule.paint.fixed});
   return key;
-}
-
-nlohmann::ordered_json color_key_json(const ColorKey& key) {
-  using Json = nlohmann::ordered_json;
-  const auto triple = [](const glm::vec3& c) { return Json{c.x, c.y, c.z}; };
-  Json json{{"title", key.title}};
-  if (key.scale) {
-    const ColorScale& scale = *key.scale;
-    json = {{"title", scale.title}, {"unit", scale.unit},       {"map", scale.own_map ? "own" : map_name(scale.map)},
-            {"range", scale.range}, {"missing", scale.missing}, {"missing_color", triple(scale.missing_color)}};
-  }
-  if (!key.classes.empty()) json["classes"] = Json::array();
-  for (const ColorClass& entry : key.classes)
-    json["classes"].push_back({{"name", escaped(entry.name)}, {"color", triple(entry.color)}});
-  return json;
 }
 
 }  // namespace meniscus
