@@ -38,8 +38,8 @@ povray::SceneOptions scene_options(const SceneCommand& command, povray::Material
   return options;
 }
 
-// Whatever atoms are meant by rules in other frames. Nothing if colours change with the frames, or if objects have
-// colours of their own.
+// One table of colours for all frames: those that any rule can give to any atom. Nothing where each frame needs a table
+// of its own: where colours change from frame to frame, or objects have colours of their own.
 std::optional<std::vector<povray::SceneColor>> colors_of_run(const Scene& asked, const ColorScheme& scheme,
                                                              const Structure& reach, const Coloring& beside) {
   if (scheme.changes_with_frames() || asked.figure.hides_surface || !asked.figure.objects.empty()) return {};

@@ -113,7 +113,7 @@ class LiveView {
   Quality due(Clock::time_point now) const;
   Clock::time_point last_change() const { return last_change_; }
 
-  /// Why there is no picture of this view; empty if there is, or may be.
+  /// Why this view could not be drawn; empty if it was drawn, or is still to be.
   const std::string& fault() const { return fault_; }
 
  private:

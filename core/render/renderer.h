@@ -39,9 +39,9 @@ class Drawable {
   /// `clock`. Throws GpuError, CapacityError, OpenSurfaceError.
   virtual const GpuScene& prepare(const PictureFrame& frame, StageClock& clock) = 0;
 
-  /// prepare() may trust that a frame needs no more room than the one before. This asks for the counts that tell, and
-  /// settle(), once they have been read back, says whether it was so. If not there is no picture, and the next
-  /// prepare() trusts in nothing. Throws as prepare().
+  /// prepare() may assume that a frame needs no more room than the one before. ask() reads back the counts that it
+  /// needed; settle() then returns whether the room was enough. If it was not, the picture is invalid, and the next
+  /// prepare() measures again. Throws as prepare().
   virtual void ask(Readback&) {}
   virtual bool settle() { return true; }
 

@@ -40,7 +40,7 @@ struct SessionUpdate {
   bool at_rest = false;                ///< every command is done, and the full picture is drawn
   nlohmann::json state, stats;         ///< replies of the session to these words; null when nothing changed
   nlohmann::json choices;              ///< likewise; null before the first state
-  std::string fault;                   ///< why there is no picture of this view; empty if there is
+  std::string fault;                   ///< why this view could not be drawn; empty if it was
   std::optional<double> busy_seconds;  ///< how long it has been working by now
   bool quit = false;
 };

@@ -37,7 +37,7 @@ class GpuCircles {
   void expose(const BallBatch& batch, StageClock& clock);
 
   /// The same for the only batch, without asking how many arcs there are: none may be left to the host, and lists must
-  /// have had room. What the host has to know comes back with the frame; settle() says whether it was so.
+  /// have had room. The counts come back with the frame; settle() returns whether both held.
   void expose_later(const BallBatch& batch, StageClock& clock);
   void ask(Readback& readback);
   bool settle(const BallBatch& batch);
