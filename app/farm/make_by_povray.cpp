@@ -76,10 +76,12 @@ class OwnFolder {
 
 void render(const Step& step, const Workplace& place, std::uint64_t frame, const std::string& picture,
             const FrameListener& listener) {
-  const fs::path own = place.folder / "images" / own_name(frame);
+  const std::string name = own_name(frame);
+  const fs::path own = place.folder / "images" / name;
   const OwnFolder folder(own);
   copy_checked_scene(place.folder, frame, own);
-  const std::vector<std::string> command = povray_command(step, place, frame, "frame.png");
+  // POV-Ray says where it writes: its log names the frame.
+  const std::vector<std::string> command = povray_command(step, place, frame, fmt::format("../{}/frame.png", name));
   Ended ended = run_povray(command, own, listener);
   if (ended.code > kSignalCode) {
     listener.tried_again(frame, signal_text(ended.code));

@@ -21,7 +21,7 @@ class Renderers(WorkCase):
         for number, code in ((signal.SIGKILL, -9), (signal.SIGTERM, 9)):
             worker = subprocess.Popen([MENISCUS, "work", folder, "--progress", "none"],
                                       env=dict(os.environ, PATH=f"{endless}:{os.environ['PATH']}"))
-            wait_until(lambda: processes_in(folder / "scene"), what="the renderer")
+            wait_until(lambda: processes_in(folder / "images" / ".povray_"), what="the renderer")
             worker.send_signal(number)
             self.assertEqual(worker.wait(20), code)
             wait_until(lambda: not processes_in(folder), 10, "the renderer to end")
