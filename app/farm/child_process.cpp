@@ -196,4 +196,11 @@ void stop_children() {
   }
 }
 
+StopBarrier::StopBarrier() {
+  registry().mutex.lock();
+  stay_if_stopping();
+}
+
+StopBarrier::~StopBarrier() { registry().mutex.unlock(); }
+
 }  // namespace meniscus::farm

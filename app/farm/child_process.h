@@ -47,4 +47,15 @@ int signal_exit_code(int code);
 /// For the thread that ends the program; the main thread may be anywhere.
 void stop_children();
 
+/// While it lives, stop_children() waits. Once that has begun, the constructor never returns. For the main thread when
+/// it writes files that the thread that ends the program removes: without it one could be written after the removal.
+/// Not while a child is started or waited for.
+class StopBarrier {
+ public:
+  StopBarrier();
+  ~StopBarrier();
+  StopBarrier(const StopBarrier&) = delete;
+  StopBarrier& operator=(const StopBarrier&) = delete;
+};
+
 }  // namespace meniscus::farm

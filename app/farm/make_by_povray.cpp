@@ -62,7 +62,12 @@ Ended run_povray(const std::vector<std::string>& command, const fs::path& folder
 /// A folder for the scene and the picture of one process, away with this object.
 class OwnFolder {
  public:
-  explicit OwnFolder(fs::path path) : path_(std::move(path)) { fs::create_directories(path_); }
+  // An object whose first constructor is done is destroyed when the second throws, and the folder with it.
+  OwnFolder(const fs::path& path, const Workplace& place, std::uint64_t frame) : OwnFolder(path) {
+    const StopBarrier barrier;
+    fs::create_directories(path_);
+    copy_checked_scene(place.folder, frame, path_);
+  }
   ~OwnFolder() {
     std::error_code ignored;
     fs::remove_all(path_, ignored);
@@ -71,6 +76,8 @@ class OwnFolder {
   OwnFolder& operator=(const OwnFolder&) = delete;
 
  private:
+  explicit OwnFolder(const fs::path& path) : path_(path) {}
+
   fs::path path_;
 };
 
@@ -78,8 +85,7 @@ void render(const Step& step, const Workplace& place, std::uint64_t frame, const
             const FrameListener& listener) {
   const std::string name = own_name(frame);
   const fs::path own = place.folder / "images" / name;
-  const OwnFolder folder(own);
-  copy_checked_scene(place.folder, frame, own);
+  const OwnFolder folder(own, place, frame);
   // POV-Ray says where it writes: its log names the frame.
   const std::vector<std::string> command = povray_command(step, place, frame, fmt::format("../{}/frame.png", name));
   Ended ended = run_povray(command, own, listener);
@@ -92,6 +98,7 @@ void render(const Step& step, const Workplace& place, std::uint64_t frame, const
   const fs::path made = picture_in(own);
   if (ended.code != 0 || made.empty())
     throw RunError(kExitInput, fmt::format("povray ended with code {}: {}", ended.code, ended.words));
+  const StopBarrier barrier;
   remove_png_time(made);
   fs::rename(made, place.folder / picture);
 }

@@ -45,6 +45,18 @@ class Work(WorkCase):
         self.meniscus("work", folder)
         self.assert_equals_reference(folder)
 
+    def test_stopped_while_it_copies_a_scene(self):
+        """What is copied for a frame is gone after a stop, also when the stop comes in the middle of the copying."""
+        folder = self.povray_bundle("copying", 2)
+        self.meniscus("work", folder, "--step", "surface")
+        for number in range(3000):
+            (folder / "scene" / f"surface_volume_{number}.df3").write_bytes(b"0" * 10)
+        worker = self.start(folder, "--step", "render")
+        wait_until(lambda: any(folder.glob("images/.povray_*/*.df3")), what="the first copy")
+        worker.send_signal(signal.SIGTERM)
+        self.assertEqual(worker.wait(), 9)
+        self.assert_nothing_unfinished(folder)
+
     def test_shares_make_the_whole(self):
         folder = self.povray_bundle("shares")
         for k in (3, 1, 2):
