@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "app/farm/checksum.h"
-#include "app/farm/child_process.h"
 #include "app/farm/driver_checksums.h"
 #include "app/farm/inner_path.h"
 #include "core/base/error.h"
@@ -53,7 +52,6 @@ DriverCopy::DriverCopy(const fs::path& bundle_folder, std::string name)
 // An object whose first constructor is done is destroyed when the second throws, and the folder with it.
 DriverCopy::DriverCopy(const fs::path& bundle_folder)
     : DriverCopy(bundle_folder, fmt::format(".blender_{}", ::getpid())) {
-  const StopBarrier barrier;
   std::error_code error;
   fs::remove_all(path_, error);  // of a process that had this number before
   for (const DriverFile& file : driver_files()) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "app/farm/blender_driver.h"
+#include "app/farm/child_process.h"
 #include "app/farm/check_bundle.h"
 #include "app/farm/command_options.h"
 #include "app/farm/makers.h"
@@ -81,7 +82,10 @@ void make_frames(const Bundle& bundle, const Step& step, const Workplace& place,
   make_folders_of(place.folder / "images" / "frame");
   const bool blender = step.maker == Maker::blender;
   std::optional<DriverCopy> driver;
-  if (blender) driver.emplace(place.folder);
+  if (blender) {
+    const StopBarrier barrier;
+    driver.emplace(place.folder);
+  }
   make_by_lines(
       [&](const std::vector<std::uint64_t>& left, bool alone) {
         return blender ? blender_command(driver->script(), step, place, left)

@@ -24,7 +24,7 @@
 
 #include "app/process/program_error.h"
 #include "core/base/error.h"
-#include "core/trajectory/formats/binary_file.h"
+#include "core/base/binary_file.h"
 
 extern char** environ;
 

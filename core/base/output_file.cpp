@@ -2,75 +2,49 @@
 // Writes files beside their final names, syncs and renames them, and clears away those that were never finished.
 #include "core/base/output_file.h"
 
-#include <fcntl.h>
-#include <sched.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
-#include <ctime>
 #include <fstream>
 #include <iterator>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
+#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/uninterrupted.h"
+#include "core/base/system_file.h"
 
 namespace meniscus {
 namespace {
 
 namespace fs = std::filesystem;
+using system_file::State;
 
 std::string reason(int error) { return std::strerror(error); }
 
 fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
 
-/// Makes a rename durable; file systems that cannot sync folders (EINVAL) are left to their own order.
-void sync_folder(const fs::path& folder) {
-  const int descriptor = uninterrupted([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
-  if (descriptor < 0) return;
-  uninterrupted([&] { return ::fsync(descriptor); });
-  ::close(descriptor);
-}
-
-/// Gives the file a name that nobody has, even if somebody takes it at this moment. Otherwise false, and why in errno.
-bool rename_to_free(const fs::path& from, const fs::path& to) {
-  const auto rename = [&] { return ::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE); };
-  if (uninterrupted(rename) == 0) return true;
-  if (errno != EINVAL && errno != ENOSYS) return false;
-  // File systems without it, such as NFS, have links, which do not replace either.
-  if (uninterrupted([&] { return ::link(from.c_str(), to.c_str()); }) == 0) {
-    ::unlink(from.c_str());
-    return true;
-  }
-  const bool no_links = errno == EPERM || errno == EOPNOTSUPP || errno == ENOSYS;
-  return no_links && uninterrupted([&] { return ::rename(from.c_str(), to.c_str()); }) == 0;
-}
-
-/// The files that protect_input() was told of, by device and inode.
+/// The files that protect_input() was told of.
 class Inputs {
  public:
-  void add(const struct stat& status) {
+  void add(const State& state) {
     const std::lock_guard lock(mutex_);
-    files_.emplace(status.st_dev, status.st_ino);
+    files_.insert(state.identity);
   }
-  bool has(const struct stat& status) {
+  bool has(const State& state) {
     const std::lock_guard lock(mutex_);
-    return files_.contains({status.st_dev, status.st_ino});
+    return files_.contains(state.identity);
   }
 
  private:
   std::mutex mutex_;
-  std::set<std::pair<dev_t, ino_t>> files_;
+  std::set<decltype(State::identity)> files_;
 };
 
 Inputs& inputs() {
@@ -79,14 +53,15 @@ Inputs& inputs() {
 }
 
 void refuse_unsuitable_target(const fs::path& target, Existing existing) {
-  if (target.filename().empty()) throw OutputError(target.string(), "names no file");
-  struct stat status {};
-  if (::stat(target.c_str(), &status) == 0 && inputs().has(status))
-    throw OutputError(target.string(), "is one of the files that this command reads; choose another name");
-  if (::lstat(target.c_str(), &status) != 0) return;
-  if (S_ISDIR(status.st_mode)) throw OutputError(target.string(), "is a folder; give the name of a file");
-  if (!S_ISREG(status.st_mode) && !S_ISLNK(status.st_mode)) throw OutputError(target.string(), "is no regular file");
-  if (existing == Existing::refuse) throw OutputError(target.string(), "exists already; use --force to replace it");
+  const std::string text = text_of_path(target);
+  if (target.filename().empty()) throw OutputError(text, "names no file");
+  if (const std::optional<State> state = system_file::state_of(target); state && inputs().has(*state))
+    throw OutputError(text, "is one of the files that this command reads; choose another name");
+  const std::optional<State> state = system_file::state_of_entry(target);
+  if (!state) return;
+  if (state->kind == State::Kind::folder) throw OutputError(text, "is a folder; give the name of a file");
+  if (state->kind == State::Kind::other) throw OutputError(text, "is no regular file");
+  if (existing == Existing::refuse) throw OutputError(text, "exists already; use --force to replace it");
 }
 
 /// Temporary files of this process that have not got their final name, and folders made for them, newest first. What
@@ -114,11 +89,9 @@ class Unfinished {
     constexpr int kMostWaits = 1000;
     for (int waits = 0; locked_.test_and_set(std::memory_order_acquire); ++waits) {
       if (waits == kMostWaits) return;
-      const timespec millisecond{0, 1'000'000};
-      ::nanosleep(&millisecond, nullptr);
+      system_file::wait_a_millisecond();
     }
-    for (const Entry* entry = newest_; entry; entry = entry->older)
-      if (::unlink(entry->path.c_str()) != 0) ::rmdir(entry->path.c_str());
+    for (const Entry* entry = newest_; entry; entry = entry->older) system_file::remove(entry->path);
     unlock();
   }
 
@@ -129,7 +102,7 @@ class Unfinished {
   };
 
   void lock() noexcept {
-    while (locked_.test_and_set(std::memory_order_acquire)) ::sched_yield();
+    while (locked_.test_and_set(std::memory_order_acquire)) std::this_thread::yield();
   }
   void unlock() noexcept { locked_.clear(std::memory_order_release); }
 
@@ -148,30 +121,30 @@ OutputFile::OutputFile(fs::path target, Existing existing) : target_(std::move(t
   static std::atomic<unsigned> serial{0};
   // Our own exclusive name instead of mkstemp: mkstemp's mode 0600 would outlive the rename.
   for (int attempt = 0; descriptor_ < 0 && attempt < 1000; ++attempt) {
-    temporary_ = folder_of(target_) / fmt::format(".{}.{}-{}.part{}", target_.stem().string(), ::getpid(), serial++,
-                                                  target_.extension().string());
-    descriptor_ = uninterrupted(
-        [&] { return ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666); });
+    temporary_ = folder_of(target_) /
+                 path_of_text(fmt::format(".{}.{}-{}.part{}", text_of_path(target_.stem()), system_file::process(),
+                                          serial++, text_of_path(target_.extension())));
+    descriptor_ = system_file::create(temporary_);
     if (descriptor_ < 0 && errno != EEXIST) break;
   }
   if (descriptor_ < 0) {
     const int error = errno;
     temporary_.clear();
-    fail(fmt::format("cannot be written in {}: {}", folder_of(target_).string(), reason(error)));
+    fail(fmt::format("cannot be written in {}: {}", text_of_path(folder_of(target_)), reason(error)));
   }
   try {
     unfinished.add(temporary_);
   } catch (...) {
-    ::close(descriptor_);
-    ::unlink(temporary_.c_str());
+    system_file::close(descriptor_);
+    system_file::remove(temporary_);
     throw;
   }
 }
 
 OutputFile::~OutputFile() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+  if (descriptor_ >= 0) system_file::close(descriptor_);
   if (temporary_.empty()) return;
-  ::unlink(temporary_.c_str());
+  system_file::remove(temporary_);
   unfinished.remove(temporary_);
 }
 
@@ -179,44 +152,39 @@ void OutputFile::write(std::string_view text) { write(std::as_bytes(std::span(te
 
 void OutputFile::write(std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
-    const ssize_t written = uninterrupted([&] { return ::write(descriptor_, bytes.data(), bytes.size()); });
+    const std::ptrdiff_t written = system_file::write(descriptor_, bytes.data(), bytes.size());
     if (written <= 0) fail("cannot be written: " + reason(written < 0 ? errno : ENOSPC));
     bytes = bytes.subspan(static_cast<std::size_t>(written));
   }
 }
 
 void OutputFile::rewrite_beginning(std::span<const std::byte> bytes) {
-  for (off_t at = 0; !bytes.empty();) {
-    const ssize_t written = uninterrupted([&] { return ::pwrite(descriptor_, bytes.data(), bytes.size(), at); });
+  for (std::uint64_t at = 0; !bytes.empty();) {
+    const std::ptrdiff_t written = system_file::write_at(descriptor_, bytes.data(), bytes.size(), at);
     if (written <= 0) fail("cannot be written: " + reason(written < 0 ? errno : ENOSPC));
     bytes = bytes.subspan(static_cast<std::size_t>(written));
-    at += written;
+    at += static_cast<std::uint64_t>(written);
   }
 }
 
 void OutputFile::sync() {
-  // A descriptor is closed even where that is interrupted, and what matters is the sync.
-  if (descriptor_ >= 0 && ::close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR)
+  if (descriptor_ >= 0 && !system_file::close(std::exchange(descriptor_, -1)))
     fail("cannot be written: " + reason(errno));
   // A program may have replaced the temporary file by name, so the name is synced, not our descriptor.
-  const int descriptor = uninterrupted([&] { return ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC); });
-  if (descriptor < 0) fail("vanished while it was written: " + reason(errno));
-  const int error = uninterrupted([&] { return ::fsync(descriptor); }) != 0 ? errno : 0;
-  ::close(descriptor);
-  if (error != 0 && error != EINVAL) fail("cannot be written: " + reason(error));
+  if (!system_file::state_of(temporary_)) fail("vanished while it was written: " + reason(errno));
+  if (!system_file::sync(temporary_)) fail("cannot be written: " + reason(errno));
 }
 
 void OutputFile::rename_to_target() {
-  struct stat status {};
-  replaced_ = ::lstat(target_.c_str(), &status) == 0;
+  replaced_ = system_file::state_of_entry(target_).has_value();
   if (existing_ == Existing::refuse) {
     refuse_unsuitable_target(target_, existing_);
-    if (!rename_to_free(temporary_, target_)) {
+    if (!system_file::rename_to_free(temporary_, target_)) {
       const int error = errno;
       refuse_unsuitable_target(target_, existing_);
       fail("cannot get its final name: " + reason(error));
     }
-  } else if (uninterrupted([&] { return ::rename(temporary_.c_str(), target_.c_str()); }) != 0) {
+  } else if (!system_file::rename_over(temporary_, target_)) {
     fail("cannot get its final name: " + reason(errno));
   }
   unfinished.remove(temporary_);
@@ -227,20 +195,20 @@ void OutputFile::commit() {
   const fs::path folder = folder_of(target_);  // nothing may fail once the file has its name
   sync();
   rename_to_target();
-  sync_folder(folder);
+  system_file::sync_folder(folder);
 }
 
-void OutputFile::fail(const std::string& what) const { throw OutputError(target_.string(), what); }
+void OutputFile::fail(const std::string& what) const { throw OutputError(text_of_path(target_), what); }
 
 void protect_input(const fs::path& path) {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode)) inputs().add(status);
+  const std::optional<State> state = system_file::state_of(path);
+  if (state && state->kind == State::Kind::file) inputs().add(*state);
 }
 
 void make_folders_of(const fs::path& file) {
   std::error_code error;
   fs::create_directories(folder_of(file), error);
-  if (error) throw OutputError(folder_of(file).string(), "the folder cannot be made: " + error.message());
+  if (error) throw OutputError(text_of_path(folder_of(file)), "the folder cannot be made: " + error.message());
 }
 
 void check_output(const fs::path& target, Existing existing) { const OutputFile possible(target, existing); }
@@ -266,7 +234,8 @@ OutputFolder::OutputFolder(fs::path folder, Existing existing) : folder_(std::mo
   }
   if (std::error_code ignored; !fs::is_directory(folder_, ignored)) {
     remove_created_folders();
-    throw OutputError(folder_.string(), "is no folder and cannot be made one" + (error ? ": " + error.message() : ""));
+    throw OutputError(text_of_path(folder_),
+                      "is no folder and cannot be made one" + (error ? ": " + error.message() : ""));
   }
 }
 
@@ -281,16 +250,16 @@ OutputFolder::~OutputFolder() {
 
 void OutputFolder::remove_created_folders() {
   for (auto made = created_folders_.rbegin(); made != created_folders_.rend(); ++made) {
-    ::rmdir(made->c_str());
+    system_file::remove(*made);
     unfinished.remove(*made);
   }
 }
 
 OutputFile& OutputFolder::file(const std::string& name) {
-  if (name.empty() || name == "." || name == ".." || name.find('/') != std::string::npos) {
-    throw OutputError((folder_ / name).string(), "is no plain file name");
-  }
-  return *files_.emplace_back(std::make_unique<OutputFile>(folder_ / name, existing_));
+  const fs::path plain = path_of_text(name), path = folder_ / plain;
+  if (plain.empty() || name == "." || name == ".." || plain != plain.filename())
+    throw OutputError(text_of_path(path), "is no plain file name");
+  return *files_.emplace_back(std::make_unique<OutputFile>(path, existing_));
 }
 
 void OutputFolder::commit() {
@@ -300,17 +269,17 @@ void OutputFolder::commit() {
     for (; renamed < files_.size(); ++renamed) files_[renamed]->rename_to_target();
   } catch (...) {
     for (std::size_t n = 0; n < renamed; ++n) {
-      if (!files_[n]->replaced_) ::unlink(files_[n]->target_.c_str());
+      if (!files_[n]->replaced_) system_file::remove(files_[n]->target_);
     }
     throw;
   }
-  sync_folder(folder_);
+  system_file::sync_folder(folder_);
   committed_ = true;
 }
 
 void write_shared_files(const std::filesystem::path& folder, Existing existing, std::span<const SharedFile> files) {
   const auto is_there = [&](const SharedFile& shared) {
-    std::ifstream file(folder / shared.name, std::ios::binary);
+    std::ifstream file(folder / path_of_text(shared.name), std::ios::binary);
     return file && std::string(std::istreambuf_iterator<char>(file), {}) == shared.text;
   };
   try {

@@ -6,93 +6,29 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstring>
+#include <span>
 #include <string_view>
 #include <utility>
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <fmt/format.h>
 
+#include "core/base/binary_file.h"
 #include "core/base/error.h"
 #include "core/base/gzip.h"
+#include "core/base/system_file.h"
 #include "core/base/text.h"
-#include "core/base/uninterrupted.h"
 
 namespace meniscus {
 namespace {
 
 constexpr std::size_t kLongestLine = std::size_t{1} << 20;
-constexpr std::size_t kTail = 4096;  // bytes before the end, to tell appending from writing anew
-
-[[noreturn]] void unreadable(const std::string& path) {
-  throw InputError(path, 0, std::string("cannot be read: ") + std::strerror(errno));
-}
-
-/// An open file. The descriptor is closed with it.
-class OpenFile {
- public:
-  explicit OpenFile(const std::string& path)
-      : path_(path), descriptor_(uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC); })) {
-    if (descriptor_ < 0) unreadable(path_);
-  }
-  ~OpenFile() { ::close(descriptor_); }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-
-  struct stat status() const {
-    struct stat status {};
-    if (::fstat(descriptor_, &status) != 0) unreadable(path_);
-    return status;
-  }
-
-  /// These bytes of the file, fewer where it ends before.
-  std::string read(std::size_t offset, std::size_t count) const {
-    std::string bytes(count, '\0');
-    std::size_t filled = 0;
-    while (filled < count) {
-      const ssize_t got = uninterrupted([&] {
-        return ::pread(descriptor_, bytes.data() + filled, count - filled, static_cast<off_t>(offset + filled));
-      });
-      if (got < 0) unreadable(path_);
-      if (got == 0) break;
-      filled += static_cast<std::size_t>(got);
-    }
-    bytes.resize(filled);
-    return bytes;
-  }
-
- private:
-  const std::string& path_;
-  int descriptor_;
-};
-
-bool same_time(const timespec& a, const timespec& b) { return a.tv_sec == b.tv_sec && a.tv_nsec == b.tv_nsec; }
-
-/// Is what was read what the file held when it was opened? Bytes appended since then do not matter.
-bool is_snapshot(const OpenFile& file, const struct stat& opened, std::string_view bytes) {
-  if (bytes.size() != static_cast<std::size_t>(opened.st_size)) return false;
-  const struct stat now = file.status();
-  if (now.st_size == opened.st_size) return same_time(now.st_mtim, opened.st_mtim);
-  const std::string_view tail = bytes.substr(bytes.size() - std::min(bytes.size(), kTail));
-  return now.st_size > opened.st_size && file.read(bytes.size() - tail.size(), tail.size()) == tail;
-}
 
 std::string read_bytes(const std::string& path, std::size_t largest) {
-  struct stat status {};
-  // Asked before opening, because to open a pipe waits for somebody who writes to it.
-  if (::stat(path.c_str(), &status) != 0) unreadable(path);
-  if (S_ISDIR(status.st_mode)) throw InputError(path, 0, "is a folder; give the name of a molecule file");
-  if (!S_ISREG(status.st_mode))
-    throw InputError(path, 0, "is a pipe or device; save it as a file first, or give - to read standard input");
-  const OpenFile file(path);
-  status = file.status();
-  if (static_cast<std::size_t>(status.st_size) > largest) refuse_too_large(path, largest);
-  std::string bytes = file.read(0, static_cast<std::size_t>(status.st_size));
-  if (!is_snapshot(file, status, bytes))
-    throw InputError(path, 0, "was changed while it was read; run again once it is complete");
-  if (bytes.empty()) throw InputError(path, 0, "is empty: no atoms");
+  BinaryFile file(path, Contents::atoms);
+  if (file.size() > largest) refuse_too_large(path, largest);
+  std::string bytes(static_cast<std::size_t>(file.size()), '\0');
+  file.read(0, std::as_writable_bytes(std::span(bytes)));
+  file.check_unchanged();
   return bytes;
 }
 
@@ -100,8 +36,8 @@ std::string read_standard_input(const std::string& path, std::size_t largest) {
   std::string bytes;
   std::string chunk(std::size_t{1} << 16, '\0');
   while (true) {
-    const ssize_t count = uninterrupted([&] { return ::read(STDIN_FILENO, chunk.data(), chunk.size()); });
-    if (count < 0) unreadable(path);
+    const std::ptrdiff_t count = system_file::read(0, std::as_writable_bytes(std::span(chunk)).data(), chunk.size());
+    if (count < 0) throw InputError(path, 0, std::string("cannot be read: ") + std::strerror(errno));
     if (count == 0) break;
     bytes.append(chunk, 0, static_cast<std::size_t>(count));
     if (bytes.size() > largest) refuse_too_large(path, largest);

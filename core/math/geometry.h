@@ -2,6 +2,7 @@
 // The shared geometry functions, compiled for C++ in double precision.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 

@@ -2,8 +2,11 @@
 // The shared geometry functions once more, compiled in quadruple precision for decisions that double leaves in doubt.
 #pragma once
 
+#include <cfloat>
 #include <cmath>
 #include <cstdint>
+
+#include "core/math/binary128.h"
 
 #define GEOMETRY inline
 #define GEOMETRY_OUT(type) type&
@@ -12,7 +15,17 @@
 namespace meniscus::quad_geometry {
 
 using uint = std::uint32_t;
+
+// IEEE 754 binary128 under the name that the compiler has for it, or in integers: all give the same bits.
+#if defined(MENISCUS_BINARY128)
+using real = Binary128;
+#elif defined(__SIZEOF_FLOAT128__)
 __extension__ typedef __float128 real;
+#elif LDBL_MANT_DIG == 113
+using real = long double;
+#else
+using real = Binary128;
+#endif
 
 inline constexpr real kUnitRoundoff = 0x1p-113;
 

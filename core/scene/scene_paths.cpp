@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/system_file.h"
 #include "core/base/text.h"
 
 namespace meniscus {
@@ -23,13 +24,15 @@ namespace fs = std::filesystem;
 
 bool SceneTrust::has(const std::string& path) const {
   std::error_code ignored;
-  const auto is_it = [&](const std::string& word) { return fs::equivalent(word, path, ignored); };
+  const auto is_it = [&](const std::string& word) {
+    return fs::equivalent(path_of_text(word), path_of_text(path), ignored);
+  };
   return std::ranges::any_of(typed, is_it) || std::ranges::any_of(named, is_it);
 }
 
 std::string SceneTrust::path(const Property& property, const std::string& text, const std::string& place) const {
-  const fs::path given(text);
-  const std::string path = (given.is_absolute() ? given : fs::path(file).parent_path() / given).string();
+  const fs::path given = path_of_text(text);
+  const std::string path = text_of_path(given.is_absolute() ? given : path_of_text(file).parent_path() / given);
   if (is_whole) return path;
   if (property.type != ValueType::new_file) {
     const bool leads_out = given.is_absolute() || std::ranges::find(given, fs::path("..")) != given.end();
@@ -45,7 +48,7 @@ std::string SceneTrust::path(const Property& property, const std::string& text, 
          fmt::format("is {}; a scene does not say in which folder its picture is written: {}", in_quotes(text),
                      own_advice));
   std::error_code ignored;
-  if (replaces && fs::exists(fs::symlink_status(path, ignored)))
+  if (replaces && fs::exists(fs::symlink_status(path_of_text(path), ignored)))
     fail(file, place,
          fmt::format("is {}, which exists already; --force replaces what is named on the command line: {}",
                      in_quotes(text), own_advice));

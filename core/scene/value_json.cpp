@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "core/base/error.h"
+#include "core/base/system_file.h"
 
 namespace meniscus {
 namespace {
@@ -31,10 +32,11 @@ Json number_or_text(const std::string& text) {
 }
 
 std::string seen_from(const std::string& folder, const std::string& path) {
-  if (folder.empty()) return fs::path(path).filename().string();
+  const fs::path given = path_of_text(path);
+  if (folder.empty()) return text_of_path(given.filename());
   std::error_code failed;
-  const fs::path seen = fs::proximate(fs::absolute(path), fs::absolute(folder), failed);
-  return failed ? fs::absolute(path).string() : seen.string();
+  const fs::path seen = fs::proximate(fs::absolute(given), fs::absolute(path_of_text(folder)), failed);
+  return text_of_path(failed ? fs::absolute(given) : seen);
 }
 
 }  // namespace

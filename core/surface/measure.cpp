@@ -195,7 +195,7 @@ class Measurement {
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(), order.end(), [&](std::uint32_t x, std::uint32_t y) {
       const Component &a = s_.components[x], &b = s_.components[y];
-      return a.kind != b.kind ? a.kind < b.kind : a.area > b.area;
+      return a.kind != b.kind ? a.kind < b.kind : area_rank(a.area) > area_rank(b.area);
     });
     std::vector<std::uint32_t> rank(order.size());
     std::vector<Component> sorted;

@@ -2,7 +2,9 @@
 // Large tables made on all cores: their memory, and the numbers of rows of varying length.
 #pragma once
 
+#if defined(__linux__)
 #include <sys/mman.h>
+#endif
 
 #include <algorithm>
 #include <cstddef>

@@ -81,7 +81,7 @@ void sort_by_size(const Surface& surface, ReducedComponents& components) {
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     const bool cavity_a = sizes[a].volume < 0, cavity_b = sizes[b].volume < 0;
-    return cavity_a != cavity_b ? cavity_b : sizes[a].area() > sizes[b].area();
+    return cavity_a != cavity_b ? cavity_b : area_rank(sizes[a].area()) > area_rank(sizes[b].area());
   });
   std::vector<std::uint32_t> rank(order.size());
   for (std::uint32_t n = 0; n < order.size(); ++n) rank[order[n]] = n;

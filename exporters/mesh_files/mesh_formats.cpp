@@ -7,6 +7,7 @@
 #include <cctype>
 #include <utility>
 
+#include "core/base/system_file.h"
 #include "exporters/mesh_files/writers.h"
 
 namespace meniscus {
@@ -79,7 +80,7 @@ void write_mesh_file(const MeshFormat& format, const std::string& path, Existing
     mesh.objects.clear();
     mesh.objects.push_back(std::move(whole));
   }
-  OutputFile file(path, existing);
+  OutputFile file(path_of_text(path), existing);
   format.write(file, mesh);
   file.commit();
 }

@@ -2,8 +2,12 @@
 # where that is missing the call that would need it says so. The programs need all of them, and more.
 option(MENISCUS_APP "Build the programs; OFF: libmeniscus alone, of what is there" ON)
 option(MENISCUS_PREVIEW "Build the window and the page of `meniscus preview`; with the programs only" ON)
+# Sine, arctangent and the like differ in the last bit from system to system. With one library of them for all
+# (scripts/targets.sh: musl's) results have the same bits everywhere.
+set(MENISCUS_LIBM "" CACHE FILEPATH "A static library of elementary functions in the place of the system's")
 find_package(fmt REQUIRED)
 find_package(glm REQUIRED)
+find_package(Threads REQUIRED)  # which a static TBB names without finding it
 find_package(TBB REQUIRED)
 find_package(PkgConfig QUIET)
 set(parts "")
@@ -49,9 +53,12 @@ meniscus_find_by_pkg_config(DEFLATE libdeflate)
 find_package(ZLIB QUIET)
 find_package(nlohmann_json QUIET)
 find_package(Freetype QUIET)
-# gemmi is header-only in Debian 12; its mmCIF parser needs PEGTL (tao-pegtl-dev), which its package does not name.
+# gemmi is header-only in Debian 12; its mmCIF parser needs PEGTL (tao-pegtl-dev), which its package does not name. From
+# 0.6 on gemmi has a library, too, and brings its own PEGTL.
 find_path(GEMMI_INCLUDE_DIR gemmi/cif.hpp)
-find_path(PEGTL_INCLUDE_DIR tao/pegtl.hpp)
+find_path(PEGTL_INCLUDE_DIR tao/pegtl.hpp HINTS ${GEMMI_INCLUDE_DIR}/gemmi/third_party)
+find_library(GEMMI_LIBRARY gemmi_cpp)
+mark_as_advanced(GEMMI_LIBRARY)
 if(GEMMI_INCLUDE_DIR AND PEGTL_INCLUDE_DIR)
   set(GEMMI_FOUND ON)
 else()

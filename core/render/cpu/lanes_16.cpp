@@ -4,8 +4,12 @@
 #include "core/render/cpu/lane_kernels.h"
 
 #if defined(__x86_64__)
+#include "core/render/cpu/processor.h"
 
-#if defined(__clang__)
+#if defined(__clang__) && __clang_major__ >= 18 && __clang_major__ < 22
+// These versions name registers of 512 bits apart (evex512).
+#pragma clang attribute push(__attribute__((target("avx512f,avx512dq,avx512vl,avx512bw,evex512"))), apply_to = function)
+#elif defined(__clang__)
 #pragma clang attribute push(__attribute__((target("avx512f,avx512dq,avx512vl,avx512bw"))), apply_to = function)
 #else
 #pragma GCC push_options
@@ -30,10 +34,7 @@ const LaneKernels* kernels_of_16_lanes() {
                                        lanes_16::light_points,
                                        lanes_16::occlude_row,
                                        lanes_16::finish_row};
-  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                 __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw")
-             ? &kernels
-             : nullptr;
+  return processor_has_avx512() ? &kernels : nullptr;
 }
 
 }  // namespace meniscus

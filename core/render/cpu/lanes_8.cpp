@@ -3,6 +3,7 @@
 #include "core/render/cpu/lane_kernels.h"
 
 #if defined(__x86_64__)
+#include "core/render/cpu/processor.h"
 
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
@@ -25,7 +26,7 @@ namespace meniscus {
 const LaneKernels* kernels_of_8_lanes() {
   static constexpr LaneKernels kernels{
       8, lanes_8::cast_tile, lanes_8::cast_layer, lanes_8::light_points, lanes_8::occlude_row, lanes_8::finish_row};
-  return __builtin_cpu_supports("avx2") ? &kernels : nullptr;
+  return processor_has_avx2() ? &kernels : nullptr;
 }
 
 }  // namespace meniscus

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/trajectory/formats/binary_file.h"
+#include "core/base/binary_file.h"
 
 namespace meniscus {
 

@@ -15,7 +15,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/structure/structure.h"
-#include "core/trajectory/formats/binary_file.h"
+#include "core/base/binary_file.h"
 #include "core/trajectory/trajectory.h"
 
 namespace meniscus {

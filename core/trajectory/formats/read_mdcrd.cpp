@@ -13,7 +13,7 @@
 #include "core/base/parse_number.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"
-#include "core/trajectory/formats/binary_file.h"
+#include "core/base/binary_file.h"
 #include "core/trajectory/formats/trajectory_formats.h"
 #include "core/trajectory/trajectory.h"
 

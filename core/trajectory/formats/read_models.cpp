@@ -22,7 +22,7 @@
 #include "core/base/text_file.h"
 #include "core/structure/formats/pdb_records.h"
 #include "core/structure/formats/structure_formats.h"
-#include "core/trajectory/formats/binary_file.h"
+#include "core/base/binary_file.h"
 #include "core/trajectory/formats/trajectory_formats.h"
 #include "core/trajectory/trajectory.h"
 

@@ -9,7 +9,7 @@
 #include "core/base/constants.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/trajectory/formats/binary_file.h"
+#include "core/base/binary_file.h"
 #include "core/trajectory/formats/frame_index.h"
 #include "core/trajectory/formats/packed_coordinates.h"
 #include "core/trajectory/formats/trajectory_formats.h"

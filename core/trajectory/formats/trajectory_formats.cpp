@@ -12,7 +12,7 @@
 #include "core/base/module_file.h"
 #include "core/base/text_file.h"
 #include "core/structure/formats/structure_formats.h"
-#include "core/trajectory/formats/binary_file.h"
+#include "core/base/binary_file.h"
 #include "core/trajectory/trajectory.h"
 
 namespace meniscus {

@@ -40,7 +40,13 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#if defined(__GNUC__)
+#if defined(MENISCUS_STATIC)
+#define MENISCUS_API
+#elif defined(_WIN32) && defined(MENISCUS_BUILDS_LIBRARY)
+#define MENISCUS_API __declspec(dllexport)
+#elif defined(_WIN32)
+#define MENISCUS_API __declspec(dllimport)
+#elif defined(__GNUC__)
 #define MENISCUS_API __attribute__((visibility("default")))
 #else
 #define MENISCUS_API

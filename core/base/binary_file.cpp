@@ -1,56 +1,63 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads blocks of a file as bytes of either order or as lines, and notices changes of the file.
-#include "core/trajectory/formats/binary_file.h"
-
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
+#include "core/base/binary_file.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <optional>
 #include <span>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/system_file.h"
 #include "core/base/text.h"
-#include "core/base/uninterrupted.h"
 
 namespace meniscus {
 namespace {
 
 constexpr std::uint64_t kTail = 4096;
 
-std::int64_t nanoseconds(const timespec& time) { return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec; }
+using system_file::State;
+
+[[noreturn]] void unreadable(const std::string& path, int error) {
+  throw InputError(path, 0, std::string("cannot be read: ") + std::strerror(error));
+}
 
 }  // namespace
 
-BinaryFile::BinaryFile(const std::string& path) : path_(path) {
-  struct stat status {};
+BinaryFile::BinaryFile(const std::string& path, Contents contents) : path_(path) {
+  const bool atoms = contents == Contents::atoms;
+  const std::filesystem::path file = path_of_text(path);
   // Asked before opening, because to open a pipe waits for somebody who writes to it.
-  if (::stat(path.c_str(), &status) != 0)
-    throw InputError(path, 0, std::string("cannot be read: ") + std::strerror(errno));
-  if (S_ISDIR(status.st_mode)) throw InputError(path, 0, "is a folder; give the name of a trajectory file");
-  if (!S_ISREG(status.st_mode)) throw InputError(path, 0, "is a pipe or device; save it as a file first");
-  descriptor_ = uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC); });
-  if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) {
+  std::optional<State> state = system_file::state_of(file);
+  if (!state) unreadable(path, errno);
+  if (state->kind == State::Kind::folder)
+    throw InputError(path, 0,
+                     fmt::format("is a folder; give the name of a {} file", atoms ? "molecule" : "trajectory"));
+  if (state->kind != State::Kind::file)
+    throw InputError(path, 0,
+                     fmt::format("is a pipe or device; save it as a file first{}",
+                                 atoms ? ", or give - to read standard input" : ""));
+  descriptor_ = system_file::open_to_read(file);
+  if (descriptor_ < 0 || !(state = system_file::state_of(descriptor_))) {
     const int error = errno;
-    if (descriptor_ >= 0) ::close(descriptor_);
-    throw InputError(path, 0, std::string("cannot be read: ") + std::strerror(error));
+    if (descriptor_ >= 0) system_file::close(descriptor_);
+    unreadable(path, error);
   }
-  size_ = current_size_ = static_cast<std::uint64_t>(status.st_size);
-  modified_ = current_modified_ = nanoseconds(status.st_mtim);
+  size_ = current_size_ = state->size;
+  modified_ = current_modified_ = state->modified;
   try {
-    if (size_ == 0) throw InputError(path, 0, "is empty: no frames");
+    if (size_ == 0) throw InputError(path, 0, fmt::format("is empty: no {}", atoms ? "atoms" : "frames"));
     tail_ = last_bytes();
   } catch (...) {
-    ::close(descriptor_);
+    system_file::close(descriptor_);
     throw;
   }
 }
 
-BinaryFile::~BinaryFile() { ::close(descriptor_); }
+BinaryFile::~BinaryFile() { system_file::close(descriptor_); }
 
 void BinaryFile::read(std::uint64_t offset, std::span<std::byte> bytes) const {
   if (offset > size_ || bytes.size() > size_ - offset) {
@@ -59,8 +66,7 @@ void BinaryFile::read(std::uint64_t offset, std::span<std::byte> bytes) const {
                                  with_thousands(size_), with_thousands(bytes.size()), with_thousands(offset)));
   }
   while (!bytes.empty()) {
-    const ssize_t count =
-        uninterrupted([&] { return ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset)); });
+    const std::ptrdiff_t count = system_file::read_at(descriptor_, bytes.data(), bytes.size(), offset);
     if (count < 0)
       throw InputError(path_, 0, fmt::format("cannot be read at byte {}: {}", offset, std::strerror(errno)));
     if (count == 0) throw InputError(path_, 0, "became shorter while it was read; run again once it is complete");
@@ -70,11 +76,10 @@ void BinaryFile::read(std::uint64_t offset, std::span<std::byte> bytes) const {
 }
 
 void BinaryFile::check_unchanged() {
-  struct stat status {};
-  if (::fstat(descriptor_, &status) != 0)
-    throw InputError(path_, 0, std::string("cannot be read: ") + std::strerror(errno));
-  const auto size = static_cast<std::uint64_t>(status.st_size);
-  const std::int64_t modified = nanoseconds(status.st_mtim);
+  const std::optional<State> state = system_file::state_of(descriptor_);
+  if (!state) unreadable(path_, errno);
+  const std::uint64_t size = state->size;
+  const std::int64_t modified = state->modified;
   if (size == current_size_ && modified == current_modified_) return;
   if (size <= current_size_ || last_bytes() != tail_)
     throw InputError(path_, 0, "was changed while it was read; run again once it is complete");

@@ -15,19 +15,22 @@
 
 namespace meniscus {
 
+/// What a file is read for; messages say so.
+enum class Contents { atoms, frames };
+
 /// A regular file, open for reading. What lies behind the size it had when opened is never looked at, so a simulation
 /// may go on appending to it.
 class BinaryFile {
  public:
   /// Throws InputError: missing, a folder, a pipe or device, unreadable, empty.
-  explicit BinaryFile(const std::string& path);
+  explicit BinaryFile(const std::string& path, Contents contents = Contents::frames);
   ~BinaryFile();
   BinaryFile(const BinaryFile&) = delete;
   BinaryFile& operator=(const BinaryFile&) = delete;
 
   const std::string& path() const { return path_; }
   std::uint64_t size() const { return size_; }  ///< when it was opened
-  /// Time of the last change when it was opened, nanoseconds since 1970.
+  /// Time of the last change when it was opened, in nanoseconds; for comparing.
   std::int64_t modified() const { return modified_; }
 
   /// Reads exactly these bytes. Throws InputError: behind the end, a fault of the disk.
