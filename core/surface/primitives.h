@@ -145,7 +145,8 @@ struct Component {
   int euler = 2;        ///< Euler characteristic V - E + F
 };
 
-/// By what components are ordered. Areas that are equal but for rounding, which differs between systems, are equal here.
+/// By what components are ordered. Areas that are equal but for rounding, which differs between systems, are equal
+/// here.
 inline float area_rank(double area) { return static_cast<float>(area); }
 
 /// What theorem 3 lets us check, and what was found.
