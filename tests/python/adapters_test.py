@@ -72,7 +72,7 @@ class Frames(unittest.TestCase):
 
     def check(self, first, every, relative):
         self.assertAlmostEqual(first.area / self.areas[0], 1.0, delta=relative)
-        found = [s.area for s in every]
+        found = [s.area for s in list(every)]  # each keeps its frame
         np.testing.assert_allclose(found, self.areas, rtol=relative)
 
     @tried_with("MDAnalysis")

@@ -2,6 +2,7 @@
 """Atoms and frames as MDAnalysis, MDTraj, ProDy and Biotite have them; none of these is imported here."""
 from __future__ import annotations
 
+import copy
 from typing import Any, Iterator, NamedTuple, Optional
 
 import numpy as np
@@ -60,7 +61,7 @@ def _surfaces(source: _Source, radii: Optional[Any], options: dict[str, Any]) ->
                 radii = radii_of(_elements(source.elements, len(positions)))
             made = surface(positions, radii, **options)
         else:
-            made.update(positions)
+            made = copy.copy(made).update(positions)
         yield made
 
 
@@ -107,7 +108,7 @@ def series(source: Any, *, radii: Optional[Any] = None, **options: Any) -> Rows:
 
 
 def frames(source: Any, *, radii: Optional[Any] = None, **options: Any) -> Iterator[Surface]:
-    """One surface after the other for all frames of what the functions above take: the same Surface, updated."""
+    """One surface after the other for all frames of what the functions above take; each may be kept."""
     for kind in type(source).__mro__:
         reader = _READERS.get(kind.__module__.split(".")[0])
         if reader:

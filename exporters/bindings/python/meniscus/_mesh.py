@@ -2,10 +2,11 @@
 """Closed triangle meshes of a surface, and as other packages have them."""
 from __future__ import annotations
 
+import copy
 import ctypes
 import importlib
 import os
-from typing import Any, Optional
+from typing import TYPE_CHECKING, Any, Optional
 
 import numpy as np
 
@@ -14,21 +15,36 @@ from ._arrays import put_colors, view
 from ._errors import InputError
 from ._types import AnyArray, Bytes, Floats, Indices, MeshFormat, Path
 
+if TYPE_CHECKING:
+    from ._surface import Surface
+
 
 class Mesh:
     """All vertices lie on the exact surface; seen from the solvent triangles are counter-clockwise."""
 
-    def __init__(self, surface: lib.Handle, tolerance: float, split_colors: bool, density: Optional[float],
+    __slots__ = ("_handle", "_options", "_surface", "__weakref__")
+
+    def __init__(self, surface: Surface, tolerance: float, split_colors: bool, density: Optional[float],
                  even: bool) -> None:
         options = lib.default("mesh_options", lib.MeshOptions())
         options.tolerance, options.split_colors = tolerance, split_colors
         options.method = lib.MESH_EVEN if even else lib.MESH_BY_PATCH
         if density is not None:
             options.method, options.density = lib.MESH_BY_DENSITY, density
-        self._handle = lib.Handle("mesh", "surface_mesh", surface.pointer, ctypes.byref(options))
-        summary = lib.Summary(ctypes.sizeof(lib.Summary))
-        lib.call("surface_summary", surface.pointer, ctypes.byref(summary))
-        self._atom_count = int(summary.atoms)
+        self._surface = copy.copy(surface)  # of this frame
+        self._handle = lib.Handle("mesh", "surface_mesh", self._surface._handle.pointer, ctypes.byref(options))
+        self._options = (tolerance, split_colors, density, even)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickles hold the atoms and the options; what is read from one is made again, to the same bits."""
+        return Mesh, (self._surface, *self._options)
+
+    def __copy__(self) -> Mesh:
+        """Itself, for it never changes."""
+        return self
+
+    def __deepcopy__(self, memo: Any) -> Mesh:
+        return self
 
     def _table(self, table: int, dtype: Any, columns: int = 0) -> AnyArray:
         return view(self._handle, "mesh_table", table, dtype, columns)
@@ -106,7 +122,7 @@ class Mesh:
         file = lib.default("mesh_file", lib.MeshFile())
         file.format = None if format is None else format.encode()
         file.attributes, file.scale, file.replace = attributes.encode(), scale, replace
-        put_colors(file, colors, self._atom_count)
+        put_colors(file, colors, len(self._surface))
         lib.call("mesh_save", self._handle.pointer, name, ctypes.byref(file))
 
     def to_trimesh(self) -> Any:

@@ -17,8 +17,18 @@ from ._types import AnyArray, Bytes, Projection
 from ._library import DEVICES, ORTHOGRAPHIC, PROJECTIONS, CameraStruct, Handle, call, word
 
 
+class _Sealed:
+    """Has the fields of its dataclass and takes no others."""
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        fields = getattr(self, "__dataclass_fields__")
+        if name not in fields:
+            raise AttributeError(f"a {type(self).__name__} has no {name!r}, but {', '.join(fields)}")
+        super().__setattr__(name, value)
+
+
 @dataclass
-class Camera:
+class Camera(_Sealed):
     """Where a picture is taken from; lengths in Å."""
     position: tuple[float, float, float]
     target: tuple[float, float, float]
@@ -46,7 +56,7 @@ def framed(surface: Handle, aspect: float, projection: Projection) -> Camera:
 
 
 @dataclass
-class Picture:
+class Picture(_Sealed):
     """Pixels in sRGB; a notebook shows them."""
     pixels: Bytes  #: (height, width, 4): red, green, blue, alpha (not multiplied in), rows from the top
 

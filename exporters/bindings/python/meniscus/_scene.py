@@ -99,6 +99,10 @@ class Scene:
         object.__setattr__(scene, "_handle", handle)
         return scene
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickles and copies hold the text of its scene file, with paths as seen from the working directory."""
+        return Scene.parse, (self.json(),)
+
     def set(self, **values: Unpack[SceneValues]) -> Scene:
         """Sets several values, and returns the scene."""
         for name, value in values.items():

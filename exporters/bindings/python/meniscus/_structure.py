@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import os
 import warnings
-from typing import Any, Iterable, Literal, Mapping, Optional, Sequence, Union
+from typing import Any, Iterable, Literal, Mapping, NamedTuple, Optional, Sequence, Union
 
 import numpy as np
 
@@ -14,62 +14,87 @@ from ._arrays import texts, view
 from ._errors import InputError
 from ._types import AnyArray, Bytes, Floats, Hydrogens, Indices, Numbers, Path, RadiiSet, Singles, Texts, UnknownElement
 
+_NUMBERS: dict[int, Any] = {  # what a row is; other columns are texts
+    lib.STRUCTURE_POSITIONS: (np.float64, 3), lib.STRUCTURE_RADII: (np.float64,), lib.STRUCTURE_ELEMENTS: (np.uint8,),
+    lib.STRUCTURE_INDICES: (np.uint32,), lib.STRUCTURE_RESIDUE_NUMBERS: (np.int32,),
+    lib.STRUCTURE_RESIDUES: (np.uint32,), lib.STRUCTURE_MODELS: (np.int32,), lib.STRUCTURE_COPIES: (np.uint32,),
+    lib.STRUCTURE_CHARGES: (np.float32,), lib.STRUCTURE_B_FACTORS: (np.float32,),
+    lib.STRUCTURE_OCCUPANCIES: (np.float32,), lib.STRUCTURE_CLASSES: (np.uint8,)}
+
+
+class _Report(NamedTuple):
+    file: str
+    format: str
+    radii_set: str
+    sentence: str
+    atoms: int
+    models: int
+
 
 class Structure:
     """The atoms of a file that a surface is made of; read() makes it. It never changes. Arrays have a row an atom; of
     numbers they are read-only views."""
 
-    def __init__(self, handle: lib.Handle) -> None:
-        self._handle = handle
-        self._texts: dict[int, Texts] = {}
+    __slots__ = ("_columns", "_handle", "_report", "__weakref__")
 
-    def _report(self) -> lib.ReadReport:
-        report = lib.ReadReport(ctypes.sizeof(lib.ReadReport))
-        lib.call("structure_report", self._handle.pointer, ctypes.byref(report))
-        return report
+    def __init__(self, handle: Optional[lib.Handle], report: _Report, columns: dict[int, AnyArray]) -> None:
+        """columns: those that were looked at already; without a handle all."""
+        self._handle, self._report, self._columns = handle, report, columns
 
-    def _numbers(self, column: int, dtype: Any, columns: int = 0) -> AnyArray:
-        return view(self._handle, "structure_table", column, dtype, columns)
+    def _column(self, column: int) -> AnyArray:
+        if column not in self._columns:
+            assert self._handle is not None
+            row = _NUMBERS.get(column)
+            self._columns[column] = (view(self._handle, "structure_table", column, *row) if row else
+                                     texts(self._handle, "structure_table", column))
+        return self._columns[column]
 
-    def _text(self, column: int) -> Texts:
-        if column not in self._texts:
-            self._texts[column] = texts(self._handle, "structure_table", column)
-        return self._texts[column]
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickles hold what was read, so that the file is not needed again."""
+        columns = range(lib.STRUCTURE_POSITIONS, lib.STRUCTURE_WARNINGS + 1)
+        return _unpacked, (self._report, {column: self._column(column) for column in columns})
+
+    def __copy__(self) -> Structure:
+        """Itself, for it never changes."""
+        return self
+
+    def __deepcopy__(self, memo: Any) -> Structure:
+        return self
 
     # ---- what was read
 
     @property
     def file(self) -> str:
         """The path as given."""
-        return os.fsdecode(self._report().file)
+        return self._report.file
 
     @property
     def format(self) -> str:
         """"PDB", "mmCIF", ..."""
-        return str(self._report().format.decode())
+        return self._report.format
 
     @property
     def radii_set(self) -> str:
         """"bondi", "united", "protor", "file", or files and overrides."""
-        return str(self._report().radii_set.decode("utf-8", "replace"))
+        return self._report.radii_set
 
     @property
     def report(self) -> str:
         """"5,684 atoms read; 215 water left out; 5,469 used"."""
-        return str(self._report().sentence.decode("utf-8", "replace"))
+        return self._report.sentence
 
     @property
     def model_count(self) -> int:
         """Models in the file, used or not."""
-        return int(self._report().models)
+        return self._report.models
 
     @property
     def warnings(self) -> list[str]:
         """What is odd in the file, a sentence each."""
-        return [str(text) for text in self._text(lib.STRUCTURE_WARNINGS)]
+        return [str(text) for text in self._column(lib.STRUCTURE_WARNINGS)]
 
     def __len__(self) -> int:
-        return int(self._report().atoms)
+        return self._report.atoms
 
     def __repr__(self) -> str:
         return f"<meniscus.Structure: {self.file}, {self.format}: {self.report}>"
@@ -79,93 +104,107 @@ class Structure:
     @property
     def positions(self) -> Floats:
         """(n, 3) Å."""
-        return self._numbers(lib.STRUCTURE_POSITIONS, np.float64, 3)
+        return self._column(lib.STRUCTURE_POSITIONS)
 
     @property
     def radii(self) -> Floats:
         """Å, van der Waals."""
-        return self._numbers(lib.STRUCTURE_RADII, np.float64)
+        return self._column(lib.STRUCTURE_RADII)
 
     @property
     def elements(self) -> Bytes:
         """Atomic numbers; 0 where it is unknown."""
-        return self._numbers(lib.STRUCTURE_ELEMENTS, np.uint8)
+        return self._column(lib.STRUCTURE_ELEMENTS)
 
     @property
     def indices(self) -> Indices:
         """Places in the file, from 0, as the program's tables and meshes have them."""
-        return self._numbers(lib.STRUCTURE_INDICES, np.uint32)
+        return self._column(lib.STRUCTURE_INDICES)
 
     @property
     def names(self) -> Texts:
         """"CA"."""
-        return self._text(lib.STRUCTURE_NAMES)
+        return self._column(lib.STRUCTURE_NAMES)
 
     @property
     def residue_names(self) -> Texts:
         """"ALA"."""
-        return self._text(lib.STRUCTURE_RESIDUE_NAMES)
+        return self._column(lib.STRUCTURE_RESIDUE_NAMES)
 
     @property
     def chains(self) -> Texts:
         """"A"; of the second copy in an assembly "A-2"."""
-        return self._text(lib.STRUCTURE_CHAINS)
+        return self._column(lib.STRUCTURE_CHAINS)
 
     @property
     def segments(self) -> Texts:
         """Segment identifiers of molecular dynamics programs."""
-        return self._text(lib.STRUCTURE_SEGMENTS)
+        return self._column(lib.STRUCTURE_SEGMENTS)
 
     @property
     def residue_numbers(self) -> Numbers:
         """As the file has them."""
-        return self._numbers(lib.STRUCTURE_RESIDUE_NUMBERS, np.int32)
+        return self._column(lib.STRUCTURE_RESIDUE_NUMBERS)
 
     @property
     def insertion_codes(self) -> Texts:
         """A letter behind the residue's number, or nothing."""
-        return np.char.strip(self._text(lib.STRUCTURE_INSERTION_CODES))
+        return np.char.strip(self._column(lib.STRUCTURE_INSERTION_CODES))
 
     @property
     def altlocs(self) -> Texts:
         """The letter of the alternate location, or nothing."""
-        return np.char.strip(self._text(lib.STRUCTURE_ALTLOCS))
+        return np.char.strip(self._column(lib.STRUCTURE_ALTLOCS))
 
     @property
     def residues(self) -> Indices:
         """Running number of the residue in the file, from 0."""
-        return self._numbers(lib.STRUCTURE_RESIDUES, np.uint32)
+        return self._column(lib.STRUCTURE_RESIDUES)
 
     @property
     def models(self) -> Numbers:
         """Which model of the file, from 1."""
-        return self._numbers(lib.STRUCTURE_MODELS, np.int32)
+        return self._column(lib.STRUCTURE_MODELS)
 
     @property
     def copies(self) -> Indices:
         """Which copy of an assembly, from 0."""
-        return self._numbers(lib.STRUCTURE_COPIES, np.uint32)
+        return self._column(lib.STRUCTURE_COPIES)
 
     @property
     def charges(self) -> Singles:
         """Partial charges in e; NaN where the file has none."""
-        return self._numbers(lib.STRUCTURE_CHARGES, np.float32)
+        return self._column(lib.STRUCTURE_CHARGES)
 
     @property
     def b_factors(self) -> Singles:
         """Å²; NaN where the file has none."""
-        return self._numbers(lib.STRUCTURE_B_FACTORS, np.float32)
+        return self._column(lib.STRUCTURE_B_FACTORS)
 
     @property
     def occupancies(self) -> Singles:
         """NaN where the file has none."""
-        return self._numbers(lib.STRUCTURE_OCCUPANCIES, np.float32)
+        return self._column(lib.STRUCTURE_OCCUPANCIES)
 
     @property
     def classes(self) -> Texts:
         """"polymer", "ligand", "water", "ion"; "unclassified" where the format does not say."""
         words = np.array(["polymer", "ligand", "water", "ion", "unclassified"])
-        return words[self._numbers(lib.STRUCTURE_CLASSES, np.uint8)]
+        return words[self._column(lib.STRUCTURE_CLASSES)]
+
+
+def _unpacked(report: _Report, columns: dict[int, AnyArray]) -> Structure:
+    for column in columns.values():
+        column.flags.writeable = False
+    return Structure(None, report, columns)
+
+
+def _opened(handle: lib.Handle) -> Structure:
+    report = lib.ReadReport(ctypes.sizeof(lib.ReadReport))
+    lib.call("structure_report", handle.pointer, ctypes.byref(report))
+    return Structure(handle, _Report(os.fsdecode(report.file), report.format.decode(),
+                                     report.radii_set.decode("utf-8", "replace"),
+                                     report.sentence.decode("utf-8", "replace"), report.atoms, report.models), {})
 
 
 def _overrides(radius: Union[Mapping[str, float], Iterable[str], None]) -> list[str]:
@@ -224,7 +263,7 @@ def read(path: Path, *, select: Optional[str] = None, assembly: Union[str, int, 
     overrides = _list_of([_encoded("radius", text) or b"" for text in _overrides(radius)])
     options.radii_files, options.radii_file_count = ctypes.cast(tables, ctypes.c_void_p), len(tables)
     options.radius, options.radius_count = ctypes.cast(overrides, ctypes.c_void_p), len(overrides)
-    structure = Structure(lib.Handle("structure", "read", _file_name("path", path), ctypes.byref(options)))
+    structure = _opened(lib.Handle("structure", "read", _file_name("path", path), ctypes.byref(options)))
     for text in structure.warnings:
         warnings.warn(f"{structure.file}: {text}", stacklevel=2)
     return structure

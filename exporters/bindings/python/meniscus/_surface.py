@@ -45,13 +45,15 @@ class Surface:
     """Exact and closed. May be used by many threads at once; whoever calls update() replaces what the others get from
     then on, never what they have."""
 
+    __slots__ = ("_computer", "_handle", "_kind", "_options", "_radii", "__weakref__")
+
     def __init__(self, xyz: Any, radii: Any, probe: float, kind: Kind, device: Device, threads: int,
                  verify: bool) -> None:
         options = lib.default("options", lib.Options())
         options.probe_radius, options.threads, options.verify = probe, threads, verify
         options.kind = lib.word("kind", kind, lib.KINDS)
         options.device = lib.word("device", device, lib.DEVICES)
-        self._kind = kind
+        self._kind: Kind = kind
         self._options = (float(options.probe_radius), kind, device, int(options.threads), bool(options.verify))
         self._computer = lib.Handle("computer", "computer_new", ctypes.byref(options))
         self._radii = _radii_of(radii)
@@ -81,6 +83,16 @@ class Surface:
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickles hold the atoms and the options; what is read from one is computed again, to the same bits."""
         return Surface, (np.array(self.balls["center"]), self._radii, *self._options)
+
+    def __copy__(self) -> Surface:
+        """The same frame, which update() of the other leaves as it is; nothing is computed for it."""
+        other = Surface.__new__(Surface)
+        other._computer, other._handle, other._kind = self._computer, self._handle, self._kind
+        other._options, other._radii = self._options, self._radii
+        return other
+
+    def __deepcopy__(self, memo: Any) -> Surface:
+        return self.__copy__()
 
     # ---- measures
 
@@ -202,7 +214,7 @@ class Surface:
         nearest atom changes. With `even` nearly equilateral ones, which reach over borders of patches; with a
         `density` as many of these as make that many vertices per Å² (0.1: about a triangle an atom), whatever the
         distance."""
-        return Mesh(self._handle, tolerance, split_colors, density, even)
+        return Mesh(self, tolerance, split_colors, density, even)
 
     @overload
     def distance(self, points: Any, *, nearest: Literal[False] = False) -> Floats: ...
