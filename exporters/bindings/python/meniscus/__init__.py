@@ -23,13 +23,14 @@ from ._radii import radii_of
 from ._scene import Property, Scene, properties
 from ._structure import Structure, read
 from ._surface import Patches, Surface, surface
-from ._adapters import frames, from_biotite, from_mdanalysis, from_mdtraj, from_prody, series
+from ._adapters import (frames, from_ase, from_biopython, from_biotite, from_gemmi, from_mdanalysis, from_mdtraj,
+                        from_openmm, from_prody, from_rdkit, series)
 
 __all__ = [
     "Camera", "CapacityError", "Error", "GpuError", "InputError", "InternalError", "Mesh", "NotClosedError",
     "OutputError", "Patches", "Picture", "Pocket", "Property", "Scene", "Structure", "Surface", "UsageError", "frames",
-    "from_biotite", "from_mdanalysis", "from_mdtraj", "from_prody", "library_path", "properties", "radii_of", "read",
-    "series", "surface", "version",
+    "from_ase", "from_biopython", "from_biotite", "from_gemmi", "from_mdanalysis", "from_mdtraj", "from_openmm",
+    "from_prody", "from_rdkit", "library_path", "properties", "radii_of", "read", "series", "surface", "version",
 ]
 
 

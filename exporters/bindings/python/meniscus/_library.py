@@ -318,7 +318,7 @@ class Handle:
 
     def __init__(self, kind: str, make: str, *arguments: Any) -> None:
         """The last argument of meniscus_MAKE takes the object."""
-        self.pointer = c_void_p()
+        self.pointer: c_void_p = c_void_p()
         self._release: Callable[[c_void_p], None] = getattr(_library.dll(), f"meniscus_{kind}_release")
         call(make, *arguments, byref(self.pointer))
 

@@ -76,10 +76,10 @@ class Scene:
 
     _handle: lib.Handle
 
-    def __init__(self, file: Optional[Path] = None, /, **values: Unpack[SceneValues]) -> None:
+    def __init__(self, molecule: Optional[Path] = None, /, **values: Unpack[SceneValues]) -> None:
         object.__setattr__(self, "_handle", lib.Handle("scene", "scene_new"))
-        if file is not None:
-            self["file"] = file
+        if molecule is not None:
+            self["file"] = molecule
         self.set(**values)
 
     @classmethod
