@@ -13,6 +13,13 @@ memory, which lives as long as any view of it does, whatever becomes of the obje
 """
 from __future__ import annotations
 
+try:
+    import numpy as _numpy
+except ImportError as _error:
+    _why = str(_error).strip().splitlines()[0]
+    raise ImportError(f"meniscus needs numpy ({_why}): python -m pip install numpy") from _error
+del _numpy
+
 from ._errors import (CapacityError, Error, GpuError, InputError, InternalError, NotClosedError, OutputError,
                       UsageError)
 from ._library import library_path, version

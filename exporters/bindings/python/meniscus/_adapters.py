@@ -39,7 +39,8 @@ def _surfaces(source: Source, radii: Optional[Any], options: SurfaceOptions) -> 
 
 def _first(thing: Any, package: str, radii: Optional[Any], options: SurfaceOptions) -> Surface:
     if package_of(thing) != package:
-        raise InputError(f"a {type(thing).__module__}.{type(thing).__qualname__} is nothing that {DOORS[package]}() takes")
+        kind = f"{type(thing).__module__}.{type(thing).__qualname__}"
+        raise InputError(f"a {kind} is nothing that {DOORS[package]}() takes")
     return next(_surfaces(opened(thing, package, False), radii, options))
 
 

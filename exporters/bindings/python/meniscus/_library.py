@@ -17,6 +17,7 @@ import numpy as np
 
 from ._errors import (CapacityError, Error, GpuError, InputError, InternalError, NotClosedError, OutputError,
                       UsageError)
+from ._loading import why_not_loaded
 from ._units import plain
 
 NONE = 0xFFFFFFFF
@@ -261,7 +262,7 @@ def _open() -> tuple[ctypes.CDLL, str]:
         try:
             return ctypes.CDLL(name), name
         except OSError as error:
-            reasons.append(str(error))
+            reasons.append(why_not_loaded(name, error))
     raise ImportError("libmeniscus cannot be loaded (" + "; ".join(reasons) +
                       "); install it, or set MENISCUS_LIBRARY to its file")
 
@@ -283,15 +284,16 @@ class _Library:
 
     def _prepared(self) -> ctypes.CDLL:
         dll, self.path = _open()
-        for name, arguments in _CALLS.items():
-            function = getattr(dll, "meniscus_" + name)
-            function.argtypes, function.restype = arguments, c_int
-        for name in _RELEASES:
-            function = getattr(dll, "meniscus_" + name)
-            function.argtypes, function.restype = [c_void_p], None
-        for name in ("version", "last_error"):
-            function = getattr(dll, "meniscus_" + name)
-            function.argtypes, function.restype = [], c_char_p
+        prototypes: list[tuple[str, list[Any], Any]] = [(name, arguments, c_int) for name, arguments in _CALLS.items()]
+        prototypes += [(name, [c_void_p], None) for name in _RELEASES]
+        prototypes += [(name, [], c_char_p) for name in ("version", "last_error")]
+        for name, arguments, result in prototypes:
+            try:
+                function = getattr(dll, "meniscus_" + name)
+            except AttributeError:
+                raise ImportError(f"{self.path} has no meniscus_{name}(): it is not libmeniscus, or of another version "
+                                  "than this package; install both of one version") from None
+            function.argtypes, function.restype = arguments, result
         return dll
 
 

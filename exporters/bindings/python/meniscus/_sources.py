@@ -128,7 +128,8 @@ def opened(thing: Any, package: str, every: bool) -> Source:
     try:
         source = _READERS[package](thing, every)
     except (AttributeError, TypeError) as error:
-        raise InputError(f"a {package}.{type(thing).__name__} has no atoms that {DOORS[package]}() takes: {error}") from error
+        raise InputError(f"a {package}.{type(thing).__name__} has no atoms that {DOORS[package]}() takes: "
+                         f"{error}") from error
     letters = {str(letter).strip(" .\0") for letter in source.altlocs} - {""}
     if len(letters) > 1:
         warnings.warn(f"atoms at the alternate locations {', '.join(sorted(letters))} all count; leave all but one out",
