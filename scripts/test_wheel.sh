@@ -22,4 +22,5 @@ unset MENISCUS_LIBRARY MENISCUS_PACKAGE
 "$python" -c 'import meniscus; print("libmeniscus", meniscus.version(), meniscus.library_path())'
 "$python" -B "$tests/package_test.py"
 "$python" -B "$tests/structure_test.py"
+"$python" -B "$tests/examples_test.py" "${packages[@]}"
 "$python" -B "$tests/adapters_test.py" "${packages[@]}"

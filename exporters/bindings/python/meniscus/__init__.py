@@ -9,7 +9,8 @@
     meniscus.Scene("1ubq.cif", color="chain", legend=True).render()    # the picture of `meniscus render`
 
 All numbers are in Å, Å² and Å³. Arrays that belong to a surface or a mesh are read-only views of the library's own
-memory, which lives as long as any view of it does, whatever becomes of the object that gave it.
+memory, which lives as long as any view of it does, whatever becomes of the object that gave it. Examples of a class go
+on in those of its members.
 """
 from __future__ import annotations
 

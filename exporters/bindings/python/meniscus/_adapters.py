@@ -46,46 +46,86 @@ def _first(thing: Any, package: str, radii: Optional[Any], options: SurfaceOptio
 
 def from_mdanalysis(atoms: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Surface:
     """Of an AtomGroup or Universe in its current frame. radii: by element, unless given. options: as surface() has
-    them. For the next frame: s.update(atoms.positions)."""
+    them. For the next frame: s.update(atoms.positions).
+
+    >>> import MDAnalysis
+    >>> universe = MDAnalysis.Universe("helix.pdb")
+    >>> meniscus.from_mdanalysis(universe.select_atoms("protein"))
+    <meniscus.Surface: ses of 64 atoms, 1508.98 Å², 1465.44 Å³, 1 components>"""
     return _first(atoms, "MDAnalysis", radii, options)
 
 
 def from_mdtraj(trajectory: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Surface:
-    """Of the first frame of an mdtraj.Trajectory: trajectory[7] is the eighth. Its nm become Å."""
+    """Of the first frame of an mdtraj.Trajectory: trajectory[7] is the eighth. Its nm become Å.
+
+    >>> import mdtraj
+    >>> trajectory = mdtraj.load("helix.pdb")
+    >>> meniscus.from_mdtraj(trajectory.atom_slice(trajectory.top.select("not water")))
+    <meniscus.Surface: ses of 64 atoms, 1508.98 Å², 1465.44 Å³, 1 components>"""
     return _first(trajectory, "mdtraj", radii, options)
 
 
 def from_prody(atoms: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Surface:
-    """Of an AtomGroup or Selection with its active coordinates."""
+    """Of an AtomGroup or Selection with its active coordinates.
+
+    >>> import prody
+    >>> meniscus.from_prody(prody.parsePDB("helix.pdb").select("not water"))
+    <meniscus.Surface: ses of 64 atoms, 1508.98 Å², 1465.44 Å³, 1 components>"""
     return _first(atoms, "prody", radii, options)
 
 
 def from_biotite(array: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Surface:
-    """Of an AtomArray, or of the first model of an AtomArrayStack."""
+    """Of an AtomArray, or of the first model of an AtomArrayStack.
+
+    >>> import biotite.structure.io.pdb
+    >>> array = biotite.structure.io.pdb.PDBFile.read("helix.pdb").get_structure(model=1)
+    >>> meniscus.from_biotite(array[array.res_name != "HOH"])
+    <meniscus.Surface: ses of 64 atoms, 1508.98 Å², 1465.44 Å³, 1 components>"""
     return _first(array, "biotite", radii, options)
 
 
 def from_biopython(entity: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Surface:
     """Of the first model of a Bio.PDB Structure, of a Model, Chain or Residue, or of a list of atoms, in the order of
-    get_atoms(). Of alternate locations the selected one counts."""
+    get_atoms(). Of alternate locations the selected one counts.
+
+    >>> import Bio.PDB
+    >>> structure = Bio.PDB.PDBParser().get_structure("helix", "helix.pdb")
+    >>> meniscus.from_biopython([atom for atom in structure.get_atoms() if atom.parent.id[0] != "W"])
+    <meniscus.Surface: ses of 64 atoms, 1508.98 Å², 1465.44 Å³, 1 components>"""
     return _first(entity, "Bio", radii, options)
 
 
 def from_ase(atoms: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Surface:
-    """Of an ase.Atoms, or of the first of a list or trajectory of them; periodic copies are left out."""
+    """Of an ase.Atoms, or of the first of a list or trajectory of them; periodic copies are left out.
+
+    >>> import ase.build
+    >>> meniscus.from_ase(ase.build.molecule("CH3CH2OH"))
+    <meniscus.Surface: ses of 9 atoms, 78.82 Å², 55.73 Å³, 1 components>"""
     return _first(atoms, "ase", radii, options)
 
 
 def from_rdkit(molecule: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Surface:
     """Of the first conformer of a Mol, or of a Conformer: mol.GetConformer(7). Hydrogens count where they are atoms of
-    the molecule (rdkit.Chem.AddHs). InputError where there is no conformer, or only a drawing in two dimensions."""
+    the molecule (rdkit.Chem.AddHs). InputError where there is no conformer, or only a drawing in two dimensions.
+
+    >>> from rdkit import Chem
+    >>> molecule = Chem.MolFromPDBFile("helix.pdb", sanitize=False)
+    >>> meniscus.from_rdkit(molecule)
+    <meniscus.Surface: ses of 65 atoms, 1538.01 Å², 1480.15 Å³, 2 components>"""
     return _first(molecule, "rdkit", radii, options)
 
 
 def from_openmm(source: Any, positions: Optional[Any] = None, *, radii: Optional[Any] = None,
                 **options: Unpack[SurfaceOptions]) -> Surface:
     """Of a PDBFile, PDBxFile or Modeller, of a Simulation as it is now, or of a Topology with positions that have a
-    unit."""
+    unit.
+
+    >>> import openmm.app
+    >>> file = openmm.app.PDBFile("helix.pdb")
+    >>> modeller = openmm.app.Modeller(file.topology, file.positions)
+    >>> modeller.deleteWater()
+    >>> meniscus.from_openmm(modeller)
+    <meniscus.Surface: ses of 64 atoms, 1508.98 Å², 1465.44 Å³, 1 components>"""
     if positions is None:
         return _first(source, "openmm", radii, options)
     return next(_surfaces(in_openmm(getattr(source, "topology", source), [positions]), radii, options))
@@ -93,13 +133,24 @@ def from_openmm(source: Any, positions: Optional[Any] = None, *, radii: Optional
 
 def from_gemmi(part: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Surface:
     """Of the first model of a gemmi.Structure, of a Model, Chain, Residue or span of residues, in the order of
-    Model.all(). A warning says where alternate locations all count: remove_alternative_conformations()."""
+    Model.all(). A warning says where alternate locations all count: remove_alternative_conformations().
+
+    >>> import gemmi
+    >>> structure = gemmi.read_structure("helix.pdb")
+    >>> structure.remove_waters()
+    >>> meniscus.from_gemmi(structure)
+    <meniscus.Surface: ses of 64 atoms, 1508.98 Å², 1465.44 Å³, 1 components>"""
     return _first(part, "gemmi", radii, options)
 
 
 def series(source: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Rows:
     """The numbers of all frames of what frames() takes, a row each: area (Å²), of kind "ses" also sas_area, volume
-    (Å³), components, cavities, cavity_area, cavity_volume (positive). One surface is in memory at a time."""
+    (Å³), components, cavities, cavity_area, cavity_volume (positive). One surface is in memory at a time.
+
+    >>> import Bio.PDB
+    >>> structure = Bio.PDB.PDBParser().get_structure("two", "models.pdb")
+    >>> meniscus.series(structure)["area"].round(2).tolist()
+    [1508.98, 1867.1]"""
     rows = []
     for s in frames(source, radii=radii, **options):
         parts = s.components
@@ -116,7 +167,12 @@ def series(source: Any, *, radii: Optional[Any] = None, **options: Unpack[Surfac
 
 def frames(source: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Iterator[Surface]:
     """One surface after the other for all frames of what the functions above take: frames of trajectories, models of
-    structures, conformers of molecules, a list of ase.Atoms. Each may be kept."""
+    structures, conformers of molecules, a list of ase.Atoms. Each may be kept.
+
+    >>> import Bio.PDB
+    >>> structure = Bio.PDB.PDBParser().get_structure("two", "models.pdb")
+    >>> [round(s.area, 2) for s in meniscus.frames(structure, kind="vdw")]
+    [1796.57, 1972.7]"""
     package = package_of(source)
     if not package:
         raise InputError(f"a {type(source).__module__}.{type(source).__qualname__} is nothing that frames can be taken "

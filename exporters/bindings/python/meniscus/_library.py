@@ -332,12 +332,18 @@ class Handle:
 
 
 def version() -> str:
-    """That of the library."""
+    """That of the library, which is meniscus.__version__, too.
+
+    >>> meniscus.version() == meniscus.__version__
+    True"""
     return str(_library.dll().meniscus_version().decode())
 
 
 def library_path() -> str:
-    """The file or name that was loaded."""
+    """The file or name that was loaded.
+
+    >>> "meniscus" in meniscus.library_path()
+    True"""
     _library.dll()
     return _library.path
 

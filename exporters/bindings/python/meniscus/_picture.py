@@ -29,13 +29,21 @@ class _Sealed:
 
 @dataclass
 class Camera(_Sealed):
-    """Where a picture is taken from; lengths in Å."""
+    """Where a picture is taken from, at position, towards target, both in Å; up points to its upper edge.
+
+    projection: "perspective" or "orthographic". vertical_fov: degrees between the picture's lower and upper edge;
+    perspective only. height: Å between them; orthographic only.
+
+    >>> camera = meniscus.surface([[0, 0, 0]], 1.7).camera(projection="orthographic")
+    >>> camera.height = 10.0
+    >>> camera.target, camera.up
+    ((0.0, 0.0, 0.0), (0.0, 1.0, 0.0))"""
     position: tuple[float, float, float]
     target: tuple[float, float, float]
     up: tuple[float, float, float]
-    projection: Projection = "perspective"  #: or "orthographic"
-    vertical_fov: float = 30.0       #: degrees between the picture's lower and upper edge; perspective only
-    height: float = 1.0              #: Å between them; orthographic only
+    projection: Projection = "perspective"
+    vertical_fov: float = 30.0
+    height: float = 1.0
 
     def _struct(self) -> CameraStruct:
         return CameraStruct(ctypes.sizeof(CameraStruct), tuple(self.position), tuple(self.target), tuple(self.up),
@@ -57,14 +65,22 @@ def framed(surface: Handle, aspect: float, projection: Projection) -> Camera:
 
 @dataclass
 class Picture(_Sealed):
-    """Pixels in sRGB; a notebook shows them."""
-    pixels: Bytes  #: (height, width, 4): red, green, blue, alpha (not multiplied in), rows from the top
+    """What was drawn; a notebook shows it. pixels: (height, width, 4) bytes in sRGB, red, green, blue and alpha, which is
+    not multiplied in; rows from the top.
+
+    >>> picture = meniscus.surface([[0, 0, 0]], 1.7).render(size="80x60", device="cpu")
+    >>> picture.pixels.shape, picture.pixels.dtype
+    ((60, 80, 4), dtype('uint8'))"""
+    pixels: Bytes
 
     def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> AnyArray:
         return np.array(self.pixels, dtype=dtype) if copy or dtype else self.pixels
 
     def png(self) -> bytes:
-        """As a PNG file."""
+        """The bytes of a PNG file.
+
+        >>> picture.png()[1:4]
+        b'PNG'"""
         height, width, _ = self.pixels.shape
 
         def chunk(name: bytes, content: bytes) -> bytes:

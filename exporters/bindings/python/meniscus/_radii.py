@@ -26,7 +26,14 @@ def _radius(element: int) -> float:
 
 def radii_of(elements: Sequence[Union[str, int]]) -> Floats:
     """Å, one per symbol or atomic number: Bondi (1964, 1966), then Mantina et al. (2009), 2.0 for metals that neither
-    has. Raises InputError where a symbol is no element's."""
+    has. InputError where a symbol is no element's.
+
+    >>> meniscus.radii_of(["C", "Zn", 8]).tolist()
+    [1.7, 1.39, 1.52]
+    >>> meniscus.radii_of(["Qq"])
+    Traceback (most recent call last):
+        ...
+    meniscus.InputError: atom 0: 'Qq' is no element; give radii"""
     known: dict[Union[str, int], float] = {}
     for n, element in enumerate(elements):
         if element in known:

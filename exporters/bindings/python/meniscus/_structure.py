@@ -32,8 +32,12 @@ class _Report(NamedTuple):
 
 
 class Structure:
-    """The atoms of a file that a surface is made of; read() makes it. It never changes. Arrays have a row an atom; of
-    numbers they are read-only views."""
+    """The atoms of a file that a surface is made of; read() makes it, and it never changes. Arrays have a row an atom,
+    (n,) or (n, 3); of numbers they are read-only views.
+
+    >>> molecule = meniscus.read("helix.pdb")
+    >>> molecule
+    <meniscus.Structure: helix.pdb, PDB: 65 atoms read; 1 water left out; 64 used>"""
 
     __slots__ = ("_columns", "_handle", "_report", "__weakref__")
 
@@ -65,32 +69,50 @@ class Structure:
 
     @property
     def file(self) -> str:
-        """The path as given."""
+        """The path as given.
+
+        >>> molecule.file
+        'helix.pdb'"""
         return self._report.file
 
     @property
     def format(self) -> str:
-        """"PDB", "mmCIF", ..."""
+        """"PDB", "mmCIF", ...
+
+        >>> molecule.format
+        'PDB'"""
         return self._report.format
 
     @property
     def radii_set(self) -> str:
-        """"bondi", "united", "protor", "file", or files and overrides."""
+        """"bondi", "united", "protor", "file", or files and overrides.
+
+        >>> molecule.radii_set
+        'bondi'"""
         return self._report.radii_set
 
     @property
     def report(self) -> str:
-        """"5,684 atoms read; 215 water left out; 5,469 used"."""
+        """"5,684 atoms read; 215 water left out; 5,469 used".
+
+        >>> molecule.report
+        '65 atoms read; 1 water left out; 64 used'"""
         return self._report.sentence
 
     @property
     def model_count(self) -> int:
-        """Models in the file, used or not."""
+        """Models in the file, used or not.
+
+        >>> molecule.model_count
+        1"""
         return self._report.models
 
     @property
     def warnings(self) -> list[str]:
-        """What is odd in the file, a sentence each."""
+        """What is odd in the file, a sentence each.
+
+        >>> molecule.warnings
+        []"""
         return [str(text) for text in self._column(lib.STRUCTURE_WARNINGS)]
 
     def __len__(self) -> int:
@@ -103,92 +125,146 @@ class Structure:
 
     @property
     def positions(self) -> Floats:
-        """(n, 3) Å."""
+        """(n, 3) Å.
+
+        >>> molecule.positions[:2].tolist()
+        [[3.1, 0.0, 0.0], [1.927, 2.428, 0.55]]"""
         return self._column(lib.STRUCTURE_POSITIONS)
 
     @property
     def radii(self) -> Floats:
-        """Å, van der Waals."""
+        """Å, van der Waals.
+
+        >>> molecule.radii[:4].tolist()
+        [1.55, 1.7, 1.7, 1.52]"""
         return self._column(lib.STRUCTURE_RADII)
 
     @property
     def elements(self) -> Bytes:
-        """Atomic numbers; 0 where it is unknown."""
+        """Atomic numbers; 0 where it is unknown.
+
+        >>> molecule.elements[:4].tolist()
+        [7, 6, 6, 8]"""
         return self._column(lib.STRUCTURE_ELEMENTS)
 
     @property
     def indices(self) -> Indices:
-        """Places in the file, from 0, as the program's tables and meshes have them."""
+        """Places in the file, from 0, as the program's tables and meshes have them.
+
+        >>> molecule.indices[-3:].tolist()
+        [61, 62, 63]"""
         return self._column(lib.STRUCTURE_INDICES)
 
     @property
     def names(self) -> Texts:
-        """"CA"."""
+        """"CA".
+
+        >>> molecule.names[:4].tolist()
+        ['N', 'CA', 'C', 'O']"""
         return self._column(lib.STRUCTURE_NAMES)
 
     @property
     def residue_names(self) -> Texts:
-        """"ALA"."""
+        """"ALA".
+
+        >>> molecule.residue_names[::8].tolist()[:2]
+        ['ALA', 'ALA']"""
         return self._column(lib.STRUCTURE_RESIDUE_NAMES)
 
     @property
     def chains(self) -> Texts:
-        """"A"; of the second copy in an assembly "A-2"."""
+        """"A"; of the second copy in an assembly "A-2".
+
+        >>> molecule.chains[[0, -1]].tolist()
+        ['A', 'B']"""
         return self._column(lib.STRUCTURE_CHAINS)
 
     @property
     def segments(self) -> Texts:
-        """Segment identifiers of molecular dynamics programs."""
+        """Segment identifiers of molecular dynamics programs.
+
+        >>> set(molecule.segments.tolist())
+        {''}"""
         return self._column(lib.STRUCTURE_SEGMENTS)
 
     @property
     def residue_numbers(self) -> Numbers:
-        """As the file has them."""
+        """As the file has them.
+
+        >>> molecule.residue_numbers[::8].tolist()
+        [1, 3, 5, 7, 9, 11, 13, 15]"""
         return self._column(lib.STRUCTURE_RESIDUE_NUMBERS)
 
     @property
     def insertion_codes(self) -> Texts:
-        """A letter behind the residue's number, or nothing."""
+        """A letter behind the residue's number, or nothing.
+
+        >>> set(molecule.insertion_codes.tolist())
+        {''}"""
         return np.char.strip(self._column(lib.STRUCTURE_INSERTION_CODES))
 
     @property
     def altlocs(self) -> Texts:
-        """The letter of the alternate location, or nothing."""
+        """The letter of the alternate location, or nothing.
+
+        >>> set(molecule.altlocs.tolist())
+        {''}"""
         return np.char.strip(self._column(lib.STRUCTURE_ALTLOCS))
 
     @property
     def residues(self) -> Indices:
-        """Running number of the residue in the file, from 0."""
+        """Running number of the residue in the file, from 0.
+
+        >>> molecule.residues[::8].tolist()
+        [0, 2, 4, 6, 8, 10, 12, 14]"""
         return self._column(lib.STRUCTURE_RESIDUES)
 
     @property
     def models(self) -> Numbers:
-        """Which model of the file, from 1."""
+        """Which model of the file, from 1.
+
+        >>> set(molecule.models.tolist())
+        {1}"""
         return self._column(lib.STRUCTURE_MODELS)
 
     @property
     def copies(self) -> Indices:
-        """Which copy of an assembly, from 0."""
+        """Which copy of an assembly, from 0.
+
+        >>> set(molecule.copies.tolist())
+        {0}"""
         return self._column(lib.STRUCTURE_COPIES)
 
     @property
     def charges(self) -> Singles:
-        """Partial charges in e; NaN where the file has none."""
+        """Partial charges in e; NaN where the file has none.
+
+        >>> bool(np.isnan(molecule.charges).all())
+        True"""
         return self._column(lib.STRUCTURE_CHARGES)
 
     @property
     def b_factors(self) -> Singles:
-        """Å²; NaN where the file has none."""
+        """Å²; NaN where the file has none.
+
+        >>> molecule.b_factors[:3].tolist()
+        [0.0, 1.0, 2.0]"""
         return self._column(lib.STRUCTURE_B_FACTORS)
 
     @property
     def occupancies(self) -> Singles:
-        """NaN where the file has none."""
+        """NaN where the file has none.
+
+        >>> molecule.occupancies[:3].tolist()
+        [1.0, 1.0, 1.0]"""
         return self._column(lib.STRUCTURE_OCCUPANCIES)
 
     @property
     def classes(self) -> Texts:
-        """"polymer", "ligand", "water", "ion"; "unclassified" where the format does not say."""
+        """"polymer", "ligand", "water", "ion"; "unclassified" where the format does not say.
+
+        >>> set(molecule.classes.tolist())
+        {'polymer'}"""
         words = np.array(["polymer", "ligand", "water", "ion", "unclassified"])
         return words[self._column(lib.STRUCTURE_CLASSES)]
 
@@ -249,7 +325,15 @@ def read(path: Path, *, select: Optional[str] = None, assembly: Union[str, int, 
     as one molecule. altloc: "best", "first", "all" or a letter. hydrogens: "keep", "drop", or as the radii need it.
     radii: "bondi", "united", "protor" or "file"; by default those of the file if it has any, else "bondi".
     radii_files: tables by residue and atom, before that set. radius: of what expressions select, Å, as in
-    {"element Zn": 1.1}. unknown_element: what becomes of atoms whose element nobody can tell."""
+    {"element Zn": 1.1}. unknown_element: what becomes of atoms whose element nobody can tell. InputError where the file
+    cannot be read, UsageError where an option or an expression makes no sense.
+
+    >>> len(meniscus.read("helix.pdb", select="chain A", radius={"element N": 1.6}))
+    32
+    >>> meniscus.read("none.pdb")
+    Traceback (most recent call last):
+        ...
+    meniscus.InputError: none.pdb: cannot be read: No such file or directory"""
     options = lib.default("read_options", lib.ReadOptions())
     options.select, options.altloc = _encoded("select", select), _encoded("altloc", altloc)
     options.assembly = None if assembly is None else _encoded("assembly", str(assembly))
