@@ -572,7 +572,7 @@ class Elsewhere(unittest.TestCase):
     def test_python_ends_without_a_word(self):
         # Kept by a module that ends after the package's own.
         code = ("import meniscus, numpy\ns = meniscus.surface([[0, 0, 0], [2, 0, 0]], 1.7)\n"
-                "numpy.kept = [s, s.mesh(0.3), s.render(size='20x20', device='cpu'), s.pockets()]\n")
+                "numpy.kept = [s, s.mesh(0.3), s.render(size='20x20', device='cpu'), s.pockets(), meniscus.Scene()]\n")
         run = subprocess.run([sys.executable, "-c", f"import sys; sys.path[:0] = {sys.path!r}\n" + code], text=True,
                              capture_output=True)
         self.assertEqual((run.returncode, run.stdout, run.stderr), (0, "", ""))
