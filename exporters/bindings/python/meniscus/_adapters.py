@@ -9,7 +9,7 @@ import numpy as np
 
 from ._errors import InputError
 from ._radii import radii_of
-from ._sources import DOORS, Source, in_openmm, opened, package_of
+from ._sources import DOORS, Source, opened, package_of
 from ._surface import Surface, surface
 from ._types import Rows
 
@@ -126,9 +126,7 @@ def from_openmm(source: Any, positions: Optional[Any] = None, *, radii: Optional
     >>> modeller.deleteWater()
     >>> meniscus.from_openmm(modeller)
     <meniscus.Surface: ses of 64 atoms, 1508.98 Å², 1465.44 Å³, 1 components>"""
-    if positions is None:
-        return _first(source, "openmm", radii, options)
-    return next(_surfaces(in_openmm(getattr(source, "topology", source), [positions]), radii, options))
+    return _first(source if positions is None else (source, positions), "openmm", radii, options)
 
 
 def from_gemmi(part: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Surface:

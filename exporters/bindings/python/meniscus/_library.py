@@ -8,6 +8,7 @@ import numbers
 import operator
 import os
 import pathlib
+import reprlib
 import threading
 from ctypes import (POINTER, Structure, byref, c_char_p, c_double, c_float, c_int, c_int32, c_size_t, c_uint8, c_uint32,
                     c_uint64, c_void_p)
@@ -55,9 +56,9 @@ def whole_number(name: str, value: Any) -> int:
     try:
         number = int(value) if isinstance(value, np.bool_) else operator.index(value)
     except TypeError:
-        raise InputError(f"{name} is {value!r}, not a whole number") from None
+        raise InputError(f"{name} is {reprlib.repr(value)}, not a whole number") from None
     if not -2**31 <= number < 2**31:
-        raise InputError(f"{name} is {number}, which 32 bits cannot count")
+        raise InputError(f"{name} is {reprlib.repr(number)}, which 32 bits cannot count")
     return number
 
 
@@ -71,11 +72,39 @@ def positive(name: str, value: Any) -> int:
 def number(name: str, value: Any) -> float:
     """In Å, or a power of it, where that is what it counts."""
     plain_value = plain(value, name, _POWERS.get(name))
-    if not isinstance(plain_value, numbers.Real) or isinstance(plain_value, (bool, np.bool_)):
-        array = np.asarray(plain_value)
-        if array.ndim != 0 or array.dtype.kind not in "fiu":
-            raise InputError(f"{name} is {value!r}, not a number")
-    return float(plain_value)
+    single = isinstance(plain_value, numbers.Real) or getattr(plain_value, "ndim", None) == 0
+    try:
+        if single and np.asarray(plain_value).dtype.kind in "fiuO":  # O: fractions, and integers beyond 64 bits
+            return float(plain_value)
+    except (OverflowError, TypeError, ValueError):
+        pass
+    raise InputError(f"{name} is {reprlib.repr(value)}, not a number")
+
+
+def flag(name: str, value: Any) -> bool:
+    """Of True and False, or 1 and 0; other words would all be true."""
+    if not isinstance(value, (bool, np.bool_, int, np.integer)) or value not in (0, 1):
+        raise InputError(f"{name} is {reprlib.repr(value)}, neither True nor False")
+    return bool(value)
+
+
+def listed(name: str, values: Any, what: str) -> list[Any]:
+    """Of what can be walked through and is no text."""
+    try:
+        if not isinstance(values, (str, bytes)):
+            return list(values)
+    except TypeError:
+        pass
+    raise InputError(f"{name} is {reprlib.repr(values)}, not a list of {what}")
+
+
+def text(name: str, value: Optional[str]) -> Optional[bytes]:
+    """As C has it; None stays None."""
+    if value is None:
+        return None
+    if not isinstance(value, str) or "\0" in value:
+        raise InputError(f"{name} is {reprlib.repr(value)}, not a text without zeros")
+    return value.encode("utf-8", "surrogateescape")
 
 
 class _Given(Structure):
@@ -350,8 +379,8 @@ def library_path() -> str:
 
 def word(name: str, given: str, words: dict[str, int]) -> int:
     """The constant that a word means."""
-    if given not in words:
-        raise UsageError(f"{name} is {given!r}, none of {', '.join(words)}")
+    if not isinstance(given, str) or given not in words:
+        raise UsageError(f"{name} is {reprlib.repr(given)}, none of {', '.join(words)}")
     return words[given]
 
 

@@ -32,8 +32,8 @@ class Mesh:
     def __init__(self, surface: Surface, tolerance: float, split_colors: bool, density: Optional[float],
                  even: bool) -> None:
         options = lib.default("mesh_options", lib.MeshOptions())
-        options.tolerance, options.split_colors = tolerance, split_colors
-        options.method = lib.MESH_EVEN if even else lib.MESH_BY_PATCH
+        options.tolerance, options.split_colors = tolerance, lib.flag("split_colors", split_colors)
+        options.method = lib.MESH_EVEN if lib.flag("even", even) else lib.MESH_BY_PATCH
         if density is not None:
             options.method, options.density = lib.MESH_BY_DENSITY, density
         self._surface = copy.copy(surface)  # of this frame
@@ -161,8 +161,8 @@ class Mesh:
         if b"\0" in name:
             raise InputError(f"path {path!r} has a zero in it, which no file's name may have")
         file = lib.default("mesh_file", lib.MeshFile())
-        file.format = None if format is None else format.encode()
-        file.attributes, file.scale, file.replace = attributes.encode(), scale, replace
+        file.format, file.attributes = lib.text("format", format), lib.text("attributes", attributes)
+        file.scale, file.replace = scale, lib.flag("replace", replace)
         put_colors(file, colors, len(self._surface))
         lib.call("mesh_save", self._handle.pointer, name, ctypes.byref(file))
 

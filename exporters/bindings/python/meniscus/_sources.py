@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from typing import Any, Callable, Iterable, Iterator, NamedTuple
+from typing import Any, Callable, Iterator, NamedTuple
 
 import numpy as np
 
@@ -78,25 +78,24 @@ def _rdkit(molecule: Any, every: bool) -> Source:
 
 
 def _openmm(source: Any, every: bool) -> Source:
+    """Positions that have no unit are refused: they would be nm in OpenMM, and Å here."""
     def frames() -> Iterator[Any]:
-        if hasattr(source, "context"):  # a Simulation
+        if isinstance(source, tuple):
+            yield source[1]
+        elif hasattr(source, "context"):  # a Simulation
             yield source.context.getState(getPositions=True).getPositions(asNumpy=True)
         elif hasattr(source, "getNumFrames"):
             yield from (source.getPositions(asNumpy=True, frame=n) for n in range(source.getNumFrames()))
         else:
             yield source.positions
 
-    return in_openmm(source.topology, frames())
-
-
-def in_openmm(topology: Any, frames: Iterable[Any]) -> Source:
-    """Positions that have no unit are refused: they would be nm in OpenMM, and Å here."""
     def checked(positions: Any) -> Any:
         if not hasattr(positions, "value_in_unit"):
             raise InputError("the positions have no unit; OpenMM's nm are positions * openmm.unit.nanometer")
         return positions
 
-    return Source([atom.element.symbol if atom.element else "" for atom in topology.atoms()], map(checked, frames))
+    topology = source[0] if isinstance(source, tuple) else source.topology
+    return Source([atom.element.symbol if atom.element else "" for atom in topology.atoms()], map(checked, frames()))
 
 
 def _gemmi(part: Any, every: bool) -> Source:

@@ -290,19 +290,11 @@ def _overrides(radius: Union[Mapping[str, float], Iterable[str], None]) -> list[
         return [radius]
     if isinstance(radius, Mapping):
         return [f"{selection}={lib.number('radius', value)!r}" for selection, value in radius.items()]
-    return list(radius)
+    return lib.listed("radius", radius, "texts such as 'element Zn=1.1'")
 
 
 def _list_of(given: Sequence[bytes]) -> Any:
     return (ctypes.c_char_p * len(given))(*given)
-
-
-def _encoded(name: str, text: Optional[str]) -> Optional[bytes]:
-    if text is None:
-        return None
-    if not isinstance(text, str) or "\0" in text:
-        raise InputError(f"{name} is {text!r}, not a text without zeros")
-    return text.encode("utf-8", "surrogateescape")
 
 
 def _file_name(name: str, path: Path) -> bytes:
@@ -335,16 +327,17 @@ def read(path: Path, *, select: Optional[str] = None, assembly: Union[str, int, 
         ...
     meniscus.InputError: none.pdb: cannot be read: No such file or directory"""
     options = lib.default("read_options", lib.ReadOptions())
-    options.select, options.altloc = _encoded("select", select), _encoded("altloc", altloc)
-    options.assembly = None if assembly is None else _encoded("assembly", str(assembly))
-    options.radii = _encoded("radii", radii)
+    options.select, options.altloc = lib.text("select", select), lib.text("altloc", altloc)
+    options.assembly = None if assembly is None else lib.text("assembly", str(assembly))
+    options.radii = lib.text("radii", radii)
     options.model = 0 if isinstance(model, str) and model == "all" else lib.positive("model", model)
     options.hydrogens = lib.word("hydrogens", hydrogens, lib.HYDROGENS)
     options.unknown_element = lib.word("unknown_element", unknown_element, lib.UNKNOWN_ELEMENTS)
-    options.keep_water, options.keep_ions = bool(keep_water), bool(keep_ions)
-    files = [radii_files] if isinstance(radii_files, (str, bytes, os.PathLike)) else list(radii_files)
+    options.keep_water, options.keep_ions = lib.flag("keep_water", keep_water), lib.flag("keep_ions", keep_ions)
+    files = ([radii_files] if isinstance(radii_files, (str, bytes, os.PathLike)) else
+             lib.listed("radii_files", radii_files, "files"))
     tables = _list_of([_file_name("radii_files", file) for file in files])
-    overrides = _list_of([_encoded("radius", text) or b"" for text in _overrides(radius)])
+    overrides = _list_of([lib.text("radius", text) or b"" for text in _overrides(radius)])
     options.radii_files, options.radii_file_count = ctypes.cast(tables, ctypes.c_void_p), len(tables)
     options.radius, options.radius_count = ctypes.cast(overrides, ctypes.c_void_p), len(overrides)
     structure = _opened(lib.Handle("structure", "read", _file_name("path", path), ctypes.byref(options)))

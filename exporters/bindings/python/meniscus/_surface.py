@@ -62,7 +62,7 @@ class Surface:
     def __init__(self, xyz: Any, radii: Any, probe: float, kind: Kind, device: Device, threads: int,
                  verify: bool) -> None:
         options = lib.default("options", lib.Options())
-        options.probe_radius, options.threads, options.verify = probe, threads, verify
+        options.probe_radius, options.threads, options.verify = probe, threads, lib.flag("verify", verify)
         options.kind = lib.word("kind", kind, lib.KINDS)
         options.device = lib.word("device", device, lib.DEVICES)
         self._kind: Kind = kind
@@ -309,7 +309,7 @@ class Surface:
         [[6.0, 0.0, 1.7]]"""
         given = doubles(points, "points", 3, power=1)
         distances = np.empty(len(given))
-        feet = np.empty((len(given), 3)) if nearest else None
+        feet = np.empty((len(given), 3)) if lib.flag("nearest", nearest) else None
         handle = self._handle
         lib.call("surface_distance", handle.pointer, len(given), given.ctypes.data, distances.ctypes.data,
                  None if feet is None else feet.ctypes.data)
