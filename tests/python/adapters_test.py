@@ -192,10 +192,10 @@ class Frames(unittest.TestCase):
             meniscus.from_mdanalysis(Atoms())
         self.assertEqual(caught.filename, __file__)
 
-    def test_what_a_door_does_not_take_is_named(self):
-        for door in (meniscus.from_mdtraj, meniscus.from_biopython, meniscus.from_gemmi):
-            with self.assertRaisesRegex(meniscus.InputError, rf"a builtins.dict is nothing that {door.__name__}\(\) takes"):
-                door({})
+    def test_what_a_function_does_not_take_is_named(self):
+        for function in (meniscus.from_mdtraj, meniscus.from_biopython, meniscus.from_gemmi):
+            with self.assertRaisesRegex(meniscus.InputError, rf"a builtins.dict is nothing that {function.__name__}\(\) takes"):
+                function({})
 
     def test_atoms_without_elements_need_radii(self):
         class Atoms:

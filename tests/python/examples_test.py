@@ -26,7 +26,7 @@ MODULES = {"biopython": "Bio"}
 
 def members(kind):
     """Functions and properties of a class itself, in their order."""
-    return [(name, member) for name, member in vars(kind).items() if not name.startswith("_")
+    return [(name, getattr(kind, name)) for name, member in vars(kind).items() if not name.startswith("_")
             and (isinstance(member, (property, classmethod)) or inspect.isfunction(member))]
 
 

@@ -619,7 +619,7 @@ class Elsewhere(unittest.TestCase):
                              capture_output=True)
         self.assertEqual((run.returncode, run.stdout, run.stderr), (0, "", ""))
 
-    def test_names_that_are_none_are_refused(self):
+    def test_wrong_names_are_refused(self):
         s = meniscus.surface([[0, 0, 0]], 1.7)
         for thing in (s, s.mesh(0.3), s.camera(), s.render(size="8x8", device="cpu"), s.patches, meniscus.properties()[0]):
             with self.assertRaisesRegex(AttributeError, "prob"):

@@ -9,7 +9,7 @@ import numpy as np
 
 from ._errors import InputError
 from ._radii import radii_of
-from ._sources import DOORS, Source, opened, package_of
+from ._sources import TAKEN_BY, Source, opened, package_of
 from ._surface import Surface, surface
 from ._types import Rows
 
@@ -40,13 +40,13 @@ def _surfaces(source: Source, radii: Optional[Any], options: SurfaceOptions) -> 
 def _first(thing: Any, package: str, radii: Optional[Any], options: SurfaceOptions) -> Surface:
     if package_of(thing) != package:
         kind = f"{type(thing).__module__}.{type(thing).__qualname__}"
-        raise InputError(f"a {kind} is nothing that {DOORS[package]}() takes")
+        raise InputError(f"a {kind} is nothing that {TAKEN_BY[package]}() takes")
     return next(_surfaces(opened(thing, package, False), radii, options))
 
 
 def from_mdanalysis(atoms: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Surface:
-    """Of an AtomGroup or Universe in its current frame. radii: by element, unless given. options: as surface() has
-    them. For the next frame: s.update(atoms.positions).
+    """The surface of an AtomGroup or Universe in its current frame. radii: by element, unless given. options: as
+    surface() has them. For the next frame: s.update(atoms.positions). InputError where an atom has no element.
 
     >>> import MDAnalysis
     >>> universe = MDAnalysis.Universe("helix.pdb")
@@ -56,7 +56,7 @@ def from_mdanalysis(atoms: Any, *, radii: Optional[Any] = None, **options: Unpac
 
 
 def from_mdtraj(trajectory: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Surface:
-    """Of the first frame of an mdtraj.Trajectory: trajectory[7] is the eighth. Its nm become Å.
+    """The surface of the first frame of an mdtraj.Trajectory: trajectory[7] is the eighth. Its nm become Å.
 
     >>> import mdtraj
     >>> trajectory = mdtraj.load("helix.pdb")
@@ -66,7 +66,7 @@ def from_mdtraj(trajectory: Any, *, radii: Optional[Any] = None, **options: Unpa
 
 
 def from_prody(atoms: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Surface:
-    """Of an AtomGroup or Selection with its active coordinates.
+    """The surface of an AtomGroup or Selection with its active coordinates.
 
     >>> import prody
     >>> meniscus.from_prody(prody.parsePDB("helix.pdb").select("not water"))
@@ -75,7 +75,7 @@ def from_prody(atoms: Any, *, radii: Optional[Any] = None, **options: Unpack[Sur
 
 
 def from_biotite(array: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Surface:
-    """Of an AtomArray, or of the first model of an AtomArrayStack.
+    """The surface of an AtomArray, or of the first model of an AtomArrayStack.
 
     >>> import biotite.structure.io.pdb
     >>> array = biotite.structure.io.pdb.PDBFile.read("helix.pdb").get_structure(model=1)
@@ -85,8 +85,8 @@ def from_biotite(array: Any, *, radii: Optional[Any] = None, **options: Unpack[S
 
 
 def from_biopython(entity: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Surface:
-    """Of the first model of a Bio.PDB Structure, of a Model, Chain or Residue, or of a list of atoms, in the order of
-    get_atoms(). Of alternate locations the selected one counts.
+    """The surface of the first model of a Bio.PDB Structure, of a Model, Chain or Residue, or of a list of atoms, in the
+    order of get_atoms(). Of alternate locations the selected one counts.
 
     >>> import Bio.PDB
     >>> structure = Bio.PDB.PDBParser().get_structure("helix", "helix.pdb")
@@ -96,7 +96,7 @@ def from_biopython(entity: Any, *, radii: Optional[Any] = None, **options: Unpac
 
 
 def from_ase(atoms: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Surface:
-    """Of an ase.Atoms, or of the first of a list or trajectory of them; periodic copies are left out.
+    """The surface of an ase.Atoms, or of the first of a list or trajectory of them; periodic copies are left out.
 
     >>> import ase.build
     >>> meniscus.from_ase(ase.build.molecule("CH3CH2OH"))
@@ -105,8 +105,9 @@ def from_ase(atoms: Any, *, radii: Optional[Any] = None, **options: Unpack[Surfa
 
 
 def from_rdkit(molecule: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Surface:
-    """Of the first conformer of a Mol, or of a Conformer: mol.GetConformer(7). Hydrogens count where they are atoms of
-    the molecule (rdkit.Chem.AddHs). InputError where there is no conformer, or only a drawing in two dimensions.
+    """The surface of the first conformer of a Mol, or of a Conformer: mol.GetConformer(7). Hydrogens count where they are
+    atoms of the molecule (rdkit.Chem.AddHs). InputError where there is no conformer, or only a drawing in two
+    dimensions.
 
     >>> from rdkit import Chem
     >>> molecule = Chem.MolFromPDBFile("helix.pdb", sanitize=False)
@@ -117,8 +118,8 @@ def from_rdkit(molecule: Any, *, radii: Optional[Any] = None, **options: Unpack[
 
 def from_openmm(source: Any, positions: Optional[Any] = None, *, radii: Optional[Any] = None,
                 **options: Unpack[SurfaceOptions]) -> Surface:
-    """Of a PDBFile, PDBxFile or Modeller, of a Simulation as it is now, or of a Topology with positions that have a
-    unit.
+    """The surface of a PDBFile, PDBxFile or Modeller, of a Simulation as it is now, or of a Topology with positions that
+    have a unit.
 
     >>> import openmm.app
     >>> file = openmm.app.PDBFile("helix.pdb")
@@ -130,7 +131,7 @@ def from_openmm(source: Any, positions: Optional[Any] = None, *, radii: Optional
 
 
 def from_gemmi(part: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Surface:
-    """Of the first model of a gemmi.Structure, of a Model, Chain, Residue or span of residues, in the order of
+    """The surface of the first model of a gemmi.Structure, of a Model, Chain, Residue or span of residues, in the order of
     Model.all(). A warning says where alternate locations all count: remove_alternative_conformations().
 
     >>> import gemmi
@@ -174,5 +175,5 @@ def frames(source: Any, *, radii: Optional[Any] = None, **options: Unpack[Surfac
     package = package_of(source)
     if not package:
         raise InputError(f"a {type(source).__module__}.{type(source).__qualname__} is nothing that frames can be taken "
-                         f"of; known are those of {', '.join(DOORS)}")
+                         f"of; known are those of {', '.join(TAKEN_BY)}")
     return _surfaces(opened(source, package, True), radii, options)

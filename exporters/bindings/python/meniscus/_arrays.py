@@ -10,7 +10,7 @@ import numpy as np
 
 from ._errors import InputError
 from ._library import DOUBLE, FLOAT, STRUCTURE_ALTLOCS, STRUCTURE_INSERTION_CODES, Array, Handle, call
-from ._sources import DOORS, package_of
+from ._sources import TAKEN_BY, package_of
 from ._types import AnyArray, Floats, Texts
 from ._units import plain
 
@@ -68,7 +68,7 @@ def real_array(values: Any, name: str, power: Optional[int] = None) -> AnyArray:
     values = plain(values, name, power)
     package = "" if isinstance(values, (np.ndarray, list, tuple)) else package_of(values)
     if package:  # some of whose things can be walked through, but are no arrays
-        raise InputError(f"{name} is a {package}.{type(values).__name__}, not an array; meniscus.{DOORS[package]}() "
+        raise InputError(f"{name} is a {package}.{type(values).__name__}, not an array; meniscus.{TAKEN_BY[package]}() "
                          "takes it")
     masked: Any = np.ma  # whose functions have no types
     if masked.is_masked(values):

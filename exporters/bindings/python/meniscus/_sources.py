@@ -9,7 +9,7 @@ import numpy as np
 
 from ._errors import InputError
 
-DOORS = {"MDAnalysis": "from_mdanalysis", "mdtraj": "from_mdtraj", "prody": "from_prody", "biotite": "from_biotite",
+TAKEN_BY = {"MDAnalysis": "from_mdanalysis", "mdtraj": "from_mdtraj", "prody": "from_prody", "biotite": "from_biotite",
          "Bio": "from_biopython", "ase": "from_ase", "rdkit": "from_rdkit", "openmm": "from_openmm",
          "gemmi": "from_gemmi"}
 
@@ -127,7 +127,7 @@ def opened(thing: Any, package: str, every: bool) -> Source:
     try:
         source = _READERS[package](thing, every)
     except (AttributeError, TypeError) as error:
-        raise InputError(f"a {package}.{type(thing).__name__} has no atoms that {DOORS[package]}() takes: "
+        raise InputError(f"a {package}.{type(thing).__name__} has no atoms that {TAKEN_BY[package]}() takes: "
                          f"{error}") from error
     letters = {str(letter).strip(" .\0") for letter in source.altlocs} - {""}
     if len(letters) > 1:
