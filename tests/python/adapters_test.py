@@ -120,6 +120,8 @@ class Frames(unittest.TestCase):
         residue = next(structure.get_residues())
         self.assertEqual(len(meniscus.from_biopython(residue)), 6)
         self.assertEqual(len(meniscus.from_biopython(list(residue)[:4])), 4)
+        with self.assertRaisesRegex(meniscus.InputError, r"a Bio.Structure has no atoms that from_biopython\(\) takes"):
+            meniscus.from_biopython(type(structure)("empty"))
 
     @tried_with("ase")
     def test_ase(self):
@@ -139,6 +141,8 @@ class Frames(unittest.TestCase):
         self.assertEqual(molecule.GetNumConformers(), 3)
         self.check(meniscus.from_rdkit(molecule, probe=1.3), meniscus.frames(molecule, probe=1.3), 1e-12)
         self.assertAlmostEqual(meniscus.from_rdkit(molecule.GetConformer(1), probe=1.3).area / self.areas[1], 1, delta=1e-12)
+        with self.assertRaisesRegex(meniscus.InputError, "a rdkit.Atom has no atoms"):
+            meniscus.from_rdkit(molecule.GetAtomWithIdx(0))
         flat = chem.MolFromSmiles("CCO")
         with self.assertRaisesRegex(meniscus.InputError, "no conformer; .*EmbedMolecule"):
             meniscus.from_rdkit(flat)
@@ -205,6 +209,9 @@ class Frames(unittest.TestCase):
         with self.assertRaisesRegex(meniscus.InputError, "no element; give radii"):
             meniscus.from_prody(Atoms())
         self.assertAlmostEqual(meniscus.from_prody(Atoms(), radii=1.0).area, 4 * np.pi)
+        Atoms.getCoords = lambda self: None
+        with self.assertRaisesRegex(meniscus.InputError, "the atoms have no positions"):
+            meniscus.from_prody(Atoms())
 
     def test_series(self):
         random = np.random.default_rng(1)

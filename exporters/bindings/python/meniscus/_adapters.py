@@ -28,6 +28,8 @@ def _elements(found: Any, count: int) -> Any:
 def _surfaces(source: Source, radii: Optional[Any], options: SurfaceOptions) -> Iterator[Surface]:
     made = None
     for positions in source.frames:
+        if positions is None:
+            raise InputError("the atoms have no positions")
         if made is None:
             if radii is None:
                 radii = radii_of(_elements(source.elements, len(positions)))

@@ -64,8 +64,9 @@ def _ase(atoms: Any, every: bool) -> Source:
 
 
 def _rdkit(molecule: Any, every: bool) -> Source:
-    conformers = [molecule] if hasattr(molecule, "GetOwningMol") else list(molecule.GetConformers())
-    molecule = molecule.GetOwningMol() if hasattr(molecule, "GetOwningMol") else molecule
+    single = hasattr(molecule, "Is3D")  # a Conformer
+    conformers = [molecule] if single else list(molecule.GetConformers())
+    molecule = molecule.GetOwningMol() if single else molecule
     if not conformers:
         raise InputError("the molecule has no conformer; rdkit.Chem.AllChem.EmbedMolecule() makes one")
 
@@ -126,7 +127,7 @@ def opened(thing: Any, package: str, every: bool) -> Source:
     """What a package's thing holds. every: all frames of it."""
     try:
         source = _READERS[package](thing, every)
-    except (AttributeError, TypeError) as error:
+    except (AttributeError, IndexError, TypeError) as error:
         raise InputError(f"a {package}.{type(thing).__name__} has no atoms that {TAKEN_BY[package]}() takes: "
                          f"{error}") from error
     letters = {str(letter).strip(" .\0") for letter in source.altlocs} - {""}
