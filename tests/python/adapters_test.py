@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""adapters_test.py PACKAGE...: frames of MDAnalysis, MDTraj, ProDy and Biotite go in, trimesh, PyVista and Open3D meshes
-come out. The packages named must be there, and only they are tried; without names those that are installed are."""
+"""adapters_test.py PACKAGE...: molecules and numbers of other packages go in, meshes come out, and surfaces go to other
+processes. The packages named must be there, and only they are tried; without names those that are installed are."""
 import importlib
 import importlib.metadata
+import multiprocessing
 import os
 import sys
 import tempfile
@@ -16,7 +17,8 @@ import numpy as np
 
 import meniscus
 
-ALL = ("MDAnalysis", "mdtraj", "prody", "biotite", "ase", "openmm", "pint", "astropy", "unyt", "trimesh", "pyvista", "open3d")
+ALL = ("MDAnalysis", "mdtraj", "prody", "biotite", "biopython", "ase", "rdkit", "openmm", "gemmi", "pint", "astropy",
+       "unyt", "joblib", "dask", "trimesh", "pyvista", "open3d")
 NAMED = sys.argv[1:]
 
 # Two residues, three models.
@@ -39,6 +41,12 @@ def pdb(frames):
                      f"          {element:>2s}\n")
         text += "ENDMDL\n"
     return text + "END\n"
+
+
+def one(xyz):
+    """Work for another process."""
+    s = meniscus.surface(xyz, 1.7, threads=1)
+    return s, s.mesh(density=0.5)
 
 
 def tried_with(name):
@@ -72,7 +80,7 @@ class Frames(unittest.TestCase):
 
     def check(self, first, every, relative):
         self.assertAlmostEqual(first.area / self.areas[0], 1.0, delta=relative)
-        found = [s.area for s in every]
+        found = [s.area for s in list(every)]  # each keeps its frame
         np.testing.assert_allclose(found, self.areas, rtol=relative)
 
     @tried_with("MDAnalysis")
@@ -104,6 +112,95 @@ class Frames(unittest.TestCase):
         self.check(meniscus.from_biotite(stack, probe=1.3), meniscus.frames(stack, probe=1.3), 1e-5)
         self.assertAlmostEqual(meniscus.from_biotite(stack[1], probe=1.3).area / self.areas[1], 1.0, delta=1e-5)
 
+    @tried_with("biopython")
+    def test_biopython(self):
+        structure = module("Bio.PDB").PDBParser(QUIET=True).get_structure("models", self.file)
+        self.check(meniscus.from_biopython(structure, probe=1.3), meniscus.frames(structure, probe=1.3), 1e-6)  # floats
+        self.assertAlmostEqual(meniscus.from_biopython(structure[1], probe=1.3).area / self.areas[1], 1, delta=1e-6)
+        residue = next(structure.get_residues())
+        self.assertEqual(len(meniscus.from_biopython(residue)), 6)
+        self.assertEqual(len(meniscus.from_biopython(list(residue)[:4])), 4)
+        with self.assertRaisesRegex(meniscus.InputError, r"a Bio.Structure has no atoms that from_biopython\(\) takes"):
+            meniscus.from_biopython(type(structure)("empty"))
+
+    @tried_with("ase")
+    def test_ase(self):
+        ase = module("ase")
+        images = [ase.Atoms([element for _, element in NAMES] * 2, positions=xyz) for xyz in self.frames]
+        self.check(meniscus.from_ase(images[0], probe=1.3), meniscus.frames(images, probe=1.3), 1e-12)
+        images[1].symbols[3] = "N"
+        with self.assertRaisesRegex(meniscus.InputError, "image 1 has other atoms"):
+            list(meniscus.frames(images))
+        with self.assertRaisesRegex(meniscus.InputError, r"not an array; meniscus.from_ase\(\) takes it"):
+            meniscus.surface(images[0], 1.7)
+
+    @tried_with("rdkit")
+    def test_rdkit(self):
+        chem = module("rdkit.Chem")
+        molecule = chem.MolFromPDBFile(self.file, sanitize=False)
+        self.assertEqual(molecule.GetNumConformers(), 3)
+        self.check(meniscus.from_rdkit(molecule, probe=1.3), meniscus.frames(molecule, probe=1.3), 1e-12)
+        self.assertAlmostEqual(meniscus.from_rdkit(molecule.GetConformer(1), probe=1.3).area / self.areas[1], 1, delta=1e-12)
+        with self.assertRaisesRegex(meniscus.InputError, "a rdkit.Atom has no atoms"):
+            meniscus.from_rdkit(molecule.GetAtomWithIdx(0))
+        flat = chem.MolFromSmiles("CCO")
+        with self.assertRaisesRegex(meniscus.InputError, "no conformer; .*EmbedMolecule"):
+            meniscus.from_rdkit(flat)
+        module("rdkit.Chem.AllChem").Compute2DCoords(flat)
+        with self.assertRaisesRegex(meniscus.InputError, "conformer 0 is a drawing"):
+            meniscus.from_rdkit(flat)
+
+    @tried_with("openmm")
+    def test_openmm(self):
+        app, unit = module("openmm.app"), module("openmm.unit")
+        file = app.PDBFile(self.file)
+        self.check(meniscus.from_openmm(file, probe=1.3), meniscus.frames(file, probe=1.3), 1e-9)
+        modeller = app.Modeller(file.topology, file.getPositions(frame=1))
+        self.assertAlmostEqual(meniscus.from_openmm(modeller, probe=1.3).area / self.areas[1], 1, delta=1e-9)
+        positions = file.getPositions(asNumpy=True, frame=2)
+        self.assertAlmostEqual(meniscus.from_openmm(file.topology, positions, probe=1.3).area / self.areas[2], 1, delta=1e-9)
+        with self.assertRaisesRegex(meniscus.InputError, "the positions have no unit"):
+            meniscus.from_openmm(file.topology, positions.value_in_unit(unit.nanometer))
+        with self.assertRaisesRegex(meniscus.InputError, "no atoms that from_openmm"):
+            meniscus.from_openmm(file.topology)
+        openmm = module("openmm")
+        system = openmm.System()
+        for _ in range(12):
+            system.addParticle(12.0)
+        simulation = app.Simulation(file.topology, system, openmm.VerletIntegrator(0.001),
+                                    openmm.Platform.getPlatformByName("Reference"))
+        simulation.context.setPositions(file.positions)
+        self.assertAlmostEqual(meniscus.from_openmm(simulation, probe=1.3).area / self.areas[0], 1, delta=1e-9)
+
+    @tried_with("gemmi")
+    def test_gemmi(self):
+        structure = module("gemmi").read_structure(self.file)
+        self.check(meniscus.from_gemmi(structure, probe=1.3), meniscus.frames(structure, probe=1.3), 1e-12)
+        self.assertAlmostEqual(meniscus.from_gemmi(structure[1], probe=1.3).area / self.areas[1], 1, delta=1e-12)
+        self.assertEqual(len(meniscus.from_gemmi(structure[0][0][0])), 6)
+        structure[0][0][0][5].altloc, structure[0][0][1][5].altloc = "A", "B"
+        with self.assertWarnsRegex(UserWarning, "alternate locations A, B all count"):
+            meniscus.from_gemmi(structure)
+
+    def test_alternate_locations_are_warned_of_here(self):
+        class Atoms:
+            __module__ = "MDAnalysis.fake"
+            positions, elements, altLocs = np.zeros((2, 3)), ["C", "C"], ["", "A"]
+        Atoms.atoms = Atoms
+        Atoms.positions = np.array([[0, 0, 0], [3, 0, 0]])
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            meniscus.from_mdanalysis(Atoms())
+        Atoms.altLocs = ["B", "A"]
+        with self.assertWarnsRegex(UserWarning, "alternate locations A, B all count") as caught:
+            meniscus.from_mdanalysis(Atoms())
+        self.assertEqual(caught.filename, __file__)
+
+    def test_what_a_function_does_not_take_is_named(self):
+        for function in (meniscus.from_mdtraj, meniscus.from_biopython, meniscus.from_gemmi):
+            with self.assertRaisesRegex(meniscus.InputError, rf"a builtins.dict is nothing that {function.__name__}\(\) takes"):
+                function({})
+
     def test_atoms_without_elements_need_radii(self):
         class Atoms:
             __module__ = "prody.fake"
@@ -112,6 +209,9 @@ class Frames(unittest.TestCase):
         with self.assertRaisesRegex(meniscus.InputError, "no element; give radii"):
             meniscus.from_prody(Atoms())
         self.assertAlmostEqual(meniscus.from_prody(Atoms(), radii=1.0).area, 4 * np.pi)
+        Atoms.getCoords = lambda self: None
+        with self.assertRaisesRegex(meniscus.InputError, "the atoms have no positions"):
+            meniscus.from_prody(Atoms())
 
     def test_series(self):
         random = np.random.default_rng(1)
@@ -189,8 +289,6 @@ class Units(unittest.TestCase):
         atoms = module("ase").Atoms("NCCOCS" * 2, positions=self.xyz)
         self.same(atoms.get_positions(), self.radii)
         self.same(atoms.positions, meniscus.radii_of(atoms.get_atomic_numbers()))
-        with self.assertRaisesRegex(meniscus.InputError, "get_positions"):
-            meniscus.surface(atoms, self.radii)
 
     @tried_with("openmm")
     def test_openmm(self):
@@ -230,6 +328,31 @@ class Units(unittest.TestCase):
         self.same(nm, unyt.unyt_array(self.radii / 10, "nm"), unyt.unyt_quantity(0.13, "nm"), nm)
         with self.assertRaisesRegex(meniscus.InputError, "xyz is in s"):
             meniscus.surface(unyt.unyt_array(self.xyz, "s"), self.radii)
+
+
+class Processes(unittest.TestCase):
+    """Surfaces come back from workers as they were there."""
+
+    def check(self, came_back):
+        surfaces, meshes = zip(*came_back)
+        self.assertEqual([s.area for s in surfaces], [one(xyz)[0].area for xyz in models()])
+        for s, mesh in zip(surfaces, meshes):
+            np.testing.assert_array_equal(mesh.vertices, s.mesh(density=0.5).vertices)
+
+    def test_multiprocessing(self):
+        for start in ("fork", "spawn"):
+            with multiprocessing.get_context(start).Pool(2) as pool:
+                self.check(pool.map(one, models()))
+
+    @tried_with("joblib")
+    def test_joblib(self):
+        joblib = module("joblib")
+        self.check(joblib.Parallel(2)(joblib.delayed(one)(xyz) for xyz in models()))
+
+    @tried_with("dask")
+    def test_dask(self):
+        dask = module("dask")
+        self.check(dask.compute(*[dask.delayed(one)(xyz) for xyz in models()], scheduler="processes"))
 
 
 class Meshes(unittest.TestCase):

@@ -3,6 +3,7 @@
 package_test.py). MENISCUS_LIBRARY names the library, MENISCUS_PACKAGE the folder with the package unless it is installed."""
 import copy
 import ctypes
+import dataclasses
 import gc
 import inspect
 import math
@@ -302,9 +303,10 @@ class Foreign(unittest.TestCase):
     def test_numbers_are_looked_at_before_ctypes_cuts_them(self):
         xyz, radii = chain(5)
         s = meniscus.surface(xyz, radii)
-        for call in (lambda: meniscus.surface(xyz, radii, threads=2**32 + 1), lambda: meniscus.radii_of([2**32 + 6]),
-                     lambda: s.mesh(0.1, split_colors=2**32)):
-            with self.assertRaisesRegex(meniscus.InputError, "which 32 bits cannot count"):
+        for call, value in ((lambda: meniscus.surface(xyz, radii, threads=2**32 + 1), "threads is 4294967297"),
+                            (lambda: meniscus.radii_of(["C", 2**32 + 6]), "atom 1: the element is 4294967302"),
+                            (lambda: meniscus.read("x.pdb", model=2**32 + 1), "model is 4294967297")):
+            with self.assertRaisesRegex(meniscus.InputError, value + ", which 32 bits cannot count"):
                 call()
         for call, said in ((lambda: meniscus.surface(xyz, radii, threads=1.5), "threads is 1.5, not a whole number"),
                            (lambda: meniscus.radii_of([6.5]), "atom 0: the element is 6.5, not a whole number"),
@@ -316,6 +318,46 @@ class Foreign(unittest.TestCase):
                 call()
         same = meniscus.surface(xyz, radii, np.float32(1.5), threads=np.int64(1), verify=np.bool_(False))
         self.assertEqual(same.area, meniscus.surface(xyz, radii, 1.5).area)
+
+    def test_odd_values_are_refused_with_their_name(self):
+        s = meniscus.surface([[0, 0, 0], [3, 0, 0]], 1.7)
+        mesh, camera = s.mesh(0.3), s.camera()
+
+        def seen(**fields):
+            return s.render(size="8x8", camera=dataclasses.replace(camera, **fields), device="cpu")
+        odd = (b"x", 10**400, {}, object(), np.arange(4), 1j, "a\0b", [[1, 2], [3]], math.nan, lambda: 0)
+        for name, call in (
+                ("kind", lambda v: meniscus.surface([[0, 0, 0]], 1.7, kind=v)),
+                ("probe", lambda v: meniscus.surface([[0, 0, 0]], 1.7, v)),
+                ("threads", lambda v: meniscus.surface([[0, 0, 0]], 1.7, threads=v)),
+                ("verify", lambda v: meniscus.surface([[0, 0, 0]], 1.7, verify=v)),
+                ("xyz", s.update), ("points", s.distance), ("of", s.gradient), ("tolerance", s.mesh),
+                ("large_probe_radius", s.pockets), ("aspect", s.camera),
+                ("weights", lambda v: s.gradient("sas_area", v)),
+                ("density", lambda v: s.mesh(density=v)), ("even", lambda v: s.mesh(0.3, even=v)),
+                ("split_colors", lambda v: s.mesh(0.3, split_colors=v)),
+                ("nearest", lambda v: s.distance([[0, 0, 0]], nearest=v)),
+                ("camera", lambda v: s.render(size="8x8", camera=v, device="cpu")),
+                ("device", lambda v: s.render(size="8x8", device=v)),
+                ("position", lambda v: seen(position=v)), ("up", lambda v: seen(up=v)), ("fov", lambda v: seen(vertical_fov=v)),
+                ("select", lambda v: meniscus.read("x.pdb", select=v)), ("keep_water", lambda v: meniscus.read("x.pdb", keep_water=v)),
+                ("radius", lambda v: meniscus.read("x.pdb", radius=[v])), ("element", lambda v: meniscus.radii_of([v])),
+                ("format", lambda v: mesh.save("x.stl", format=v)), ("scale", lambda v: mesh.save("x.stl", scale=v))):
+            for value in odd:
+                with self.subTest(name, value=repr(value)[:30]), self.assertRaises(meniscus.Error) as refused:
+                    call(value)
+                self.assertIn(name, str(refused.exception))
+
+    def test_words_are_no_flags_and_texts_no_lists(self):
+        s = meniscus.surface([[0, 0, 0]], 1.7)
+        for call, said in ((lambda: s.mesh(0.3, even="no"), "even is 'no', neither True nor False"),
+                           (lambda: s.distance([[0, 0, 0]], nearest="no"), "nearest is 'no'"),
+                           (lambda: meniscus.radii_of("CN"), "elements is 'CN', not a list of symbols"),
+                           (lambda: meniscus.radii_of(None), "elements is None, not a list of symbols")):
+            with self.assertRaisesRegex(meniscus.InputError, said):
+                call()
+        self.assertEqual(meniscus.radii_of(symbol for symbol in "CN").tolist(), [1.7, 1.55])
+        self.assertEqual(s.mesh(0.3, even=np.True_).triangles.tolist(), s.mesh(0.3, even=1).triangles.tolist())
 
     def test_rows_that_are_not_aligned_are_copied(self):
         xyz, radii = chain(5)
@@ -542,13 +584,50 @@ class Elsewhere(unittest.TestCase):
                 again.update(xyz + 0.5)
                 self.assertEqual(again.area, meniscus.surface(xyz + 0.5, given, **options).area)
 
+    def test_all_that_is_public_is_pickled_and_copied(self):
+        xyz, radii = cloud(40, 8)
+        s = meniscus.surface(xyz, radii)
+        mesh, scene = s.mesh(density=0.5), meniscus.Scene("a.pdb", depth_cue=0.5, label=["resid 1=one", "resid 2=two"])
+        s.update(xyz + 0.5)
+        for again in (pickle.loads(pickle.dumps(mesh)), copy.deepcopy(mesh)):
+            np.testing.assert_array_equal(again.vertices, mesh.vertices)
+            np.testing.assert_array_equal(again.triangles, mesh.triangles)
+        for again in (pickle.loads(pickle.dumps(scene)), copy.copy(scene)):
+            self.assertEqual((again.json(), again.file, again.label), (scene.json(), "a.pdb", scene.label))
+            again.depth_cue = 0.25
+            self.assertEqual(scene.depth_cue, 0.5)
+        for thing in (s.camera(), s.render(size="8x8", device="cpu"), s.patches, s.pockets(), meniscus.properties()[0]):
+            self.assertEqual(repr(pickle.loads(pickle.dumps(thing))), repr(thing))
+
+    def test_a_copy_keeps_its_frame(self):
+        xyz, radii = cloud(40, 8)
+        s = meniscus.surface(xyz, radii)
+        area = s.area
+        copies = [copy.copy(s), copy.deepcopy(s)]
+        later = s.update(xyz * 1.1).area
+        self.assertNotEqual(later, area)
+        for kept in copies:
+            self.assertEqual(kept.area, area)
+            kept.update(xyz * 1.2)
+        self.assertEqual(s.area, later)
+
     def test_python_ends_without_a_word(self):
         # Kept by a module that ends after the package's own.
         code = ("import meniscus, numpy\ns = meniscus.surface([[0, 0, 0], [2, 0, 0]], 1.7)\n"
-                "numpy.kept = [s, s.mesh(0.3), s.render(size='20x20', device='cpu'), s.pockets()]\n")
+                "numpy.kept = [s, s.mesh(0.3), s.render(size='20x20', device='cpu'), s.pockets(), meniscus.Scene()]\n")
         run = subprocess.run([sys.executable, "-c", f"import sys; sys.path[:0] = {sys.path!r}\n" + code], text=True,
                              capture_output=True)
         self.assertEqual((run.returncode, run.stdout, run.stderr), (0, "", ""))
+
+    def test_wrong_names_are_refused(self):
+        s = meniscus.surface([[0, 0, 0]], 1.7)
+        for thing in (s, s.mesh(0.3), s.camera(), s.render(size="8x8", device="cpu"), s.patches, meniscus.properties()[0]):
+            with self.assertRaisesRegex(AttributeError, "prob"):
+                thing.prob = 3
+        with self.assertRaisesRegex(meniscus.UsageError, "did you mean probe?"):
+            meniscus.Scene().prob = 3
+        with self.assertRaises(AttributeError):
+            s.probe = 3
 
     def test_version(self):
         self.assertEqual(meniscus.__version__, meniscus.version())

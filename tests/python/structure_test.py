@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Molecules from files in the Python package: the program's numbers to the last digit in every format, what is known of
 atoms, and errors in the words of Python. Environment as of package_test.py."""
+import copy
 import gzip
 import json
 import os
 import pathlib
+import pickle
 import subprocess
 import sys
 import tempfile
@@ -169,6 +171,20 @@ class Atoms(Files):
         del s
         np.testing.assert_array_equal(positions[-1], atoms()[-1][5])
         self.assertEqual(names[1], "CA")
+
+    def test_pickles_need_no_file(self):
+        s = meniscus.read(self.pdb)
+        packed = pickle.dumps(s)
+        self.pdb.unlink()
+        again = pickle.loads(packed)
+        for name in ("positions", "radii", "names", "chains", "classes", "charges", "residue_numbers", "altlocs"):
+            np.testing.assert_array_equal(getattr(again, name), getattr(s, name), name)
+        self.assertEqual((repr(again), len(again), again.warnings), (repr(s), len(s), s.warnings))
+        self.assertEqual(meniscus.surface(again).area, meniscus.surface(s).area)
+        self.assertFalse(again.positions.flags.writeable)
+        self.assertIs(copy.deepcopy(again), again)
+        with self.assertRaisesRegex(AttributeError, "name"):
+            s.name = "x"
 
     def test_arguments(self):
         read, path = meniscus.read, self.pdb

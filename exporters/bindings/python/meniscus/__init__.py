@@ -9,9 +9,17 @@
     meniscus.Scene("1ubq.cif", color="chain", legend=True).render()    # the picture of `meniscus render`
 
 All numbers are in Å, Å² and Å³. Arrays that belong to a surface or a mesh are read-only views of the library's own
-memory, which lives as long as any view of it does, whatever becomes of the object that gave it.
+memory, which lives as long as any view of it does, whatever becomes of the object that gave it. Examples of a class go
+on in those of its members.
 """
 from __future__ import annotations
+
+try:
+    import numpy as _numpy
+except ImportError as _error:
+    _why = str(_error).strip().splitlines()[0]
+    raise ImportError(f"meniscus needs numpy ({_why}): python -m pip install numpy") from _error
+del _numpy
 
 from ._errors import (CapacityError, Error, GpuError, InputError, InternalError, NotClosedError, OutputError,
                       UsageError)
@@ -23,13 +31,14 @@ from ._radii import radii_of
 from ._scene import Property, Scene, properties
 from ._structure import Structure, read
 from ._surface import Patches, Surface, surface
-from ._adapters import frames, from_biotite, from_mdanalysis, from_mdtraj, from_prody, series
+from ._adapters import (frames, from_ase, from_biopython, from_biotite, from_gemmi, from_mdanalysis, from_mdtraj,
+                        from_openmm, from_prody, from_rdkit, series)
 
 __all__ = [
     "Camera", "CapacityError", "Error", "GpuError", "InputError", "InternalError", "Mesh", "NotClosedError",
     "OutputError", "Patches", "Picture", "Pocket", "Property", "Scene", "Structure", "Surface", "UsageError", "frames",
-    "from_biotite", "from_mdanalysis", "from_mdtraj", "from_prody", "library_path", "properties", "radii_of", "read",
-    "series", "surface", "version",
+    "from_ase", "from_biopython", "from_biotite", "from_gemmi", "from_mdanalysis", "from_mdtraj", "from_openmm",
+    "from_prody", "from_rdkit", "library_path", "properties", "radii_of", "read", "series", "surface", "version",
 ]
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from ._errors import InputError
 from ._library import DOUBLE, FLOAT, STRUCTURE_ALTLOCS, STRUCTURE_INSERTION_CODES, Array, Handle, call
+from ._sources import TAKEN_BY, package_of
 from ._types import AnyArray, Floats, Texts
 from ._units import plain
 
@@ -61,18 +62,13 @@ def texts(owner: Handle, function: str, table: int) -> Texts:
 _TYPES = {np.dtype(np.float64): DOUBLE, np.dtype(np.float32): FLOAT}
 
 
-# Packages whose objects are no arrays, though some can be walked through, and what takes them.
-_TAKEN_BY = {"MDAnalysis": "from_mdanalysis()", "mdtraj": "from_mdtraj()", "prody": "from_prody()",
-             "biotite": "from_biotite()", "ase": "surface() with atoms.get_positions()"}
-
-
 def real_array(values: Any, name: str, power: Optional[int] = None) -> AnyArray:
     """Of real numbers, in Å to this power where they have a unit; else InputError: what is masked, complex, true or
     false, or text would become numbers that nobody meant."""
     values = plain(values, name, power)
-    package = type(values).__module__.split(".")[0]
-    if package in _TAKEN_BY and not isinstance(values, np.ndarray):
-        raise InputError(f"{name} is a {package}.{type(values).__name__}, not an array; meniscus.{_TAKEN_BY[package]} "
+    package = "" if isinstance(values, (np.ndarray, list, tuple)) else package_of(values)
+    if package:  # some of whose things can be walked through, but are no arrays
+        raise InputError(f"{name} is a {package}.{type(values).__name__}, not an array; meniscus.{TAKEN_BY[package]}() "
                          "takes it")
     masked: Any = np.ma  # whose functions have no types
     if masked.is_masked(values):

@@ -8,6 +8,7 @@ import numbers
 import operator
 import os
 import pathlib
+import reprlib
 import threading
 from ctypes import (POINTER, Structure, byref, c_char_p, c_double, c_float, c_int, c_int32, c_size_t, c_uint8, c_uint32,
                     c_uint64, c_void_p)
@@ -17,6 +18,7 @@ import numpy as np
 
 from ._errors import (CapacityError, Error, GpuError, InputError, InternalError, NotClosedError, OutputError,
                       UsageError)
+from ._loading import why_not_loaded
 from ._units import plain
 
 NONE = 0xFFFFFFFF
@@ -54,9 +56,9 @@ def whole_number(name: str, value: Any) -> int:
     try:
         number = int(value) if isinstance(value, np.bool_) else operator.index(value)
     except TypeError:
-        raise InputError(f"{name} is {value!r}, not a whole number") from None
+        raise InputError(f"{name} is {reprlib.repr(value)}, not a whole number") from None
     if not -2**31 <= number < 2**31:
-        raise InputError(f"{name} is {number}, which 32 bits cannot count")
+        raise InputError(f"{name} is {reprlib.repr(number)}, which 32 bits cannot count")
     return number
 
 
@@ -70,11 +72,39 @@ def positive(name: str, value: Any) -> int:
 def number(name: str, value: Any) -> float:
     """In Å, or a power of it, where that is what it counts."""
     plain_value = plain(value, name, _POWERS.get(name))
-    if not isinstance(plain_value, numbers.Real) or isinstance(plain_value, (bool, np.bool_)):
-        array = np.asarray(plain_value)
-        if array.ndim != 0 or array.dtype.kind not in "fiu":
-            raise InputError(f"{name} is {value!r}, not a number")
-    return float(plain_value)
+    single = isinstance(plain_value, numbers.Real) or getattr(plain_value, "ndim", None) == 0
+    try:
+        if single and np.asarray(plain_value).dtype.kind in "fiuO":  # O: fractions, and integers beyond 64 bits
+            return float(plain_value)
+    except (OverflowError, TypeError, ValueError):
+        pass
+    raise InputError(f"{name} is {reprlib.repr(value)}, not a number")
+
+
+def flag(name: str, value: Any) -> bool:
+    """Of True and False, or 1 and 0; other words would all be true."""
+    if not isinstance(value, (bool, np.bool_, int, np.integer)) or value not in (0, 1):
+        raise InputError(f"{name} is {reprlib.repr(value)}, neither True nor False")
+    return bool(value)
+
+
+def listed(name: str, values: Any, what: str) -> list[Any]:
+    """Of what can be walked through and is no text."""
+    try:
+        if not isinstance(values, (str, bytes)):
+            return list(values)
+    except TypeError:
+        pass
+    raise InputError(f"{name} is {reprlib.repr(values)}, not a list of {what}")
+
+
+def text(name: str, value: Optional[str]) -> Optional[bytes]:
+    """As C has it; None stays None."""
+    if value is None:
+        return None
+    if not isinstance(value, str) or "\0" in value:
+        raise InputError(f"{name} is {reprlib.repr(value)}, not a text without zeros")
+    return value.encode("utf-8", "surrogateescape")
 
 
 class _Given(Structure):
@@ -261,7 +291,7 @@ def _open() -> tuple[ctypes.CDLL, str]:
         try:
             return ctypes.CDLL(name), name
         except OSError as error:
-            reasons.append(str(error))
+            reasons.append(why_not_loaded(name, error))
     raise ImportError("libmeniscus cannot be loaded (" + "; ".join(reasons) +
                       "); install it, or set MENISCUS_LIBRARY to its file")
 
@@ -283,15 +313,16 @@ class _Library:
 
     def _prepared(self) -> ctypes.CDLL:
         dll, self.path = _open()
-        for name, arguments in _CALLS.items():
-            function = getattr(dll, "meniscus_" + name)
-            function.argtypes, function.restype = arguments, c_int
-        for name in _RELEASES:
-            function = getattr(dll, "meniscus_" + name)
-            function.argtypes, function.restype = [c_void_p], None
-        for name in ("version", "last_error"):
-            function = getattr(dll, "meniscus_" + name)
-            function.argtypes, function.restype = [], c_char_p
+        prototypes: list[tuple[str, list[Any], Any]] = [(name, arguments, c_int) for name, arguments in _CALLS.items()]
+        prototypes += [(name, [c_void_p], None) for name in _RELEASES]
+        prototypes += [(name, [], c_char_p) for name in ("version", "last_error")]
+        for name, arguments, result in prototypes:
+            try:
+                function = getattr(dll, "meniscus_" + name)
+            except AttributeError:
+                raise ImportError(f"{self.path} has no meniscus_{name}(): it is not libmeniscus, or of another version "
+                                  "than this package; install both of one version") from None
+            function.argtypes, function.restype = arguments, result
         return dll
 
 
@@ -318,7 +349,7 @@ class Handle:
 
     def __init__(self, kind: str, make: str, *arguments: Any) -> None:
         """The last argument of meniscus_MAKE takes the object."""
-        self.pointer = c_void_p()
+        self.pointer: c_void_p = c_void_p()
         self._release: Callable[[c_void_p], None] = getattr(_library.dll(), f"meniscus_{kind}_release")
         call(make, *arguments, byref(self.pointer))
 
@@ -330,20 +361,26 @@ class Handle:
 
 
 def version() -> str:
-    """That of the library."""
+    """That of the library, which is meniscus.__version__, too.
+
+    >>> meniscus.version() == meniscus.__version__
+    True"""
     return str(_library.dll().meniscus_version().decode())
 
 
 def library_path() -> str:
-    """The file or name that was loaded."""
+    """The file or name that was loaded.
+
+    >>> "meniscus" in meniscus.library_path()
+    True"""
     _library.dll()
     return _library.path
 
 
 def word(name: str, given: str, words: dict[str, int]) -> int:
     """The constant that a word means."""
-    if given not in words:
-        raise UsageError(f"{name} is {given!r}, none of {', '.join(words)}")
+    if not isinstance(given, str) or given not in words:
+        raise UsageError(f"{name} is {reprlib.repr(given)}, none of {', '.join(words)}")
     return words[given]
 
 

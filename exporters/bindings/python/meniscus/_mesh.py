@@ -2,10 +2,11 @@
 """Closed triangle meshes of a surface, and as other packages have them."""
 from __future__ import annotations
 
+import copy
 import ctypes
 import importlib
 import os
-from typing import Any, Optional
+from typing import TYPE_CHECKING, Any, Optional
 
 import numpy as np
 
@@ -14,78 +15,131 @@ from ._arrays import put_colors, view
 from ._errors import InputError
 from ._types import AnyArray, Bytes, Floats, Indices, MeshFormat, Path
 
+if TYPE_CHECKING:
+    from ._surface import Surface
+
 
 class Mesh:
-    """All vertices lie on the exact surface; seen from the solvent triangles are counter-clockwise."""
+    """Closed triangles, which Surface.mesh() makes: (n,) of vertices, (m,) of triangles. All vertices lie on the exact
+    surface; seen from the solvent triangles are counter-clockwise.
 
-    def __init__(self, surface: lib.Handle, tolerance: float, split_colors: bool, density: Optional[float],
+    >>> mesh = meniscus.surface([[0, 0, 0], [3, 0, 0]], 1.7).mesh(0.1)
+    >>> mesh
+    <meniscus.Mesh: 184 vertices, 364 triangles>"""
+
+    __slots__ = ("_handle", "_options", "_surface", "__weakref__")
+
+    def __init__(self, surface: Surface, tolerance: float, split_colors: bool, density: Optional[float],
                  even: bool) -> None:
         options = lib.default("mesh_options", lib.MeshOptions())
-        options.tolerance, options.split_colors = tolerance, split_colors
-        options.method = lib.MESH_EVEN if even else lib.MESH_BY_PATCH
+        options.tolerance, options.split_colors = tolerance, lib.flag("split_colors", split_colors)
+        options.method = lib.MESH_EVEN if lib.flag("even", even) else lib.MESH_BY_PATCH
         if density is not None:
             options.method, options.density = lib.MESH_BY_DENSITY, density
-        self._handle = lib.Handle("mesh", "surface_mesh", surface.pointer, ctypes.byref(options))
-        summary = lib.Summary(ctypes.sizeof(lib.Summary))
-        lib.call("surface_summary", surface.pointer, ctypes.byref(summary))
-        self._atom_count = int(summary.atoms)
+        self._surface = copy.copy(surface)  # of this frame
+        self._handle = lib.Handle("mesh", "surface_mesh", self._surface._handle.pointer, ctypes.byref(options))
+        self._options = (tolerance, split_colors, density, even)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickles hold the atoms and the options; what is read from one is made again, to the same bits."""
+        return Mesh, (self._surface, *self._options)
+
+    def __copy__(self) -> Mesh:
+        """Itself, for it never changes."""
+        return self
+
+    def __deepcopy__(self, memo: Any) -> Mesh:
+        return self
 
     def _table(self, table: int, dtype: Any, columns: int = 0) -> AnyArray:
         return view(self._handle, "mesh_table", table, dtype, columns)
 
     @property
     def vertices(self) -> Floats:
-        """(n, 3) Å."""
+        """(n, 3) Å.
+
+        >>> mesh.vertices.shape
+        (184, 3)"""
         return self._table(lib.MESH_POSITIONS, np.float64, 3)
 
     @property
     def normals(self) -> Floats:
-        """(n, 3), unit, exact; at cusps a mean."""
+        """(n, 3), unit, exact; at cusps a mean.
+
+        >>> np.allclose(np.linalg.norm(mesh.normals, axis=1), 1)
+        True"""
         return self._table(lib.MESH_NORMALS, np.float64, 3)
 
     @property
     def triangles(self) -> Indices:
-        """(m, 3) indices of vertices."""
+        """(m, 3) indices of vertices.
+
+        >>> len(mesh.triangles) == 2 * len(mesh.vertices) - 4
+        True"""
         return self._table(lib.MESH_TRIANGLES, np.uint32, 3)
 
     @property
     def triangle_atoms(self) -> Indices:
-        """(m,) the touched atom that is nearest."""
+        """(m,) the touched atom that is nearest.
+
+        >>> np.bincount(mesh.triangle_atoms).tolist()
+        [182, 182]"""
         return self._table(lib.MESH_TRIANGLE_ATOMS, np.uint32)
 
     @property
     def triangle_kinds(self) -> Bytes:
-        """(m,) 0 convex, 1 toroidal, 2 concave."""
+        """(m,) 0 convex, 1 toroidal, 2 concave.
+
+        >>> np.bincount(mesh.triangle_kinds).tolist()
+        [252, 112]"""
         return self._table(lib.MESH_TRIANGLE_KINDS, np.uint8)
 
     @property
     def triangle_faces(self) -> Indices:
-        """(m,) rows of Surface.faces."""
+        """(m,) rows of Surface.faces.
+
+        >>> int(mesh.triangle_faces.max())
+        2"""
         return self._table(lib.MESH_TRIANGLE_FACES, np.uint32)
 
     @property
     def triangle_patches(self) -> Indices:
-        """(m,) rows of the patches of that kind."""
+        """(m,) rows of the patches of that kind.
+
+        >>> int(mesh.triangle_patches.max())
+        1"""
         return self._table(lib.MESH_TRIANGLE_PATCHES, np.uint32)
 
     @property
     def triangle_components(self) -> Indices:
-        """(m,) rows of Surface.components."""
+        """(m,) rows of Surface.components.
+
+        >>> int(mesh.triangle_components.max())
+        0"""
         return self._table(lib.MESH_TRIANGLE_COMPONENTS, np.uint32)
 
     @property
     def vertex_atoms(self) -> Indices:
-        """(n,) the touched atom that is nearest."""
+        """(n,) the touched atom that is nearest.
+
+        >>> np.bincount(mesh.vertex_atoms).tolist()
+        [103, 81]"""
         return self._table(lib.MESH_VERTEX_ATOMS, np.uint32)
 
     @property
     def sharp_corners(self) -> Indices:
-        """Corners (3 * triangle + 0, 1, 2) at cusps, ascending; their exact normals are sharp_normals."""
+        """Corners (3 * triangle + 0, 1, 2) at cusps, ascending; their exact normals are sharp_normals.
+
+        >>> mesh.sharp_corners.tolist()
+        []"""
         return self._table(lib.MESH_SHARP_CORNERS, np.uint32)
 
     @property
     def sharp_normals(self) -> Floats:
-        """(n, 3), unit: the exact normals at sharp_corners."""
+        """(n, 3), unit: the exact normals at sharp_corners.
+
+        >>> mesh.sharp_normals.shape
+        (0, 3)"""
         return self._table(lib.MESH_SHARP_NORMALS, np.float64, 3)
 
     def __repr__(self) -> str:
@@ -99,18 +153,25 @@ class Mesh:
         the usual ones, "mean_curvature", "gaussian_curvature", "smooth_mean_curvature", "smooth_gaussian_curvature",
         "atom_area", "accessible_area" and "patch_area" the others; "all", "none". scale: length in the file of 1 Å.
         Edges shorter than 0.001 Å and triangles without area in single precision are welded in the file. OutputError
-        where the path cannot be written, or is there already and not to be replaced."""
+        where the path cannot be written, or is there already and not to be replaced.
+
+        >>> mesh.save("pair.ply", colors=(0.9, 0.6, 0.3))
+        """
         name = os.fsencode(path)
         if b"\0" in name:
             raise InputError(f"path {path!r} has a zero in it, which no file's name may have")
         file = lib.default("mesh_file", lib.MeshFile())
-        file.format = None if format is None else format.encode()
-        file.attributes, file.scale, file.replace = attributes.encode(), scale, replace
-        put_colors(file, colors, self._atom_count)
+        file.format, file.attributes = lib.text("format", format), lib.text("attributes", attributes)
+        file.scale, file.replace = scale, lib.flag("replace", replace)
+        put_colors(file, colors, len(self._surface))
         lib.call("mesh_save", self._handle.pointer, name, ctypes.byref(file))
 
     def to_trimesh(self) -> Any:
-        """A trimesh.Trimesh, with `atom`, `kind` and `component` in its face_attributes."""
+        """A trimesh.Trimesh, with `atom`, `kind` and `component` in its face_attributes.
+
+        >>> import trimesh
+        >>> mesh.to_trimesh().is_watertight
+        True"""
         trimesh = importlib.import_module("trimesh")
         return trimesh.Trimesh(np.array(self.vertices), np.array(self.triangles, dtype=np.int64),
                                vertex_normals=np.array(self.normals), process=False,
@@ -119,7 +180,11 @@ class Mesh:
                                                 "component": np.array(self.triangle_components)})
 
     def to_pyvista(self) -> Any:
-        """A pyvista.PolyData, with "Normals" of its points and "atom", "kind", "component" of its cells."""
+        """A pyvista.PolyData, with "Normals" of its points and "atom", "kind", "component" of its cells.
+
+        >>> import pyvista
+        >>> mesh.to_pyvista().n_open_edges
+        0"""
         pyvista = importlib.import_module("pyvista")
         triangles = self.triangles
         faces = np.empty((len(triangles), 4), dtype=np.int64)
@@ -132,7 +197,11 @@ class Mesh:
         return mesh
 
     def to_open3d(self) -> Any:
-        """An open3d.geometry.TriangleMesh with vertex normals."""
+        """An open3d.geometry.TriangleMesh with vertex normals.
+
+        >>> import open3d
+        >>> mesh.to_open3d().is_watertight()
+        True"""
         open3d = importlib.import_module("open3d")
         mesh = open3d.geometry.TriangleMesh(open3d.utility.Vector3dVector(np.array(self.vertices)),
                                             open3d.utility.Vector3iVector(np.array(self.triangles, dtype=np.int32)))

@@ -12,49 +12,83 @@ from typing import Any, Optional
 
 import numpy as np
 
-from ._arrays import atom_colors
+from ._arrays import atom_colors, real_array
+from ._errors import InputError
 from ._types import AnyArray, Bytes, Projection
-from ._library import DEVICES, ORTHOGRAPHIC, PROJECTIONS, CameraStruct, Handle, call, word
+from ._library import DEVICES, ORTHOGRAPHIC, PROJECTIONS, CameraStruct, Handle, call, number, word
+
+
+class _Sealed:
+    """Has the fields of its dataclass and takes no others."""
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        fields = getattr(self, "__dataclass_fields__")
+        if name not in fields:
+            raise AttributeError(f"a {type(self).__name__} has no {name!r}, but {', '.join(fields)}")
+        super().__setattr__(name, value)
 
 
 @dataclass
-class Camera:
-    """Where a picture is taken from; lengths in Å."""
+class Camera(_Sealed):
+    """Where a picture is taken from, at position, towards target, both in Å; up points to its upper edge.
+
+    projection: "perspective" or "orthographic". vertical_fov: degrees between the picture's lower and upper edge;
+    perspective only. height: Å between them; orthographic only.
+
+    >>> camera = meniscus.surface([[0, 0, 0]], 1.7).camera(projection="orthographic")
+    >>> camera.height = 10.0
+    >>> camera.target, camera.up
+    ((0.0, 0.0, 0.0), (0.0, 1.0, 0.0))"""
     position: tuple[float, float, float]
     target: tuple[float, float, float]
     up: tuple[float, float, float]
-    projection: Projection = "perspective"  #: or "orthographic"
-    vertical_fov: float = 30.0       #: degrees between the picture's lower and upper edge; perspective only
-    height: float = 1.0              #: Å between them; orthographic only
+    projection: Projection = "perspective"
+    vertical_fov: float = 30.0
+    height: float = 1.0
 
     def _struct(self) -> CameraStruct:
-        return CameraStruct(ctypes.sizeof(CameraStruct), tuple(self.position), tuple(self.target), tuple(self.up),
-                            self.vertical_fov, self.height, word("projection", self.projection, PROJECTIONS), 0)
+        struct = CameraStruct(ctypes.sizeof(CameraStruct))
+        struct.position, struct.target = _three(self.position, "position", 1), _three(self.target, "target", 1)
+        struct.up, struct.vertical_fov, struct.height = _three(self.up, "up"), self.vertical_fov, self.height
+        struct.projection = word("projection", self.projection, PROJECTIONS)
+        return struct
 
 
-def _three(values: Any) -> tuple[float, float, float]:
-    x, y, z = values
+def _three(values: Any, name: str, power: Optional[int] = None) -> tuple[float, float, float]:
+    array = real_array(values, name, power)
+    if array.shape != (3,):
+        raise InputError(f"{name} has the shape {array.shape}; it has to be (3,)")
+    x, y, z = array.astype(np.float64).tolist()
     return x, y, z
 
 
 def framed(surface: Handle, aspect: float, projection: Projection) -> Camera:
     """The camera that shows all of a surface."""
     c = CameraStruct(ctypes.sizeof(CameraStruct))
-    call("surface_camera", surface.pointer, aspect, word("projection", projection, PROJECTIONS), ctypes.byref(c))
-    return Camera(_three(c.position), _three(c.target), _three(c.up),
+    call("surface_camera", surface.pointer, number("aspect", aspect), word("projection", projection, PROJECTIONS),
+         ctypes.byref(c))
+    return Camera(_three(c.position, "position"), _three(c.target, "target"), _three(c.up, "up"),
                   "orthographic" if c.projection == ORTHOGRAPHIC else "perspective", c.vertical_fov, c.height)
 
 
 @dataclass
-class Picture:
-    """Pixels in sRGB; a notebook shows them."""
-    pixels: Bytes  #: (height, width, 4): red, green, blue, alpha (not multiplied in), rows from the top
+class Picture(_Sealed):
+    """What was drawn; a notebook shows it. pixels: (height, width, 4) bytes in sRGB, red, green, blue and alpha, which is
+    not multiplied in; rows from the top.
+
+    >>> picture = meniscus.surface([[0, 0, 0]], 1.7).render(size="80x60", device="cpu")
+    >>> picture.pixels.shape, picture.pixels.dtype
+    ((60, 80, 4), dtype('uint8'))"""
+    pixels: Bytes
 
     def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> AnyArray:
         return np.array(self.pixels, dtype=dtype) if copy or dtype else self.pixels
 
     def png(self) -> bytes:
-        """As a PNG file."""
+        """The bytes of a PNG file.
+
+        >>> picture.png()[1:4]
+        b'PNG'"""
         height, width, _ = self.pixels.shape
 
         def chunk(name: bytes, content: bytes) -> bytes:
@@ -79,10 +113,10 @@ atexit.register(_renderers.clear)  # while there is still a thread to end
 
 def renderer(device: str) -> Handle:
     """One for all pictures: kernels are compiled once."""
-    number = word("device", device, DEVICES)
+    kind = word("device", device, DEVICES)
     with _renderers_lock:
         if device not in _renderers:
-            _renderers[device] = Handle("renderer", "renderer_new", number)
+            _renderers[device] = Handle("renderer", "renderer_new", kind)
         return _renderers[device]
 
 
@@ -97,7 +131,9 @@ def painted(surface: Handle, atom_count: int, scene: Handle, colors: Any, camera
             device: str) -> Picture:
     """See Surface.render."""
     of_atoms = None if colors is None else atom_colors(colors, atom_count)
-    seen_by = camera._struct() if camera else None
+    if camera is not None and not isinstance(camera, Camera):
+        raise InputError(f"camera is a {type(camera).__name__}, not a meniscus.Camera")
+    seen_by = None if camera is None else camera._struct()
     picture = blank(scene)
     call("render", renderer(device).pointer, surface.pointer, scene.pointer, ctypes.byref(seen_by) if seen_by else None,
          None if of_atoms is None else of_atoms.ctypes.data, picture.pixels.ctypes.data, picture.pixels.nbytes)

@@ -13,25 +13,42 @@ from ._types import AnyArray, Floats, Indices, PocketKind
 
 
 class Pocket(NamedTuple):
-    """One connected part of what the probe can fill of the solid that a large one rolls over. Arrays are read-only."""
-    volume: float  #: Å³
-    volume_excess: float  #: Å³ by which that is too large at most, to first order, for mouths lie outside
-    area: float  #: Å² of its whole border
-    mouth_areas: Floats  #: Å², the largest first
-    depth: float  #: Å, of the deepest probe at rest below the large probe's surface
-    middle: Floats  #: (3,) Å, the mean of the probes at rest
-    atoms: Indices  #: (n,) those that line it, which the probe in it can touch; ascending
-    probes: Floats  #: (n, 3) Å, centres of the probe at rest in it, where it touches three atoms or more
+    """One connected part of what the probe can fill of the solid that a large one rolls over. Arrays are read-only.
+
+    volume: Å³. volume_excess: Å³ by which that is too large at most, to first order, for mouths lie outside.
+    area: Å² of its whole border. mouth_areas: (n,) Å², the largest first.
+    depth: Å, of the deepest probe at rest below the large probe's surface.
+    middle: (3,) Å, the mean of the probes at rest.
+    atoms: (n,) those that line it, which the probe in it can touch; ascending.
+    probes: (n, 3) Å, centres of the probe at rest in it, where it touches three atoms or more.
+
+    >>> pocket = meniscus.surface(meniscus.read("helix.pdb")).pockets()[0]
+    >>> round(pocket.volume, 2), round(pocket.depth, 2), len(pocket.atoms)
+    (317.02, 3.35, 60)"""
+    volume: float
+    volume_excess: float
+    area: float
+    mouth_areas: Floats
+    depth: float
+    middle: Floats
+    atoms: Indices
+    probes: Floats
 
     @property
     def kind(self) -> PocketKind:
-        """"cavity" without a mouth, "pocket" with one, "tunnel" with more."""
+        """"cavity" without a mouth, "pocket" with one, "tunnel" with more.
+
+        >>> pocket.kind
+        'cavity'"""
         kinds: tuple[PocketKind, PocketKind, PocketKind] = ("cavity", "pocket", "tunnel")
         return kinds[min(len(self.mouth_areas), 2)]
 
     @property
     def wall_area(self) -> float:
-        """Å² of its border that is none of its mouths."""
+        """Å² of its border that is none of its mouths.
+
+        >>> round(pocket.wall_area, 2)
+        386.13"""
         return self.area - float(self.mouth_areas.sum())
 
 

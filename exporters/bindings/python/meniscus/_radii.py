@@ -2,13 +2,14 @@
 """Van der Waals radii by element, from the library's own table."""
 from __future__ import annotations
 
+from collections.abc import Iterable
 from ctypes import byref, c_double, c_int32
-from typing import Sequence, Union
+from typing import Union
 
 import numpy as np
 
 from ._errors import InputError
-from ._library import call, whole_number
+from ._library import call, listed, whole_number
 from ._types import Floats
 
 
@@ -24,15 +25,25 @@ def _radius(element: int) -> float:
     return radius.value
 
 
-def radii_of(elements: Sequence[Union[str, int]]) -> Floats:
+def radii_of(elements: Iterable[Union[str, int]]) -> Floats:
     """Å, one per symbol or atomic number: Bondi (1964, 1966), then Mantina et al. (2009), 2.0 for metals that neither
-    has. Raises InputError where a symbol is no element's."""
+    has. InputError where a symbol is no element's.
+
+    >>> meniscus.radii_of(["C", "Zn", 8]).tolist()
+    [1.7, 1.39, 1.52]
+    >>> meniscus.radii_of(["Qq"])
+    Traceback (most recent call last):
+        ...
+    meniscus.InputError: atom 0: 'Qq' is no element; give radii"""
+    given = listed("elements", elements, "symbols or atomic numbers")
+    given = [element if isinstance(element, str) else whole_number(f"atom {n}: the element", element)
+             for n, element in enumerate(given)]
     known: dict[Union[str, int], float] = {}
-    for n, element in enumerate(elements):
+    for n, element in enumerate(given):
         if element in known:
             continue
-        number = _element(element) if isinstance(element, str) else whole_number(f"atom {n}: the element", element)
+        number = _element(element) if isinstance(element, str) else element
         if number == 0:
             raise InputError(f"atom {n}: {str(element)!r} is no element; give radii")
         known[element] = _radius(number)
-    return np.array([known[element] for element in elements], dtype=np.float64)
+    return np.array([known[element] for element in given], dtype=np.float64)

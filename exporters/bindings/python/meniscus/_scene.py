@@ -24,22 +24,35 @@ Value = Union[bool, int, float, str]
 
 
 class Property(NamedTuple):
-    """What can be set in a scene."""
-    name: str  #: "depth_cue"
-    key: str  #: of scene files, "look.depth_cue"
-    value: str  #: what the help calls the value, "WIDTH"
-    help: str  #: what it does, in its unit
-    words: list[str]  #: all that there are, or some that are usual
-    initial: str  #: the default, in words
-    lowest: float  #: of numbers and of lengths in pixels
-    highest: float  #: lowest where any is possible
-    type: int  #: meniscus_value_type of meniscus.h
-    repeatable: bool  #: a list in scenes
-    of_surface: bool  #: whether Surface.render() has it, too
+    """What can be set in a scene.
+
+    name: "depth_cue". key: of scene files, "look.depth_cue". value: what the help calls the value, "WIDTH".
+    help: what it does, in its unit. words: all that there are, or some that are usual. initial: the default, in words.
+    lowest, highest: of numbers and of lengths in pixels; equal where any is possible.
+    type: meniscus_value_type of meniscus.h. repeatable: whether scenes have a list of it.
+    of_surface: whether Surface.render() has it, too.
+
+    >>> known = {p.name: p for p in meniscus.properties()}
+    >>> known["depth_cue"].key, known["depth_cue"].highest
+    ('look.depth_cue', 1.0)"""
+    name: str
+    key: str
+    value: str
+    help: str
+    words: list[str]
+    initial: str
+    lowest: float
+    highest: float
+    type: int
+    repeatable: bool
+    of_surface: bool
 
 
 def properties() -> list[Property]:
-    """All of them, in the order of the program's help."""
+    """All that can be set in a scene, in the order of the program's help.
+
+    >>> [p.name for p in meniscus.properties() if p.of_surface][:3]
+    ['color', 'preset', 'light']"""
     array = lib.Array()
     lib.call("scene_properties", ctypes.byref(array))
 
@@ -72,25 +85,37 @@ def _text_of(name: str, value: Any) -> bytes:
 class Scene:
     """A scene of the program, with its defaults: Scene("1ubq.cif", color="chain", legend=True).render(). Values
     are read and set by their names or keys, scene["look.depth_cue"], or as attributes, scene.depth_cue. None is the
-    default; a list where there may be several. UsageError begins with the name of what cannot be."""
+    default; a list where there may be several. UsageError begins with the name of what cannot be.
+
+    >>> scene = meniscus.Scene("helix.pdb", color="chain", size="80x60")
+    >>> scene["look.depth_cue"] = 0.5
+    >>> scene.depth_cue, scene.color, scene.samples
+    (0.5, ['chain'], None)"""
 
     _handle: lib.Handle
 
-    def __init__(self, file: Optional[Path] = None, /, **values: Unpack[SceneValues]) -> None:
+    def __init__(self, molecule: Optional[Path] = None, /, **values: Unpack[SceneValues]) -> None:
         object.__setattr__(self, "_handle", lib.Handle("scene", "scene_new"))
-        if file is not None:
-            self["file"] = file
+        if molecule is not None:
+            self["file"] = molecule
         self.set(**values)
 
     @classmethod
     def read(cls, path: Path) -> Scene:
         """A scene file of the program. Paths in it do not lead out of its folder, for it may come from anybody; InputError
-        names the place in the file."""
+        names the place in the file.
+
+        >>> _ = open("scene.json", "w").write(scene.json())
+        >>> meniscus.Scene.read("scene.json").color
+        ['chain']"""
         return cls._of(lib.Handle("scene", "scene_read", _text_of("path", path)))
 
     @classmethod
     def parse(cls, json: str) -> Scene:
-        """The text of a scene file. Paths are seen from the working directory."""
+        """The text of a scene file. Paths are seen from the working directory. InputError names the place of a fault.
+
+        >>> meniscus.Scene.parse(scene.json()).size
+        '80x60'"""
         return cls._of(lib.Handle("scene", "scene_parse", _text_of("json", json)))
 
     @classmethod
@@ -99,8 +124,15 @@ class Scene:
         object.__setattr__(scene, "_handle", handle)
         return scene
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickles and copies hold the text of its scene file, with paths as seen from the working directory."""
+        return Scene.parse, (self.json(),)
+
     def set(self, **values: Unpack[SceneValues]) -> Scene:
-        """Sets several values, and returns the scene."""
+        """Sets several values, and returns the scene. UsageError where a name or a value cannot be.
+
+        >>> scene.set(preset="flat", samples=4).samples
+        4"""
         for name, value in values.items():
             self[name] = value
         return self
@@ -151,7 +183,10 @@ class Scene:
 
     def json(self, folder: Optional[Path] = None) -> str:
         """As a scene file has it: what is not the default. folder: from which its paths are seen; None: the working
-        directory."""
+        directory.
+
+        >>> "depth_cue" in scene.json()
+        True"""
         text = ctypes.c_char_p()
         lib.call("scene_json", self._handle.pointer, None if folder is None else _text_of("folder", folder),
                  ctypes.byref(text))
@@ -159,7 +194,10 @@ class Scene:
 
     def render(self, device: Device = "auto") -> Picture:
         """The picture that `meniscus render` makes of it, byte for byte. device: where all is computed and drawn: "auto", a
-        hardware GPU if there is one, else "cpu"; GpuError where "gpu" or "software" is asked for and there is no GL."""
+        hardware GPU if there is one, else "cpu"; GpuError where "gpu" or "software" is asked for and there is no GL.
+
+        >>> scene.render(device="cpu")
+        <meniscus.Picture: 80x60>"""
         picture = blank(self._handle)
         lib.call("render_scene", renderer(device).pointer, self._handle.pointer, picture.pixels.ctypes.data,
                  picture.pixels.nbytes)

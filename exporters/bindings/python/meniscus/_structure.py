@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import os
 import warnings
-from typing import Any, Iterable, Literal, Mapping, Optional, Sequence, Union
+from typing import Any, Iterable, Literal, Mapping, NamedTuple, Optional, Sequence, Union
 
 import numpy as np
 
@@ -14,62 +14,109 @@ from ._arrays import texts, view
 from ._errors import InputError
 from ._types import AnyArray, Bytes, Floats, Hydrogens, Indices, Numbers, Path, RadiiSet, Singles, Texts, UnknownElement
 
+_NUMBERS: dict[int, Any] = {  # what a row is; other columns are texts
+    lib.STRUCTURE_POSITIONS: (np.float64, 3), lib.STRUCTURE_RADII: (np.float64,), lib.STRUCTURE_ELEMENTS: (np.uint8,),
+    lib.STRUCTURE_INDICES: (np.uint32,), lib.STRUCTURE_RESIDUE_NUMBERS: (np.int32,),
+    lib.STRUCTURE_RESIDUES: (np.uint32,), lib.STRUCTURE_MODELS: (np.int32,), lib.STRUCTURE_COPIES: (np.uint32,),
+    lib.STRUCTURE_CHARGES: (np.float32,), lib.STRUCTURE_B_FACTORS: (np.float32,),
+    lib.STRUCTURE_OCCUPANCIES: (np.float32,), lib.STRUCTURE_CLASSES: (np.uint8,)}
+
+
+class _Report(NamedTuple):
+    file: str
+    format: str
+    radii_set: str
+    sentence: str
+    atoms: int
+    models: int
+
 
 class Structure:
-    """The atoms of a file that a surface is made of; read() makes it. It never changes. Arrays have a row an atom; of
-    numbers they are read-only views."""
+    """The atoms of a file that a surface is made of; read() makes it, and it never changes. Arrays have a row an atom,
+    (n,) or (n, 3); of numbers they are read-only views.
 
-    def __init__(self, handle: lib.Handle) -> None:
-        self._handle = handle
-        self._texts: dict[int, Texts] = {}
+    >>> molecule = meniscus.read("helix.pdb")
+    >>> molecule
+    <meniscus.Structure: helix.pdb, PDB: 65 atoms read; 1 water left out; 64 used>"""
 
-    def _report(self) -> lib.ReadReport:
-        report = lib.ReadReport(ctypes.sizeof(lib.ReadReport))
-        lib.call("structure_report", self._handle.pointer, ctypes.byref(report))
-        return report
+    __slots__ = ("_columns", "_handle", "_report", "__weakref__")
 
-    def _numbers(self, column: int, dtype: Any, columns: int = 0) -> AnyArray:
-        return view(self._handle, "structure_table", column, dtype, columns)
+    def __init__(self, handle: Optional[lib.Handle], report: _Report, columns: dict[int, AnyArray]) -> None:
+        """columns: those that were looked at already; without a handle all."""
+        self._handle, self._report, self._columns = handle, report, columns
 
-    def _text(self, column: int) -> Texts:
-        if column not in self._texts:
-            self._texts[column] = texts(self._handle, "structure_table", column)
-        return self._texts[column]
+    def _column(self, column: int) -> AnyArray:
+        if column not in self._columns:
+            assert self._handle is not None
+            row = _NUMBERS.get(column)
+            self._columns[column] = (view(self._handle, "structure_table", column, *row) if row else
+                                     texts(self._handle, "structure_table", column))
+        return self._columns[column]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickles hold what was read, so that the file is not needed again."""
+        columns = range(lib.STRUCTURE_POSITIONS, lib.STRUCTURE_WARNINGS + 1)
+        return _unpacked, (self._report, {column: self._column(column) for column in columns})
+
+    def __copy__(self) -> Structure:
+        """Itself, for it never changes."""
+        return self
+
+    def __deepcopy__(self, memo: Any) -> Structure:
+        return self
 
     # ---- what was read
 
     @property
     def file(self) -> str:
-        """The path as given."""
-        return os.fsdecode(self._report().file)
+        """The path as given.
+
+        >>> molecule.file
+        'helix.pdb'"""
+        return self._report.file
 
     @property
     def format(self) -> str:
-        """"PDB", "mmCIF", ..."""
-        return str(self._report().format.decode())
+        """"PDB", "mmCIF", ...
+
+        >>> molecule.format
+        'PDB'"""
+        return self._report.format
 
     @property
     def radii_set(self) -> str:
-        """"bondi", "united", "protor", "file", or files and overrides."""
-        return str(self._report().radii_set.decode("utf-8", "replace"))
+        """"bondi", "united", "protor", "file", or files and overrides.
+
+        >>> molecule.radii_set
+        'bondi'"""
+        return self._report.radii_set
 
     @property
     def report(self) -> str:
-        """"5,684 atoms read; 215 water left out; 5,469 used"."""
-        return str(self._report().sentence.decode("utf-8", "replace"))
+        """"5,684 atoms read; 215 water left out; 5,469 used".
+
+        >>> molecule.report
+        '65 atoms read; 1 water left out; 64 used'"""
+        return self._report.sentence
 
     @property
     def model_count(self) -> int:
-        """Models in the file, used or not."""
-        return int(self._report().models)
+        """Models in the file, used or not.
+
+        >>> molecule.model_count
+        1"""
+        return self._report.models
 
     @property
     def warnings(self) -> list[str]:
-        """What is odd in the file, a sentence each."""
-        return [str(text) for text in self._text(lib.STRUCTURE_WARNINGS)]
+        """What is odd in the file, a sentence each.
+
+        >>> molecule.warnings
+        []"""
+        return [str(text) for text in self._column(lib.STRUCTURE_WARNINGS)]
 
     def __len__(self) -> int:
-        return int(self._report().atoms)
+        return self._report.atoms
 
     def __repr__(self) -> str:
         return f"<meniscus.Structure: {self.file}, {self.format}: {self.report}>"
@@ -78,94 +125,162 @@ class Structure:
 
     @property
     def positions(self) -> Floats:
-        """(n, 3) Å."""
-        return self._numbers(lib.STRUCTURE_POSITIONS, np.float64, 3)
+        """(n, 3) Å.
+
+        >>> molecule.positions[:2].tolist()
+        [[3.1, 0.0, 0.0], [1.927, 2.428, 0.55]]"""
+        return self._column(lib.STRUCTURE_POSITIONS)
 
     @property
     def radii(self) -> Floats:
-        """Å, van der Waals."""
-        return self._numbers(lib.STRUCTURE_RADII, np.float64)
+        """Å, van der Waals.
+
+        >>> molecule.radii[:4].tolist()
+        [1.55, 1.7, 1.7, 1.52]"""
+        return self._column(lib.STRUCTURE_RADII)
 
     @property
     def elements(self) -> Bytes:
-        """Atomic numbers; 0 where it is unknown."""
-        return self._numbers(lib.STRUCTURE_ELEMENTS, np.uint8)
+        """Atomic numbers; 0 where it is unknown.
+
+        >>> molecule.elements[:4].tolist()
+        [7, 6, 6, 8]"""
+        return self._column(lib.STRUCTURE_ELEMENTS)
 
     @property
     def indices(self) -> Indices:
-        """Places in the file, from 0, as the program's tables and meshes have them."""
-        return self._numbers(lib.STRUCTURE_INDICES, np.uint32)
+        """Places in the file, from 0, as the program's tables and meshes have them.
+
+        >>> molecule.indices[-3:].tolist()
+        [61, 62, 63]"""
+        return self._column(lib.STRUCTURE_INDICES)
 
     @property
     def names(self) -> Texts:
-        """"CA"."""
-        return self._text(lib.STRUCTURE_NAMES)
+        """"CA".
+
+        >>> molecule.names[:4].tolist()
+        ['N', 'CA', 'C', 'O']"""
+        return self._column(lib.STRUCTURE_NAMES)
 
     @property
     def residue_names(self) -> Texts:
-        """"ALA"."""
-        return self._text(lib.STRUCTURE_RESIDUE_NAMES)
+        """"ALA".
+
+        >>> molecule.residue_names[::8].tolist()[:2]
+        ['ALA', 'ALA']"""
+        return self._column(lib.STRUCTURE_RESIDUE_NAMES)
 
     @property
     def chains(self) -> Texts:
-        """"A"; of the second copy in an assembly "A-2"."""
-        return self._text(lib.STRUCTURE_CHAINS)
+        """"A"; of the second copy in an assembly "A-2".
+
+        >>> molecule.chains[[0, -1]].tolist()
+        ['A', 'B']"""
+        return self._column(lib.STRUCTURE_CHAINS)
 
     @property
     def segments(self) -> Texts:
-        """Segment identifiers of molecular dynamics programs."""
-        return self._text(lib.STRUCTURE_SEGMENTS)
+        """Segment identifiers of molecular dynamics programs.
+
+        >>> set(molecule.segments.tolist())
+        {''}"""
+        return self._column(lib.STRUCTURE_SEGMENTS)
 
     @property
     def residue_numbers(self) -> Numbers:
-        """As the file has them."""
-        return self._numbers(lib.STRUCTURE_RESIDUE_NUMBERS, np.int32)
+        """As the file has them.
+
+        >>> molecule.residue_numbers[::8].tolist()
+        [1, 3, 5, 7, 9, 11, 13, 15]"""
+        return self._column(lib.STRUCTURE_RESIDUE_NUMBERS)
 
     @property
     def insertion_codes(self) -> Texts:
-        """A letter behind the residue's number, or nothing."""
-        return np.char.strip(self._text(lib.STRUCTURE_INSERTION_CODES))
+        """A letter behind the residue's number, or nothing.
+
+        >>> set(molecule.insertion_codes.tolist())
+        {''}"""
+        return np.char.strip(self._column(lib.STRUCTURE_INSERTION_CODES))
 
     @property
     def altlocs(self) -> Texts:
-        """The letter of the alternate location, or nothing."""
-        return np.char.strip(self._text(lib.STRUCTURE_ALTLOCS))
+        """The letter of the alternate location, or nothing.
+
+        >>> set(molecule.altlocs.tolist())
+        {''}"""
+        return np.char.strip(self._column(lib.STRUCTURE_ALTLOCS))
 
     @property
     def residues(self) -> Indices:
-        """Running number of the residue in the file, from 0."""
-        return self._numbers(lib.STRUCTURE_RESIDUES, np.uint32)
+        """Running number of the residue in the file, from 0.
+
+        >>> molecule.residues[::8].tolist()
+        [0, 2, 4, 6, 8, 10, 12, 14]"""
+        return self._column(lib.STRUCTURE_RESIDUES)
 
     @property
     def models(self) -> Numbers:
-        """Which model of the file, from 1."""
-        return self._numbers(lib.STRUCTURE_MODELS, np.int32)
+        """Which model of the file, from 1.
+
+        >>> set(molecule.models.tolist())
+        {1}"""
+        return self._column(lib.STRUCTURE_MODELS)
 
     @property
     def copies(self) -> Indices:
-        """Which copy of an assembly, from 0."""
-        return self._numbers(lib.STRUCTURE_COPIES, np.uint32)
+        """Which copy of an assembly, from 0.
+
+        >>> set(molecule.copies.tolist())
+        {0}"""
+        return self._column(lib.STRUCTURE_COPIES)
 
     @property
     def charges(self) -> Singles:
-        """Partial charges in e; NaN where the file has none."""
-        return self._numbers(lib.STRUCTURE_CHARGES, np.float32)
+        """Partial charges in e; NaN where the file has none.
+
+        >>> bool(np.isnan(molecule.charges).all())
+        True"""
+        return self._column(lib.STRUCTURE_CHARGES)
 
     @property
     def b_factors(self) -> Singles:
-        """Å²; NaN where the file has none."""
-        return self._numbers(lib.STRUCTURE_B_FACTORS, np.float32)
+        """Å²; NaN where the file has none.
+
+        >>> molecule.b_factors[:3].tolist()
+        [0.0, 1.0, 2.0]"""
+        return self._column(lib.STRUCTURE_B_FACTORS)
 
     @property
     def occupancies(self) -> Singles:
-        """NaN where the file has none."""
-        return self._numbers(lib.STRUCTURE_OCCUPANCIES, np.float32)
+        """NaN where the file has none.
+
+        >>> molecule.occupancies[:3].tolist()
+        [1.0, 1.0, 1.0]"""
+        return self._column(lib.STRUCTURE_OCCUPANCIES)
 
     @property
     def classes(self) -> Texts:
-        """"polymer", "ligand", "water", "ion"; "unclassified" where the format does not say."""
+        """"polymer", "ligand", "water", "ion"; "unclassified" where the format does not say.
+
+        >>> set(molecule.classes.tolist())
+        {'polymer'}"""
         words = np.array(["polymer", "ligand", "water", "ion", "unclassified"])
-        return words[self._numbers(lib.STRUCTURE_CLASSES, np.uint8)]
+        return words[self._column(lib.STRUCTURE_CLASSES)]
+
+
+def _unpacked(report: _Report, columns: dict[int, AnyArray]) -> Structure:
+    for column in columns.values():
+        column.flags.writeable = False
+    return Structure(None, report, columns)
+
+
+def _opened(handle: lib.Handle) -> Structure:
+    report = lib.ReadReport(ctypes.sizeof(lib.ReadReport))
+    lib.call("structure_report", handle.pointer, ctypes.byref(report))
+    return Structure(handle, _Report(os.fsdecode(report.file), report.format.decode(),
+                                     report.radii_set.decode("utf-8", "replace"),
+                                     report.sentence.decode("utf-8", "replace"), report.atoms, report.models), {})
 
 
 def _overrides(radius: Union[Mapping[str, float], Iterable[str], None]) -> list[str]:
@@ -175,19 +290,11 @@ def _overrides(radius: Union[Mapping[str, float], Iterable[str], None]) -> list[
         return [radius]
     if isinstance(radius, Mapping):
         return [f"{selection}={lib.number('radius', value)!r}" for selection, value in radius.items()]
-    return list(radius)
+    return lib.listed("radius", radius, "texts such as 'element Zn=1.1'")
 
 
 def _list_of(given: Sequence[bytes]) -> Any:
     return (ctypes.c_char_p * len(given))(*given)
-
-
-def _encoded(name: str, text: Optional[str]) -> Optional[bytes]:
-    if text is None:
-        return None
-    if not isinstance(text, str) or "\0" in text:
-        raise InputError(f"{name} is {text!r}, not a text without zeros")
-    return text.encode("utf-8", "surrogateescape")
 
 
 def _file_name(name: str, path: Path) -> bytes:
@@ -210,21 +317,30 @@ def read(path: Path, *, select: Optional[str] = None, assembly: Union[str, int, 
     as one molecule. altloc: "best", "first", "all" or a letter. hydrogens: "keep", "drop", or as the radii need it.
     radii: "bondi", "united", "protor" or "file"; by default those of the file if it has any, else "bondi".
     radii_files: tables by residue and atom, before that set. radius: of what expressions select, Å, as in
-    {"element Zn": 1.1}. unknown_element: what becomes of atoms whose element nobody can tell."""
+    {"element Zn": 1.1}. unknown_element: what becomes of atoms whose element nobody can tell. InputError where the file
+    cannot be read, UsageError where an option or an expression makes no sense.
+
+    >>> len(meniscus.read("helix.pdb", select="chain A", radius={"element N": 1.6}))
+    32
+    >>> meniscus.read("none.pdb")
+    Traceback (most recent call last):
+        ...
+    meniscus.InputError: none.pdb: cannot be read: No such file or directory"""
     options = lib.default("read_options", lib.ReadOptions())
-    options.select, options.altloc = _encoded("select", select), _encoded("altloc", altloc)
-    options.assembly = None if assembly is None else _encoded("assembly", str(assembly))
-    options.radii = _encoded("radii", radii)
+    options.select, options.altloc = lib.text("select", select), lib.text("altloc", altloc)
+    options.assembly = None if assembly is None else lib.text("assembly", str(assembly))
+    options.radii = lib.text("radii", radii)
     options.model = 0 if isinstance(model, str) and model == "all" else lib.positive("model", model)
     options.hydrogens = lib.word("hydrogens", hydrogens, lib.HYDROGENS)
     options.unknown_element = lib.word("unknown_element", unknown_element, lib.UNKNOWN_ELEMENTS)
-    options.keep_water, options.keep_ions = bool(keep_water), bool(keep_ions)
-    files = [radii_files] if isinstance(radii_files, (str, bytes, os.PathLike)) else list(radii_files)
+    options.keep_water, options.keep_ions = lib.flag("keep_water", keep_water), lib.flag("keep_ions", keep_ions)
+    files = ([radii_files] if isinstance(radii_files, (str, bytes, os.PathLike)) else
+             lib.listed("radii_files", radii_files, "files"))
     tables = _list_of([_file_name("radii_files", file) for file in files])
-    overrides = _list_of([_encoded("radius", text) or b"" for text in _overrides(radius)])
+    overrides = _list_of([lib.text("radius", text) or b"" for text in _overrides(radius)])
     options.radii_files, options.radii_file_count = ctypes.cast(tables, ctypes.c_void_p), len(tables)
     options.radius, options.radius_count = ctypes.cast(overrides, ctypes.c_void_p), len(overrides)
-    structure = Structure(lib.Handle("structure", "read", _file_name("path", path), ctypes.byref(options)))
+    structure = _opened(lib.Handle("structure", "read", _file_name("path", path), ctypes.byref(options)))
     for text in structure.warnings:
         warnings.warn(f"{structure.file}: {text}", stacklevel=2)
     return structure

@@ -26,7 +26,14 @@ if TYPE_CHECKING:
 
 
 class Patches(NamedTuple):
-    """The analytic patches, as meniscus.h describes their rows: structured arrays, and what they index."""
+    """The analytic patches: structured arrays convex, toroidal, concave and planes, whose rows meniscus.h describes, and
+    contacts and cuts, (n,), which they index.
+
+    >>> patches = meniscus.surface([[0, 0, 0], [3, 0, 0]], 1.7).patches
+    >>> len(patches.convex), len(patches.toroidal), len(patches.concave)
+    (2, 1, 0)
+    >>> patches.toroidal["atom"].tolist()
+    [[0, 1]]"""
     convex: Rows
     toroidal: Rows
     concave: Rows
@@ -42,16 +49,23 @@ def _radii_of(radii: Any) -> AnyArray:
 
 
 class Surface:
-    """Exact and closed. May be used by many threads at once; whoever calls update() replaces what the others get from
-    then on, never what they have."""
+    """The exact, closed surface of some atoms; surface() and its like make it. Arrays are read-only views, and n counts
+    atoms. May be used by many threads at once: update() replaces what the others get from then on, never what they
+    have.
+
+    >>> s = meniscus.surface([[0, 0, 0], [1.5, 0, 0], [2.3, 1.3, 0], [6, 0, 0]], [1.7, 1.7, 1.52, 1.7])
+    >>> s
+    <meniscus.Surface: ses of 4 atoms, 100.83 Å², 67.39 Å³, 1 components>"""
+
+    __slots__ = ("_computer", "_handle", "_kind", "_options", "_radii", "__weakref__")
 
     def __init__(self, xyz: Any, radii: Any, probe: float, kind: Kind, device: Device, threads: int,
                  verify: bool) -> None:
         options = lib.default("options", lib.Options())
-        options.probe_radius, options.threads, options.verify = probe, threads, verify
+        options.probe_radius, options.threads, options.verify = probe, threads, lib.flag("verify", verify)
         options.kind = lib.word("kind", kind, lib.KINDS)
         options.device = lib.word("device", device, lib.DEVICES)
-        self._kind = kind
+        self._kind: Kind = kind
         self._options = (float(options.probe_radius), kind, device, int(options.threads), bool(options.verify))
         self._computer = lib.Handle("computer", "computer_new", ctypes.byref(options))
         self._radii = _radii_of(radii)
@@ -70,7 +84,10 @@ class Surface:
 
     def update(self, xyz: Any, radii: Optional[Any] = None) -> Surface:
         """The next frame: other positions, and radii where they change too. Returns itself. Arrays that were taken
-        before keep the frame they belong to."""
+        before keep the frame they belong to. Errors are those of surface(), and leave the frame before.
+
+        >>> round(s.update([[0, 0, 0], [1.5, 0, 0], [2.3, 1.3, 0], [9, 0, 0]]).area, 2)
+        99.87"""
         if radii is not None:
             radii = _radii_of(radii)
         wanted = self._radii if radii is None else radii
@@ -81,6 +98,16 @@ class Surface:
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickles hold the atoms and the options; what is read from one is computed again, to the same bits."""
         return Surface, (np.array(self.balls["center"]), self._radii, *self._options)
+
+    def __copy__(self) -> Surface:
+        """The same frame, which update() of the other leaves as it is; nothing is computed for it."""
+        other = Surface.__new__(Surface)
+        other._computer, other._handle, other._kind = self._computer, self._handle, self._kind
+        other._options, other._radii = self._options, self._radii
+        return other
+
+    def __deepcopy__(self, memo: Any) -> Surface:
+        return self.__copy__()
 
     # ---- measures
 
@@ -93,42 +120,66 @@ class Surface:
 
     @property
     def area(self) -> float:
-        """Å², of all components."""
+        """Å² of all components.
+
+        >>> round(s.area, 2)
+        100.83"""
         return float(self._summary().area)
 
     @property
     def volume(self) -> float:
-        """Å³ of the solid: outer components less cavities."""
+        """Å³ of the solid: outer components less cavities.
+
+        >>> round(s.volume, 2)
+        67.39"""
         return float(self._summary().volume)
 
     @property
     def probe(self) -> float:
-        """Å; 0 of kind "vdw"."""
+        """Å; 0 of kind "vdw".
+
+        >>> s.probe
+        1.4"""
         return float(self._summary().probe_radius)
 
     @property
     def kind(self) -> Kind:
-        """"ses", "sas" or "vdw"."""
+        """"ses", "sas" or "vdw".
+
+        >>> s.kind
+        'ses'"""
         return self._kind
 
     @property
     def device(self) -> str:
-        """What computed it: "cpu (16 threads)", or GL renderer and version."""
+        """What computed it: "cpu (16 threads)", or GL renderer and version.
+
+        >>> s.device.startswith("cpu")
+        True"""
         return str(self._summary().device.decode())
 
     @property
     def grown_by(self) -> float:
-        """Å by which radii were grown at most to tell ties apart; 0 as a rule."""
+        """Å by which radii were grown at most to tell ties apart; 0 as a rule.
+
+        >>> s.grown_by
+        0.0"""
         return float(self._summary().grown_by)
 
     @property
     def exact_within(self) -> float:
-        """Å: the surface is exact for radii that differ from the given ones by so much at most; 0: for the given ones."""
+        """Å: the surface is exact for radii that differ from the given ones by so much at most; 0: for the given ones.
+
+        >>> s.exact_within
+        0.0"""
         return float(self._summary().exact_within)
 
     @property
     def counts(self) -> dict[str, int]:
-        """How many atoms, patches of each kind, faces, borders, vertices, components, cavities."""
+        """How many atoms, patches of each kind, faces, borders, vertices, components, cavities.
+
+        >>> s.counts["atoms"], s.counts["cavities"]
+        (4, 0)"""
         summary = self._summary()
         return {name: getattr(summary, name) for name in lib.COUNTS}
 
@@ -143,22 +194,34 @@ class Surface:
     @property
     def components(self) -> Rows:
         """Rows of kind (0 outer, 1 cavity), area, volume (signed: a cavity has the negative of its own, so that the sum is
-        the solid's), euler; outer ones first."""
+        the solid's), euler; outer ones first.
+
+        >>> s.components["area"].round(2).tolist()
+        [100.83]"""
         return self._table(lib.COMPONENTS, lib.Component)
 
     @property
     def atom_areas(self) -> Floats:
-        """Å² per atom: what of the surface is nearest to its contact; the sum is the area."""
+        """(n,) Å²: what of the surface is nearest to the contact of each atom; the sum is the area.
+
+        >>> s.atom_areas.round(2).tolist()
+        [26.13, 17.92, 19.86, 36.92]"""
         return self._table(lib.ATOM_AREAS, np.float64)
 
     @property
     def atom_sas_areas(self) -> Floats:
-        """Å² per atom of the solvent-accessible surface; of kind "ses" only."""
+        """(n,) Å² of the solvent-accessible surface, atom by atom; UsageError of kinds other than "ses".
+
+        >>> s.atom_sas_areas.round(2).tolist()
+        [72.11, 34.64, 43.29, 98.04]"""
         return self._table(lib.ATOM_SAS_AREAS, np.float64)
 
     @property
     def patches(self) -> Patches:
-        """The analytic patches and what they index."""
+        """The analytic patches and what they index.
+
+        >>> s.patches.convex["atom"].tolist()
+        [0, 1, 2, 3]"""
         handle = self._handle
         tables = ((lib.CONVEX, lib.Convex), (lib.TOROIDAL, lib.Toroidal), (lib.CONCAVE, lib.Concave),
                   (lib.PLANES, lib.Plane), (lib.CONTACTS, np.uint32), (lib.CUTS, np.uint32))
@@ -166,32 +229,50 @@ class Surface:
 
     @property
     def balls(self) -> Rows:
-        """Rows of center, radius: what was computed."""
+        """(n,) rows of center and radius, Å: what was computed.
+
+        >>> s.balls["radius"].tolist()
+        [1.7, 1.7, 1.52, 1.7]"""
         return self._table(lib.ATOMS, lib.Ball)
 
     @property
     def faces(self) -> Rows:
-        """Connected pieces of patches: kind (0 convex, 1 toroidal, 2 concave), patch, loops, component, tip, area."""
+        """Connected pieces of patches: kind (0 convex, 1 toroidal, 2 concave), patch, loops, component, tip, area.
+
+        >>> round(float(s.faces["area"].sum()), 2)
+        100.83"""
         return self._table(lib.FACES, lib.Face)
 
     @property
     def borders(self) -> Rows:
-        """Arcs of circles where two faces meet."""
+        """Arcs of circles where two faces meet.
+
+        >>> s.borders["radius"].round(2).tolist()[:3]
+        [1.65, 1.65, 1.4]"""
         return self._table(lib.BORDERS, lib.Border)
 
     @property
     def half_borders(self) -> Indices:
-        """2 * border, and 1 more if it is walked backwards."""
+        """(m,) twice the row of a border, and 1 more if it is walked backwards.
+
+        >>> len(s.half_borders) == 2 * len(s.borders)
+        True"""
         return self._table(lib.HALF_BORDERS, np.uint32)
 
     @property
     def loops(self) -> Rows:
-        """Closed chains of half_borders with their face on the left."""
+        """Closed chains of half_borders with their face on the left.
+
+        >>> int(s.loops["half_border_count"].sum()) == len(s.half_borders)
+        True"""
         return self._table(lib.LOOPS, lib.Loop)
 
     @property
     def vertices(self) -> Floats:
-        """(n, 3) Å, where borders end."""
+        """(m, 3) Å, where borders end.
+
+        >>> s.vertices.shape
+        (12, 3)"""
         return self._table(lib.VERTICES, np.float64, 3)
 
     # ---- what is made of it
@@ -201,8 +282,13 @@ class Surface:
         """Triangles that are nowhere farther than `tolerance` (Å) from the surface; with split_colors cut where the
         nearest atom changes. With `even` nearly equilateral ones, which reach over borders of patches; with a
         `density` as many of these as make that many vertices per Å² (0.1: about a triangle an atom), whatever the
-        distance."""
-        return Mesh(self._handle, tolerance, split_colors, density, even)
+        distance. InputError where such a mesh cannot be, CapacityError where it does not fit into memory.
+
+        >>> s.mesh(0.05)
+        <meniscus.Mesh: 481 vertices, 958 triangles>
+        >>> s.mesh(density=1.0)
+        <meniscus.Mesh: 102 vertices, 200 triangles>"""
+        return Mesh(self, tolerance, split_colors, density, even)
 
     @overload
     def distance(self, points: Any, *, nearest: Literal[False] = False) -> Floats: ...
@@ -213,10 +299,17 @@ class Surface:
 
     def distance(self, points: Any, *, nearest: bool = False) -> Union[Floats, tuple[Floats, Floats]]:
         """Å to the nearest point of the surface, above 0 in the solvent, below 0 in the solid; exact everywhere. With
-        `nearest` these points, too, as (n, 3)."""
+        `nearest` these points, too. points: (m, 3) Å; distances are (m,), nearest points (m, 3). InputError where a
+        point is not finite.
+
+        >>> s.distance([[0, 0, 0], [6, 0, 3]]).round(2).tolist()
+        [-1.7, 1.3]
+        >>> distances, feet = s.distance([[6, 0, 3]], nearest=True)
+        >>> feet.round(2).tolist()
+        [[6.0, 0.0, 1.7]]"""
         given = doubles(points, "points", 3, power=1)
         distances = np.empty(len(given))
-        feet = np.empty((len(given), 3)) if nearest else None
+        feet = np.empty((len(given), 3)) if lib.flag("nearest", nearest) else None
         handle = self._handle
         lib.call("surface_distance", handle.pointer, len(given), given.ctypes.data, distances.ctypes.data,
                  None if feet is None else feet.ctypes.data)
@@ -226,7 +319,12 @@ class Surface:
         """The exact derivative by the position of each atom, (n, 3), Å²/Å or Å³/Å. of: "area", "volume"; of kind "ses"
         also "sas_area", "sas_volume". weights, (n,): by which the accessible areas of atoms count, for "sas_area", and
         for "area" of the kinds "sas" and "vdw". InputError where a probe touches more than three atoms at once: then
-        "area" and "volume" of kind "ses" have none."""
+        "area" and "volume" of kind "ses" have none.
+
+        >>> s.gradient("sas_area").shape
+        (4, 3)
+        >>> np.allclose(s.gradient("volume").sum(axis=0), 0)
+        True"""
         handle = self._handle
         quantity = lib.word("of", of, lib.GRADIENTS)
         summary = lib.Summary(ctypes.sizeof(lib.Summary))
@@ -244,18 +342,27 @@ class Surface:
         """Pockets, tunnels and cavities, the largest volume first: the connected parts of what the surface's probe can
         fill of the solid that a large one of this radius (Å) rolls over, begun `trim` (Å) below its surface. Smaller
         ones than min_volume (Å³) are left out. mouth_tolerance: Å by which a mouth may lie outside of where it should
-        be. In closed form, on the CPU; of kind "ses" only."""
+        be. In closed form, on the CPU. UsageError of kinds other than "ses", InputError where a number cannot be.
+
+        >>> meniscus.surface(meniscus.read("helix.pdb")).pockets(min_volume=100)[0].kind
+        'cavity'"""
         return pockets_of(self._handle, large_probe, trim, min_volume, mouth_tolerance)
 
     def camera(self, aspect: float = 4 / 3, projection: Projection = "perspective") -> Camera:
-        """The camera that shows everything. aspect: width / height."""
+        """The camera that shows everything. aspect: width / height.
+
+        >>> s.camera(projection="orthographic").projection
+        'orthographic'"""
         return framed(self._handle, aspect, projection)
 
     def render(self, *, colors: Optional[Any] = None, camera: Optional[Camera] = None, device: Device = "auto",
                **values: Unpack[SurfaceValues]) -> Picture:
         """A picture with the program's look: size="800x600", background="white" and what else
         SurfaceValues has are the values of a Scene. colors: one (3,), or one per atom (n, 3), in [0, 1]. device: "auto", a
-        hardware GPU if there is one, else "cpu"; GpuError where "gpu" or "software" is asked for and there is no GL."""
+        hardware GPU if there is one, else "cpu"; GpuError where "gpu" or "software" is asked for and there is no GL.
+
+        >>> s.render(size="80x60", background="white", device="cpu")
+        <meniscus.Picture: 80x60>"""
         handle = self._handle
         summary = lib.Summary(ctypes.sizeof(lib.Summary))
         lib.call("surface_summary", handle.pointer, ctypes.byref(summary))
@@ -292,7 +399,16 @@ def surface(xyz: Any, radii: Optional[Any] = None, probe: float = 1.4, *, kind: 
 
     kind: "ses", solvent-excluded; "sas", solvent-accessible; "vdw", without a probe. device: "cpu"; "gpu"; "auto", a
     hardware GPU if one works, else the CPU; "software", GL on the CPU. threads: of the CPU, 0 for all. verify: compute
-    on the other device, too, and compare everything."""
+    on the other device, too, and compare everything.
+
+    >>> round(meniscus.surface([[0, 0, 0], [3, 0, 0]], [1.7, 1.52], probe=1.4).area, 2)
+    60.71
+    >>> meniscus.surface(meniscus.read("helix.pdb"), kind="sas")
+    <meniscus.Surface: sas of 64 atoms, 1721.07 Å², 3726.61 Å³, 1 components>
+    >>> meniscus.surface([[0, 0, 0]], -1.7)
+    Traceback (most recent call last):
+        ...
+    meniscus.InputError: the radius of atom 0 is -1.7 Å; it has to be above 0, or leave the atom out"""
     if isinstance(xyz, Structure):
         return Surface(xyz.positions, xyz.radii if radii is None else radii, probe, kind, device, threads, verify)
     if isinstance(xyz, (str, bytes, os.PathLike)):

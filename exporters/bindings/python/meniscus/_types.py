@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Literal, Union
+from typing import Any, Literal, TypedDict, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,4 +28,12 @@ PocketKind = Literal["cavity", "pocket", "tunnel"]
 RadiiSet = Literal["bondi", "united", "protor", "file"]
 Hydrogens = Literal["auto", "keep", "drop"]
 UnknownElement = Literal["halt", "guess", "skip"]
-AtomClass = Literal["polymer", "ligand", "water", "ion", "unclassified"]
+
+
+class SurfaceOptions(TypedDict, total=False):
+    """As surface() has them."""
+    probe: float
+    kind: Kind
+    device: Device
+    threads: int
+    verify: bool
