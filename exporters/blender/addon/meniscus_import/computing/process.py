@@ -201,7 +201,8 @@ def _kill(child):
 
 
 def python():
-    """The interpreter that belongs to this one: Blender's own says where it lies, and names another of the path at times."""
-    names = ("python.exe",) if os.name == "nt" else (f"python{sys.version_info.major}.{sys.version_info.minor}", "python3")
+    """The interpreter that belongs to this one: Blender's own says where it lies, and outside of Windows names another of the path
+    at times."""
+    names = () if os.name == "nt" else (f"python{sys.version_info.major}.{sys.version_info.minor}", "python3")
     places = [*(os.path.join(sys.prefix, "bin", name) for name in names), sys.executable]
     return next((place for place in places if os.path.exists(place)), sys.executable)
