@@ -501,7 +501,8 @@ class OtherProcess(WithFolder):
         np.testing.assert_array_equal(found["middle"], [4.5, 0, 0])
 
     def test_what_is_newer_comes_instead_of_what_waited(self):
-        asked = [self.process.ask("a", probe, "surface", self.about(probe=probe)) for probe in np.linspace(1.0, 2.0, 30)]
+        about = [self.about(probe=probe) for probe in np.linspace(1.0, 2.0, 30)]  # each writes the molecule's file, which the other reads
+        asked = [self.process.ask("a", each["request"]["probe"], "surface", each) for each in about]
         self.process.wait(asked[-1])
         self.assertFalse(self.process.is_busy())
         done = [job for job in asked if job.is_done]
