@@ -46,6 +46,10 @@ class Tools:
             raise EngineError(f"{purpose} needs the program meniscus, which is not found; name it in the add-on's preferences{instead}")
         return self.program
 
+    def program_for_files(self):
+        """Its path, where there is no library."""
+        return self.needed_program(f"without libmeniscus ({self.missing}) a file")
+
 
 def find_tools(package="", program=""):
     """package: folder of the Python package, "": where Python finds it. program: its path, "": where the shell finds it."""
@@ -137,7 +141,7 @@ def _painted(shape, atoms):
 
 def surface_by_program(tools, request, folder, task):
     """The same of a request about a file. folder: for files that go again."""
-    program = tools.needed_program("a file")
+    program = tools.program_for_files()
     if request.density:
         raise EngineError("a proxy needs libmeniscus; set Detail to Fine")
     task.say("Program")
@@ -179,7 +183,7 @@ def _fresh_atoms(tools, request, folder, task):
     if request.trajectory:
         program = tools.needed_program("a trajectory", ", or read it by Molecular Nodes and take its atoms")
     else:
-        program = tools.needed_program("a file")
+        program = tools.program_for_files()
     descriptor, path = tempfile.mkstemp(dir=folder, prefix="atoms_")
     os.close(descriptor)
     try:
