@@ -30,7 +30,8 @@ if [[ -z ${MENISCUS_WHEELS:-} ]]; then
   /usr/bin/python3 -B "$tests/native_wheel.py" "$MENISCUS_LIBRARY" "$MENISCUS_PACKAGE" "$wheels"
 fi
 extension=$(scripts/extension.sh "$wheels" "$PWD/build/blenders/extension" linux-x64)
-area=$("$program" surface /usr/share/pymol/data/demo/1tii.pdb --json -q --device cpu | sed -nE 's/^  "area": ([0-9.]+),$/\1/p')
+molecule=/usr/share/pymol/data/demo/1tii.pdb
+area=$("$program" surface $molecule --json -q --device cpu | sed -nE 's/^  "area": ([0-9.]+),$/\1/p')
 
 for version in "${versions[@]}"; do
   home=$PWD/build/blenders/$version
@@ -58,7 +59,7 @@ for version in "${versions[@]}"; do
   done
   log=$home/inside_extension.log
   env -i HOME="$home/profile" PATH=/usr/bin:/bin BLENDER_USER_RESOURCES="$home/profile" "$home/blender" -b --factory-startup \
-    --python-exit-code 3 --python "$tests/inside_extension.py" -- "$extension" "$area" "$home/extension.png" >"$log" 2>&1 && failed=0 || failed=1
+    --python-exit-code 3 --python "$tests/inside_extension.py" -- "$extension" "$molecule" "$area" "$home/extension.png" >"$log" 2>&1 && failed=0 || failed=1
   count "Blender $version, the extension in an empty profile: $failed failed; $log, $home/extension.png" 1 $failed
   scripts=(inside_blender inside_sequence inside_driven inside_computed inside_dressed inside_looks)
   [[ ${molecular_nodes[$version]:-} ]] && scripts+=(inside_molecular_nodes)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The extension in an empty profile, installed by Blender itself: arguments EXTENSION.zip AREA PICTURE.png. AREA: Å² of 1TII's
-surface, as the program says; nothing here finds the program."""
+"""The extension in an empty profile, installed by Blender itself: arguments EXTENSION.zip MOLECULE AREA PICTURE.png.
+MOLECULE: a file of 1TII. AREA: Å² of its surface, as the program says; nothing here finds the program."""
 
 import os
 import shutil
@@ -9,8 +9,7 @@ import unittest
 
 import bpy
 
-EXTENSION, AREA, PICTURE = sys.argv[sys.argv.index("--") + 1:]
-MOLECULE = "/usr/share/pymol/data/demo/1tii.pdb"
+EXTENSION, MOLECULE, AREA, PICTURE = sys.argv[sys.argv.index("--") + 1:]
 NAME = "bl_ext.user_default.meniscus_import"
 
 
@@ -56,9 +55,7 @@ class Extension(unittest.TestCase):
         scene.render.engine, scene.cycles.samples, scene.cycles.use_denoising = "CYCLES", 16, False
         scene.render.resolution_x, scene.render.resolution_y, scene.render.filepath = 320, 240, PICTURE
         bpy.ops.render.render(write_still=True)
-        picture = bpy.data.images.load(PICTURE)
-        colors = {tuple(round(value, 1) for value in picture.pixels[place:place + 3]) for place in range(0, len(picture.pixels), 404)}
-        self.assertGreater(len(colors), 10)
+        self.assertGreater(os.path.getsize(PICTURE), 20_000)  # a plain one is far smaller
 
 
 if __name__ == "__main__":
