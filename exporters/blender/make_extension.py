@@ -8,8 +8,8 @@ meniscus_import-VERSION-PLATFORM.zip. Without PLATFORM all are made. The same fi
 
 import fnmatch
 import os
+import re
 import sys
-import tomllib
 import zipfile
 
 ADDON = os.path.join(os.path.dirname(os.path.abspath(__file__)), "addon", "meniscus_import")
@@ -39,7 +39,7 @@ def find_wheel(folder, platform, version):
     if not zipfile.is_zipfile(path):
         raise Refusal(f"{path}: it is no wheel")
     with zipfile.ZipFile(path) as wheel:
-        if not any(name.endswith("/LICENSE") for name in wheel.namelist()):
+        if not any("/LICENSE" in name for name in wheel.namelist()):
             raise Refusal(f"{path}: it has no file LICENSE")
     return path
 
@@ -81,13 +81,13 @@ def make(wheels, out, platforms):
     unknown = [platform for platform in platforms if platform not in PLATFORMS]
     if unknown:
         raise Refusal(f"{unknown[0]} is none of {', '.join(PLATFORMS)}")
-    with open(os.path.join(ADDON, MANIFEST), "rb") as file:
-        manifest = tomllib.load(file)
-    found = {platform: find_wheel(wheels, platform, manifest["version"]) for platform in platforms or PLATFORMS}
+    with open(os.path.join(ADDON, MANIFEST), encoding="utf-8") as file:
+        version = re.search(r'^version = "(.+)"$', file.read(), re.M).group(1)
+    found = {platform: find_wheel(wheels, platform, version) for platform in platforms or PLATFORMS}
     os.makedirs(out, exist_ok=True)
     made = []
     for platform, wheel in found.items():
-        made.append(os.path.join(out, f"{manifest['id']}-{manifest['version']}-{platform.replace('-', '_')}.zip"))
+        made.append(os.path.join(out, f"meniscus_import-{version}-{platform.replace('-', '_')}.zip"))
         write(made[-1], platform, wheel)
     return made
 
