@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Runs the tests of the Blender add-on in newer Blenders than Debian's: the module bpy of PyPI, each version in a virtual
 # environment below build/blenders (1.6 GB each, kept), with the Molecular Nodes that belongs to it. libmeniscus is taken
-# from the program's build. The last line says "cases N failures M".
+# from the program's build. The extension is made of the wheel for linux-x64 in the folder MENISCUS_WHEELS, or of one of that
+# libmeniscus, and used in an empty profile. The last line says "cases N failures M".
 #
 #   scripts/newer_blenders.sh PROGRAM [VERSION...]     versions: 4.2, 4.5, 5.0 by default; newer ones need another Python
 set -euo pipefail
@@ -17,6 +18,20 @@ addon=$PWD/exporters/blender/addon
 export MENISCUS_LIBRARY=${program%/*}/exporters/bindings/c/libmeniscus.so MENISCUS_PACKAGE=$PWD/exporters/bindings/python/meniscus
 cases=0
 failures=0
+count() {  # SENTENCE CASES FAILURES
+  echo "$1"
+  cases=$((cases + $2))
+  failures=$((failures + $3))
+}
+
+wheels=${MENISCUS_WHEELS:-build/blenders/wheels}
+if [[ -z ${MENISCUS_WHEELS:-} ]]; then
+  rm -rf "$wheels"
+  /usr/bin/python3 -B "$tests/native_wheel.py" "$MENISCUS_LIBRARY" "$MENISCUS_PACKAGE" "$wheels"
+fi
+extension=$(scripts/extension.sh "$wheels" "$PWD/build/blenders/extension" linux-x64)
+molecule=/usr/share/pymol/data/demo/1tii.pdb
+area=$("$program" surface $molecule --json -q --device cpu | sed -nE 's/^  "area": ([0-9.]+),$/\1/p')
 
 for version in "${versions[@]}"; do
   home=$PWD/build/blenders/$version
@@ -30,12 +45,22 @@ for version in "${versions[@]}"; do
     printf '#!/bin/sh\nexec "%s/bin/python" "%s/bpy_as_blender.py" "$@"\n' "$home" "$tests" >"$home/blender"
     chmod +x "$home/blender"
   fi
-  # What an upload and a repository of extensions ask for.
+  # What an upload and a repository of extensions ask for, and what Install from Disk does.
   validator=$(find "$home/lib" -path '*/bl_pkg/cli/blender_ext.py' -print -quit)
-  said=$("$home/bin/python" "$validator" validate "$addon/meniscus_import" 2>&1) && failed=0 || failed=1
-  echo "Blender $version, its validator of extensions: ${said//$'\n'/; }"
-  cases=$((cases + 1))
-  failures=$((failures + failed))
+  unpacked=$home/extension
+  rm -rf "$unpacked" "$home/profile"
+  mkdir -p "$unpacked/built" "$home/profile"
+  /usr/bin/python3 -m zipfile -e "$extension" "$unpacked/source"
+  for words in "validate $addon/meniscus_import" "validate $extension" \
+    "build --source-dir $unpacked/source --output-dir $unpacked/built"; do
+    # shellcheck disable=SC2086  # several words
+    said=$("$home/bin/python" "$validator" $words 2>&1) && failed=0 || failed=1
+    count "Blender $version, extension ${words%% *}: ${said//$'\n'/; }" 1 $failed
+  done
+  log=$home/inside_extension.log
+  env -i HOME="$home/profile" PATH=/usr/bin:/bin BLENDER_USER_RESOURCES="$home/profile" "$home/blender" -b --factory-startup \
+    --python-exit-code 3 --python "$tests/inside_extension.py" -- "$extension" "$molecule" "$area" "$home/extension.png" >"$log" 2>&1 && failed=0 || failed=1
+  count "Blender $version, the extension in an empty profile: $failed failed; $log, $home/extension.png" 1 $failed
   scripts=(inside_blender inside_sequence inside_driven inside_computed inside_dressed inside_looks)
   [[ ${molecular_nodes[$version]:-} ]] && scripts+=(inside_molecular_nodes)
   for script in "${scripts[@]}"; do
@@ -45,9 +70,7 @@ for version in "${versions[@]}"; do
     failed=$(sed -nE 's/^FAILED \((.*)\)$/\1/p' "$log" | tail -n 1 | { grep -oE '(failures|errors)=[0-9]+' || true; } | cut -d= -f2 | paste -sd+)
     failed=$((${failed:-0}))
     [[ $ran ]] || { ran=1 failed=1; tail -n 20 "$log" >&2; }
-    echo "Blender $version, $script: $ran tests, $failed failed; $log"
-    cases=$((cases + ran))
-    failures=$((failures + failed))
+    count "Blender $version, $script: $ran tests, $failed failed; $log" "$ran" "$failed"
   done
 done
 echo "cases $cases failures $failures"

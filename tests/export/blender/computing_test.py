@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What computes surfaces for the Blender add-on, under plain Python: files of atoms, library and program, the newest request wins."""
 
+import ast
 import os
 import re
 import subprocess
@@ -22,7 +23,7 @@ package = types.ModuleType("meniscus_import")  # without Blender's side of it
 package.__path__ = [os.path.join(ADDON, "meniscus_import")]
 sys.modules["meniscus_import"] = package
 from meniscus_import import mesh_arrays, mns_reader  # noqa: E402
-from meniscus_import.computing import atoms, engines, jobs, process, request, wording  # noqa: E402
+from meniscus_import.computing import atoms, engines, jobs, molecules, process, request, wording  # noqa: E402
 
 
 class Quiet:
@@ -54,6 +55,11 @@ class WithFolder(unittest.TestCase):
         subprocess.run([PROGRAM, "export", "atoms", *arguments, "-o", target, "--force", "-q", "--device", "cpu"], check=True,
                        stdout=subprocess.DEVNULL)
         return target
+
+
+def colors_of_panel():
+    with open(os.path.join(ADDON, "meniscus_import", "settings.py"), encoding="utf-8") as file:
+        return [color for color, *_ in ast.literal_eval(re.search(r"^COLORS = (\(.*?\)\))$", file.read(), re.M | re.S).group(1))]
 
 
 class AtomFiles(WithFolder):
@@ -106,6 +112,66 @@ class AtomFiles(WithFolder):
                 file.write(bad)
             with self.assertRaisesRegex(mns_reader.MnsError, text):
                 atoms.read(good)
+
+
+class Molecules(WithFolder):
+    """Files that the library reads, beside what the program writes of them."""
+
+    def setUp(self):
+        super().setUp()
+        self.library = engines.find_tools(PACKAGE).library
+        charged = os.path.join(self.folder, "charged.pqr")
+        with open(charged, "w", encoding="ascii") as file:
+            for number, (residue, charge) in enumerate([("ASP", -0.5), ("LIG", 0.8), ("U", 0.0)], 1):
+                file.write(f"ATOM {number} CA {residue} {number} {4 * number}.0 0.5 1.0 {charge} 1.7\n")
+        chains = os.path.join(self.folder, "chains.pdb")
+        with open(chains, "w", encoding="ascii") as file:
+            for number, element in enumerate(("C", "FE", "SE", "LI") * 4):
+                file.write(f"HETATM{number + 1:5}  {element:2}  LIG {'SRQPONMLKJIHGFED'[number]}{number:4}    {4.0 * number:8.3f}   1.000   2.000"
+                           f"  1.00{number:6.2f}          {element:>2}\n")
+        self.files = (samples.UBIQUITIN, "/usr/share/freesasa/test-data/1a0q.pdb", chains, charged, self.molecule())
+
+    def by_program(self, file, *options):
+        path = os.path.join(self.folder, "given.atoms")
+        said = subprocess.run([PROGRAM, "export", "atoms", file, "-o", path, "--force", *options], capture_output=True, text=True)
+        return atoms.read(path) if said.returncode == 0 else None
+
+    def test_atoms_are_those_of_the_program_in_all_colours(self):
+        refused = []
+        for file in self.files:
+            for color in colors_of_panel():
+                wanted, asked = self.by_program(file, "--color", color), request.Request(file=file, color=color)
+                if wanted is None:
+                    refused.append((os.path.basename(file), color))
+                    with self.assertRaisesRegex(mns_reader.MnsError, "to colour by"):
+                        molecules.read(self.library, asked)
+                    continue
+                found = molecules.read(self.library, asked).atoms
+                for name in ("positions", "radii", "index"):
+                    np.testing.assert_array_equal(getattr(found, name), getattr(wanted.atoms, name), f"{file} {name}")
+                np.testing.assert_allclose(found.colors, wanted.atoms.colors, atol=1e-6, err_msg=f"{file} {color}")
+                self.assertEqual(found.numbers.keys(), wanted.atoms.numbers.keys(), file)
+                for name, values in wanted.atoms.numbers.items():
+                    np.testing.assert_array_equal(found.numbers[name], values, f"{file} {name}")
+                self.assertEqual((found.chain_names, found.names, found.source), (wanted.atoms.chain_names, wanted.atoms.names, wanted.atoms.source))
+                np.testing.assert_allclose(found.kind_colors or [], wanted.atoms.kind_colors or [], atol=1e-6)
+        self.assertIn(("1d3z.pdb", "charge"), refused)
+        self.assertNotIn(("charged.pqr", "charge"), refused)
+
+    def test_frames_are_the_models_of_the_file(self):
+        found = molecules.read(self.library, request.Request(file=samples.UBIQUITIN, selection="resi 1-15", frames="1-5:2", place=1))
+        self.assertEqual(found.numbers, [1, 3, 5])
+        for place, number in enumerate(found.numbers, 1):
+            model = self.by_program(samples.UBIQUITIN, "--select", "resi 1-15", "--model", str(number + 1))
+            np.testing.assert_array_equal(found.frame(place).positions, model.atoms.positions)
+        every = molecules.read(self.library, request.Request(file=samples.UBIQUITIN, place=1))
+        self.assertEqual(every.numbers, list(range(10)))
+
+    def test_frames_that_cannot_be_are_refused(self):
+        for asked, words in (({"frames": "8-12"}, "Frames: there is no frame 12; there are 10, 0 to 9"), ({"frames": "x"}, "Frames: 'x'"),
+                             ({"selection": "within 4 of resi 1"}, "frame 1 has other atoms than the first")):
+            with self.assertRaisesRegex(mns_reader.MnsError, words):
+                molecules.read(self.library, request.Request(file=samples.UBIQUITIN, place=1, **asked)).frame(2)
 
 
 class Engines(WithFolder):
@@ -180,6 +246,9 @@ class Engines(WithFolder):
         given = atoms.Atoms(np.zeros((1, 3)), np.ones(1), np.ones((1, 3)), np.zeros(1, np.uint32))
         with self.assertRaisesRegex(engines.EngineError, "need libmeniscus"):
             engines.compute(self.alone, self.asked(file=""), given, self.folder, Quiet())
+        trajectory = self.asked(trajectory=samples.UBIQUITIN, frames="all", place=1)
+        with self.assertRaisesRegex(engines.EngineError, "a trajectory needs the program meniscus.*Molecular Nodes"):
+            engines.compute(engines.Tools(self.tools.library, None), trajectory, None, self.folder, Quiet())
         with self.assertRaisesRegex(engines.EngineError, "proxy needs"):
             engines.compute(self.alone, self.asked(density=0.5), None, self.folder, Quiet())
         for tools in (self.tools, self.alone):
@@ -391,7 +460,7 @@ class OtherProcess(WithFolder):
         with open(path, "w", encoding="ascii") as file:
             file.write(f"#!/bin/sh\necho $$ >{self.folder}/pid\nexec sleep 60\n")
         os.chmod(path, 0o755)
-        made = process.Process(PACKAGE, path, self.folder)
+        made = process.Process(self.folder, path, self.folder)  # without the library, which reads files itself
         self.addCleanup(made.end)
         return made
 
@@ -432,7 +501,8 @@ class OtherProcess(WithFolder):
         np.testing.assert_array_equal(found["middle"], [4.5, 0, 0])
 
     def test_what_is_newer_comes_instead_of_what_waited(self):
-        asked = [self.process.ask("a", probe, "surface", self.about(probe=probe)) for probe in np.linspace(1.0, 2.0, 30)]
+        about = [self.about(probe=probe) for probe in np.linspace(1.0, 2.0, 30)]  # each writes the molecule's file, which the other reads
+        asked = [self.process.ask("a", each["request"]["probe"], "surface", each) for each in about]
         self.process.wait(asked[-1])
         self.assertFalse(self.process.is_busy())
         done = [job for job in asked if job.is_done]

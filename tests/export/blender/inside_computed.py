@@ -138,6 +138,13 @@ class Computed(unittest.TestCase):
         update()
         self.assertEqual(item["meniscus_error"], "")
 
+    def test_a_file_on_another_drive_is_named_whole(self):
+        """As Windows has them, where nothing leads from one to the other."""
+        bpy.ops.wm.save_as_mainfile(filepath=os.path.join(FOLDER, "drive.blend"))
+        self.assertTrue(build.remembered_path(TRIPLE).startswith("//"))
+        with unittest.mock.patch.object(os.path, "relpath", side_effect=ValueError("path is on mount 'D:'")):
+            self.assertEqual(build.remembered_path(TRIPLE), TRIPLE)
+
     def test_the_request_is_stored_and_computed_again(self):
         item = of_file(CAGE)
         item.meniscus.probe, item.meniscus.tolerance = 1.1, 0.05

@@ -141,7 +141,10 @@ def check_with_blender(arrays):
 
 def remembered_path(path):
     path = os.path.abspath(path)
-    return bpy.path.relpath(path) if bpy.data.filepath else path
+    try:
+        return bpy.path.relpath(path) if bpy.data.filepath else path
+    except ValueError:  # on another drive of Windows
+        return path
 
 
 def middle_of(points):

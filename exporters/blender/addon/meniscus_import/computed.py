@@ -96,7 +96,7 @@ def told_tools():
         yield str(error)
         return
     yield f"libmeniscus {found['version']}: {found['library']}" if found["library"] else f"No libmeniscus: {found['missing']}"
-    yield f"Program: {found['program']}" if found["program"] else "No program meniscus"
+    yield f"Program: {found['program']}" if found["program"] else "No program meniscus, which only trajectories need"
 
 
 def end():

@@ -39,7 +39,8 @@ class MeniscusSettings(bpy.types.PropertyGroup):
     file: bpy.props.StringProperty(name="File", description="A molecule: PDB, mmCIF, PQR, GRO, XYZ, ...", subtype="FILE_PATH",
                                    update=on_change)
     trajectory: bpy.props.StringProperty(
-        name="Trajectory", description="XTC, TRR, DCD, ...; without one the file's models are the frames, if a run is shown",
+        name="Trajectory", description="XTC, TRR, DCD, ..., which the program meniscus reads; without one the file's models are the "
+        "frames, if a run is shown",
         subtype="FILE_PATH", update=on_change)
     is_run: bpy.props.BoolProperty(name="Frames", description="Show frames of the trajectory, or the models of the file, on the "
                                    "timeline", default=False, update=on_change)

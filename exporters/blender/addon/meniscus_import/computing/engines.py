@@ -14,7 +14,7 @@ import numpy as np
 
 from .. import joined, mns_reader
 from . import atoms as atom_files
-from . import measures, wording
+from . import measures, molecules, wording
 
 #: Options of the program, by what a request has.
 SURFACES = {"SES": "ses", "SAS": "sas", "VDW": "vdw"}
@@ -40,10 +40,15 @@ class Tools:
     def __init__(self, library, program, missing=""):
         self.library, self.program, self.missing = library, program, missing
 
-    def needed_program(self, purpose):
+    def needed_program(self, purpose, instead=""):
+        """Its path. purpose, instead: what needs it, and what goes without, for people."""
         if self.program is None:
-            raise EngineError(f"{purpose} needs the program meniscus, which is not found; name it in the add-on's preferences")
+            raise EngineError(f"{purpose} needs the program meniscus, which is not found; name it in the add-on's preferences{instead}")
         return self.program
+
+    def program_for_files(self):
+        """Its path, where there is no library."""
+        return self.needed_program(f"without libmeniscus ({self.missing}) a file")
 
 
 def find_tools(package="", program=""):
@@ -85,10 +90,7 @@ def surface_by_library(library, atoms, request, task):
     key = request.shape_key(atoms)
     shape = _shapes.get(key)
     if shape is None:
-        try:
-            shape = _shape(library, atoms, request, task)
-        except library.Error as error:
-            raise EngineError(str(error)) from None
+        shape = _said_by(library, _shape, library, atoms, request, task)
         with _reading:
             while len(_shapes) >= MOST_SHAPES:
                 del _shapes[next(iter(_shapes))]
@@ -137,8 +139,9 @@ def _painted(shape, atoms):
     return surface
 
 
-def surface_by_program(program, request, folder, task):
+def surface_by_program(tools, request, folder, task):
     """The same of a request about a file. folder: for files that go again."""
+    program = tools.program_for_files()
     if request.density:
         raise EngineError("a proxy needs libmeniscus; set Detail to Fine")
     task.say("Program")
@@ -149,7 +152,7 @@ def surface_by_program(program, request, folder, task):
         if request.kind == "VDW":
             words.remove(f"--probe={request.probe!r}")
         if request.place:
-            number = frame_numbers(program, request, folder, task)[request.place - 1]
+            number = read_atoms(tools, request, folder, task).numbers[request.place - 1]
             words += [*_about_run(request, str(number))]
         _run(words, task)
         if request.place:
@@ -160,25 +163,27 @@ def surface_by_program(program, request, folder, task):
     return file.objects[0]
 
 
-def frame_numbers(program, request, folder, task):
-    """Of the frames of the run."""
-    return read_atoms(program, request, folder, task).numbers
-
-
-def read_atoms(program, request, folder, task):
+def read_atoms(tools, request, folder, task):
     """The atoms.AtomFile of a request about a file, of all frames of its run if it has a place there. Read once."""
     key = (request.atoms_key(), request.place > 0)
     with _reading:
         if key not in _files:
             task.say("Frames" if request.place else "Atoms")
-            found = _fresh_atoms(program, request, folder, task)
+            found = _fresh_atoms(tools, request, folder, task)
             while len(_files) >= MOST_FILES:
                 del _files[next(iter(_files))]
             _files[key] = found
         return _files[key]
 
 
-def _fresh_atoms(program, request, folder, task):
+def _fresh_atoms(tools, request, folder, task):
+    """The library reads all but trajectories."""
+    if tools.library is not None and not request.trajectory:
+        return _said_by(tools.library, molecules.read, tools.library, request)
+    if request.trajectory:
+        program = tools.needed_program("a trajectory", ", or read it by Molecular Nodes and take its atoms")
+    else:
+        program = tools.program_for_files()
     descriptor, path = tempfile.mkstemp(dir=folder, prefix="atoms_")
     os.close(descriptor)
     try:
@@ -199,6 +204,14 @@ def forget():
     with _reading:
         _files.clear()
         _shapes.clear()
+
+
+def _said_by(library, work, *arguments):
+    """What work(*arguments) gives. Raises EngineError with what the library, or a file, says."""
+    try:
+        return work(*arguments)
+    except (library.Error, mns_reader.MnsError) as error:
+        raise EngineError(str(error).splitlines()[0]) from None  # other lines point into a selection
 
 
 def _about_atoms(request):
@@ -252,8 +265,8 @@ def _all_of_it(tools, request, atoms, folder, task):
     if tools.library is None:
         if atoms is not None:
             raise EngineError(f"atoms of Blender need libmeniscus: {tools.missing}")
-        return surface_by_program(tools.needed_program("a file"), request, folder, task)
+        return surface_by_program(tools, request, folder, task)
     if atoms is None:
-        file = read_atoms(tools.needed_program("reading a file"), request, folder, task)
-        atoms = file.frame(request.place) if request.place else file.atoms
+        file = read_atoms(tools, request, folder, task)
+        atoms = _said_by(tools.library, file.frame, request.place) if request.place else file.atoms
     return surface_by_library(tools.library, atoms, request, task)

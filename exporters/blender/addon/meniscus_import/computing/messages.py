@@ -37,6 +37,10 @@ class Messages:
     def fileno(self):
         return self._socket.fileno()
 
+    def share(self, process):
+        """Bytes by which the process with this number has this end, too; only Windows has such."""
+        return self._socket.share(process)
+
     def close(self):
         self._socket.close()
 
@@ -59,3 +63,8 @@ def pair():
 def of_descriptor(number):
     """The end that was handed to this process."""
     return Messages(socket.socket(fileno=number))
+
+
+def of_share(data):
+    """The same on Windows."""
+    return Messages(socket.fromshare(data))

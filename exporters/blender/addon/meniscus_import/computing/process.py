@@ -121,8 +121,7 @@ class Process:
             return
         connection, theirs = messages.pair()
         try:
-            self._child = subprocess.Popen([python(), "-B", SCRIPT, str(theirs.fileno())], pass_fds=[theirs.fileno()],
-                                           stdin=subprocess.DEVNULL, start_new_session=True)
+            self._child = _started(theirs)
         except OSError as error:
             raise engines.EngineError(f"the process that computes does not start: {error}") from None
         finally:
@@ -168,10 +167,7 @@ class Process:
             child.wait(seconds)
         except subprocess.TimeoutExpired:
             pass
-        try:
-            os.killpg(child.pid, signal.SIGKILL)
-        except ProcessLookupError:
-            pass
+        _kill(child)
         return child.wait()
 
     def _fail_all(self, text):
@@ -181,8 +177,32 @@ class Process:
         self._jobs.clear()
 
 
+def _started(connection):
+    """The process at the other end of a connection."""
+    words = [python(), "-B", SCRIPT]
+    if os.name != "nt":
+        return subprocess.Popen([*words, str(connection.fileno())], pass_fds=[connection.fileno()], stdin=subprocess.DEVNULL,
+                                start_new_session=True)
+    child = subprocess.Popen(words, stdin=subprocess.PIPE, creationflags=subprocess.CREATE_NO_WINDOW)
+    with child.stdin:  # Windows hands a socket to a process that is there already
+        child.stdin.write(connection.share(child.pid))
+    return child
+
+
+def _kill(child):
+    """With what it started; on Windows, where it starts nothing, alone."""
+    if os.name == "nt":
+        child.kill()
+        return
+    try:
+        os.killpg(child.pid, signal.SIGKILL)
+    except ProcessLookupError:
+        pass
+
+
 def python():
-    """The interpreter that belongs to this one: Blender's own says where it lies, and names another of the path at times."""
-    name = f"python{sys.version_info.major}.{sys.version_info.minor}"
-    places = [os.path.join(sys.prefix, "bin", name), os.path.join(sys.prefix, "bin", "python3"), sys.executable]
+    """The interpreter that belongs to this one: Blender's own says where it lies, and outside of Windows names another of the path
+    at times."""
+    names = () if os.name == "nt" else (f"python{sys.version_info.major}.{sys.version_info.minor}", "python3")
+    places = [*(os.path.join(sys.prefix, "bin", name) for name in names), sys.executable]
     return next((place for place in places if os.path.exists(place)), sys.executable)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Puts messages of the program into the words of the panel: an artist has fields, not options."""
+"""Puts messages of the program and of libmeniscus into the words of the panel: an artist has fields, not options."""
 
 import re
 
@@ -9,6 +9,8 @@ FIELDS = {
     "--density": "Density", "--trajectory": "Trajectory", "--trajectory-atoms": "Trajectory's atoms", "--frames": "Frames",
     "--cavities": "Cavities",
 }
+#: Options as libmeniscus spells them.
+OF_LIBRARY = re.compile(r"\Aselect(?=: )|\b(?:keep_water|keep_ions|unknown_element)\b")
 OPTION = re.compile(r"(?<![\w/-])--([a-z][a-z0-9]*(?:-[a-z0-9]+)*)")
 
 
@@ -22,6 +24,7 @@ def for_panel(text):
             lacking.append(found.group(1))
         return name or f"\"{found.group(1)}\""
 
+    text = OF_LIBRARY.sub(lambda found: "--" + found.group(0).replace("_", "-"), text)
     worded = OPTION.sub(field, text)
     if not lacking:
         return worded

@@ -16,11 +16,11 @@ THREADS = min(len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") e
 _saying = threading.Lock()
 
 
-def main(descriptor):
+def main(descriptor=""):
     adopt(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
     from meniscus_import.computing import messages
 
-    connection = messages.of_descriptor(descriptor)
+    connection = messages.of_descriptor(int(descriptor)) if descriptor else messages.of_share(sys.stdin.buffer.read())
     _, sys.path[:], package, program, folder = connection.receive()
     from meniscus_import.computing import jobs, works  # not before it is known where numpy is
 
@@ -60,6 +60,8 @@ def say(connection, *message):
 
 def leave():
     """Blender is gone: nobody wants what is computed here, or by what was started here."""
+    if os.name == "nt":  # where it starts nothing
+        os._exit(1)
     os.killpg(0, signal.SIGKILL)
 
 
@@ -70,4 +72,4 @@ def outcome(task):
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]))
+    main(*sys.argv[1:])

@@ -58,5 +58,4 @@ class Tools:
 
     def count(self, task, request):
         """How many frames the run of a request has."""
-        program = self.tools.needed_program("reading a run")
-        return len(engines.read_atoms(program, Request(**request), self.folder, task).numbers)
+        return len(engines.read_atoms(self.tools, Request(**request), self.folder, task).numbers)

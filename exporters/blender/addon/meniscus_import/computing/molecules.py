@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Atoms of molecules' files as libmeniscus reads them: what `meniscus export atoms` would write of them."""
+
+import os
+
+import numpy as np
+
+from .. import mns_reader, sequence_reader
+from . import palette
+from .atoms import AtomFile, Atoms
+
+
+def read(library, request):
+    """An atoms.AtomFile of a request about a file without a trajectory; its frames are the file's models. library: the package
+    meniscus. Raises its Error, or MnsError."""
+    if not request.place:
+        return AtomFile(request.file, _atoms(_structure(library, request), request.color), [], None)
+    numbers = _frames(library, request)
+    first = _structure(library, request, numbers[0])
+    return AtomFile(request.file, _atoms(first, request.color), numbers, Models(library, request, numbers, first))
+
+
+class Models:
+    """Positions of atoms by the place of a frame in the run, from 0, read when they are asked for."""
+
+    def __init__(self, library, request, numbers, first):
+        self._library, self._request, self._numbers = library, request, numbers
+        self._names = _names(first)
+
+    def __getitem__(self, place):
+        structure = _structure(self._library, self._request, self._numbers[place])
+        if not np.array_equal(_names(structure), self._names):
+            raise mns_reader.MnsError(f"{self._request.file}: frame {self._numbers[place]} has other atoms than the first one; "
+                                      "choose a Selection that means the same in all")
+        return structure.positions
+
+
+def _structure(library, request, number=0):
+    """number: of the frame, from 0."""
+    return library.read(request.file, select=request.selection or None, model=number + 1)
+
+
+def _frames(library, request):
+    count = library.read(request.file).model_count
+    try:
+        numbers = sequence_reader.parse_frames(request.frames or "all", range(count))
+    except ValueError as error:
+        raise mns_reader.MnsError(f"Frames: {error}") from None
+    if max(numbers) >= count:
+        raise mns_reader.MnsError(f"Frames: there is no frame {max(numbers)}; there are {count}, 0 to {count - 1}")
+    return numbers
+
+
+def _names(structure):
+    return np.stack([structure.names, structure.residue_numbers.astype(str), structure.chains])
+
+
+def _atoms(structure, color):
+    chains, chain = palette.in_order(structure.chains)
+    numbers = {"atom.file_index": structure.indices, "atom.b_factor": np.nan_to_num(structure.b_factors),
+               "atom.atomic_number": structure.elements.astype(np.int32), "atom.res_id": structure.residue_numbers, "atom.chain_id": chain}
+    names = {}
+    for key, array, texts in (("atom_names", "atom.name_id", structure.names),
+                              ("residue_names", "atom.residue_name_id", structure.residue_names)):
+        found, place = palette.in_order(texts)
+        names[key] = found if any(found) else []
+        if names[key]:
+            numbers[array] = place
+    for array, values in (("atom.charge", structure.charges), ("atom.hydrophobicity", palette.hydropathy(structure.residue_names))):
+        if np.isfinite(values).any():
+            numbers[array] = np.nan_to_num(values).astype(np.float32)
+    classes = ["polymer", "ligand", "water", "ion", "unclassified"]
+    entity = np.array([classes.index(name) for name in structure.classes], dtype=np.int32)
+    if (entity != classes.index("unclassified")).any():
+        numbers["atom.entity"] = entity
+    return Atoms(structure.positions, structure.radii, palette.colors_of(structure, color), np.arange(len(structure), dtype=np.uint32),
+                 numbers, chains, palette.kind_colors(color), os.path.basename(structure.file), names)
