@@ -30,6 +30,9 @@ peer_packages=(pymol pymol-data gromacs freesasa python3-mdtraj python3-scipy)
 # a second GL driver; an environment for the wheel; a bare system; images; Nextflow; more readers of meshes
 prove_packages=(mesa-vulkan-drivers python3-venv python3-pip mmdebstrap buildah maven default-jre-headless prusa-slicer python3-vtk9)
 
+# other systems: their library is compiled by zig, of PyPI, from Debian's sources, and run in qemu and wine
+target_packages=(python3-venv python3-pip dpkg-dev qemu-user-static libc6-arm64-cross wine64 wine)
+
 # install_packages NAME...: apt-get, only for what dpkg does not already have.
 install_packages() {
   local missing=()

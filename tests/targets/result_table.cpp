@@ -244,8 +244,8 @@ int main(int argc, char** argv) {
     std::perror(argv[1]);
     return 1;
   }
-  const char* const quick = std::getenv("RESULT_TABLE_TIES");
-  const int ties = quick ? std::atoi(quick) : kTies;
+  const char* const fewer = std::getenv("MENISCUS_TARGETS_TIES");
+  const int ties = fewer ? std::atoi(fewer) : kTies;
   int windows = 0;
   for (int n = 2; n < argc; ++n) write_file(output, argv[n], windows);
   Random random;

@@ -9,6 +9,7 @@ import operator
 import os
 import pathlib
 import reprlib
+import sys
 import threading
 from ctypes import (POINTER, Structure, byref, c_char_p, c_double, c_float, c_int, c_int32, c_size_t, c_uint8, c_uint32,
                     c_uint64, c_void_p)
@@ -279,7 +280,8 @@ def _candidates() -> list[str]:
     named = os.environ.get("MENISCUS_LIBRARY")
     if named:
         return [named]
-    beside = pathlib.Path(__file__).with_name("libmeniscus.so")
+    own = {"win32": "meniscus.dll", "darwin": "libmeniscus.dylib"}.get(sys.platform, "libmeniscus.so")
+    beside = pathlib.Path(__file__).with_name(own)
     found = [str(beside)] if beside.exists() else []
     system = ctypes.util.find_library("meniscus")
     return found + [name for name in (system, "libmeniscus.so.0") if name]
