@@ -49,6 +49,8 @@ constexpr auto kFormats = std::to_array<MeshFormat>({
     {"smesh", "TetGen's facets", "", false, false, false, true, false, write_smesh},
     {"dms", "dots of dms", "Å", false, false, false, false, true, write_dms},
     {"ply", "PLY, binary", "", false, true, true, false, false, write_ply},
+    {"ply-ascii", "PLY, text", "", false, true, true, false, false, write_ascii_ply},
+    {"py", "script for PyMOL", "", true, true, false, false, false, write_pymol_script},
 });
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes the mesh formats that are lines of text: OBJ, OFF, smesh and DMS.
+// Writes the mesh formats that are lines of text: OBJ, OFF, smesh, DMS, PLY as text, and scripts for PyMOL.
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -59,6 +59,61 @@ void write_off(OutputFile& file, const MeshFile& mesh) {
     const auto& [a, b, c] = object.triangles[t];
     fmt::format_to(out, FMT_COMPILE("3 {} {} {}\n"), a, b, c);
   }));
+}
+
+void write_ascii_ply(OutputFile& file, const MeshFile& mesh) {
+  const FileObject& object = mesh.objects.front();
+  file.write(text_of_rows(ply_header("ascii", mesh), object.positions.size(), [&](std::size_t v, auto out) {
+    const glm::vec3 &x = object.positions[v], &n = object.normals[v];
+    const auto& [red, green, blue] = object.colors[v];
+    fmt::format_to(out, FMT_COMPILE("{} {} {} {} {} {} {} {} {}"), x.x, x.y, x.z, n.x, n.y, n.z, red, green, blue);
+    for (const VertexNumbers& column : object.numbers) fmt::format_to(out, FMT_COMPILE(" {}"), column.values[v]);
+    *out = '\n';
+  }));
+  file.write(text_of_rows("", object.triangles.size(), [&](std::size_t t, auto out) {
+    const auto& [a, b, c] = object.triangles[t];
+    fmt::format_to(out, FMT_COMPILE("3 {} {} {}\n"), a, b, c);
+  }));
+}
+
+namespace {
+
+// Behind it comes a call for each object, whose arguments are numbers in quotes.
+constexpr std::string_view kPymolScript = R"(from pymol import cmd
+from pymol.cgo import BEGIN, COLOR, END, NORMAL, TRIANGLES, VERTEX
+
+
+def show(name, vertices, triangles):
+    """Loads an object: rows of position, normal and color, and for each triangle the numbers of three rows."""
+    rows = [list(map(float, line.split())) for line in vertices.strip().splitlines()]
+    corners = [(COLOR, *row[6:], NORMAL, *row[3:6], VERTEX, *row[:3]) for row in rows]
+    shape = [BEGIN, TRIANGLES]
+    for number in triangles.split():
+        shape.extend(corners[int(number)])
+    cmd.load_cgo(shape + [END], name)
+
+
+)";
+
+}  // namespace
+
+void write_pymol_script(OutputFile& file, const MeshFile& mesh) {
+  file.write(fmt::format("# {}\n{}", mesh.about, kPymolScript));
+  std::size_t place = 0;
+  for (const FileObject& object : mesh.objects) {
+    file.write(text_of_rows(fmt::format("show(\"meniscus_{}\", \"\"\"\n", ++place), object.positions.size(),
+                            [&](std::size_t v, auto out) {
+                              const glm::vec3 &x = object.positions[v], &n = object.normals[v];
+                              const auto& [red, green, blue] = object.colors[v];
+                              fmt::format_to(out, FMT_COMPILE("{} {} {} {:.6g} {:.6g} {:.6g} {:.4f} {:.4f} {:.4f}\n"),
+                                             x.x, x.y, x.z, n.x, n.y, n.z, red / 255.0, green / 255.0, blue / 255.0);
+                            }));
+    file.write(text_of_rows("\"\"\", \"\"\"\n", object.triangles.size(), [&](std::size_t t, auto out) {
+      const auto& [a, b, c] = object.triangles[t];
+      fmt::format_to(out, FMT_COMPILE("{} {} {}\n"), a, b, c);
+    }));
+    file.write("\"\"\")\n");
+  }
 }
 
 // All count from 1.
