@@ -21,7 +21,6 @@ except ImportError:
 
 PLUGIN = sys.argv.pop(1)
 UBIQUITIN = pathlib.Path("/usr/share/freesasa/test-data/1ubq.pdb")  # with water
-pymol.finish_launching(["pymol", "-cq"])
 from pymol import CmdException, cmd  # noqa: E402
 
 spec = importlib.util.spec_from_file_location("meniscus_plugin", PLUGIN)
@@ -34,7 +33,6 @@ def said_by(command):
     text = io.StringIO()
     with redirect_stdout(text):
         cmd.do(command, echo=0)
-        cmd.sync()
     return text.getvalue()
 
 
