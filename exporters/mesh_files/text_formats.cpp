@@ -90,7 +90,7 @@ def show(name, vertices, triangles):
     shape = [BEGIN, TRIANGLES]
     for number in triangles.split():
         shape.extend(corners[int(number)])
-    cmd.load_cgo(shape + [END], name)
+    cmd.load_cgo(shape + [END], name, 1)
 
 
 )";

@@ -4,6 +4,7 @@
 Load it with `run meniscus_plugin.py` or install it by the Plugin Manager. It needs the package meniscus in PyMOL's
 Python (docs/pymol.md).
 """
+import contextlib
 import itertools
 import sys
 import warnings
@@ -56,15 +57,21 @@ def atoms_of(selection, context, state):
     return Atoms(keys, numbers[:, :3], numbers[:, 3], np.array([key in chosen for key in keys], dtype=bool))
 
 
+@contextlib.contextmanager
+def refusals():
+    """What the library refuses is said in its sentence, without a traceback."""
+    try:
+        yield
+    except the_library().Error as error:
+        raise CmdException(str(error)) from error
+
+
 def surface_of(atoms, probe, kind="ses"):
-    """The exact surface; what the library refuses becomes a sentence of PyMOL's."""
-    meniscus = the_library()
+    """The exact surface."""
     if not atoms.selected.any():
         raise CmdException("the selection has no atoms in this state")
-    try:
-        return meniscus.surface(atoms.positions, atoms.radii, probe, kind=kind)
-    except meniscus.Error as error:
-        raise CmdException(str(error)) from error
+    with refusals():
+        return the_library().surface(atoms.positions, atoms.radii, probe, kind=kind)
 
 
 def probe_of(probe):
@@ -83,7 +90,7 @@ def free_name(name):
 
 
 def element_colors(elements):
-    """PyMOL's own colour of each element, as atoms of a passing object get it."""
+    """PyMOL's own color of each element, as atoms of a passing object get it."""
     passing, colors = cmd.get_unused_name("_elements"), {}
     for element in elements:
         cmd.pseudoatom(passing, elem=element)
@@ -94,7 +101,7 @@ def element_colors(elements):
 
 
 def colors_of(keys, selection, color):
-    """(n, 3) red, green, blue from 0 to 1, one an atom: its own colour, that of its chain or element, or one for all."""
+    """(n, 3) red, green, blue from 0 to 1, one an atom: its own color, that of its chain or element, or one for all."""
     rows = {}
     cmd.iterate(f"byobject ({selection})", "rows[model, index] = (color, chain, elem)", space={"rows": rows})
     if color == "atom":
@@ -116,8 +123,8 @@ def colors_of(keys, selection, color):
 
 
 def cgo_of(mesh, colors, shown=None):
-    """A compiled graphics object: each triangle in the color of the atom that it belongs to, so that colors meet exactly
-    where patches do, with the exact normals of both sides at cusps. shown: of atoms, whether theirs are kept."""
+    """A compiled graphics object: each triangle in the color of its atom, so that colors meet exactly where patches do,
+    with the exact normals of both sides at cusps. shown: of atoms, whether theirs are kept."""
     normals = mesh.normals[mesh.triangles].reshape(-1, 3)
     normals[mesh.sharp_corners] = mesh.sharp_normals
     rows = np.empty((len(mesh.triangles), 28), dtype=np.float32)
@@ -130,8 +137,15 @@ def cgo_of(mesh, colors, shown=None):
     return [BEGIN, TRIANGLES, *rows.ravel().tolist(), END]
 
 
+def show(states, name):
+    """Loads CGOs by the numbers of their states. States between them are there, too, but empty: without them PyMOL 2.5
+    breaks down."""
+    for number in range(1, max(states) + 1):
+        cmd.load_cgo(states.get(number, []), name, number, zoom=0)
+
+
 @completed
-def meniscus(selection="all", probe="", color="atom", context="all", name="meniscus", state=0, tolerance=0.05, quiet=1):
+def meniscus(selection="all", probe="", color="atom", context="all", name="meniscus", state=0, tolerance=0.1, quiet=1):
     """
 DESCRIPTION
 
@@ -149,7 +163,7 @@ ARGUMENTS
               selection: the closed surface of the selection alone {default: all}
     name = of the new object; one of that name is replaced {default: meniscus}
     state = 0: all states, -1: the current one, N: that one {default: 0}
-    tolerance = float: no point of a triangle is farther from the surface, Angstrom {default: 0.05}
+    tolerance = float: no point of a triangle is farther from the surface, Angstrom {default: 0.1}
 
 NOTES
 
@@ -161,19 +175,20 @@ EXAMPLES
     meniscus chain A, probe=1.2, context=selection, name=alone
     set cgo_transparency, 0.4, meniscus
     """
-    the_library()
     state, probe = int(state), probe_of(probe)
-    graphics = []
+    states = {}
     for number in range(1, max(cmd.count_states(selection), 1) + 1) if state == 0 else [state]:
         atoms = atoms_of(selection, context, number)
         if state != 0 or atoms.selected.any():
-            mesh = surface_of(atoms, probe).mesh(float(tolerance))
-            graphics.append((number, cgo_of(mesh, colors_of(atoms.keys, selection, color), atoms.selected)))
+            surface = surface_of(atoms, probe)
+            with refusals():
+                mesh = surface.mesh(float(tolerance))
+            place = number if number > 0 else cmd.get_state()
+            states[place] = cgo_of(mesh, colors_of(atoms.keys, selection, color), atoms.selected)
     name = free_name(name)
-    for number, cgo in graphics:
-        cmd.load_cgo(cgo, name, number if number > 0 else cmd.get_state(), zoom=0)
+    show(states, name)
     if not int(quiet):
-        print(f" meniscus: {name} has {len(graphics)} state{'s' * (len(graphics) > 1)}")
+        print(f" meniscus: {name} shows {len(states)} state{'s' * (len(states) > 1)}")
 
 
 @completed
@@ -208,8 +223,8 @@ EXAMPLES
     of_selection = {kind: float(values[atoms.selected].sum()) for kind, values in areas.items()}
     for column, kind in (("b", b), ("q", q)):
         if kind:
-            of_atom = dict(zip(itertools.compress(atoms.keys, atoms.selected), areas[kind][atoms.selected]))
-            cmd.alter(selection, f"{column} = float(area.get((model, index), 0))", space={"area": of_atom, "float": float})
+            of_atom = dict(zip(atoms.keys, areas[kind].tolist()))
+            cmd.alter(selection, f"{column} = area.get((model, index), 0.0)", space={"area": of_atom})
     if not int(quiet):
         print(f" meniscus_area: {len(atoms.keys)} atoms, probe {probe:g} A")
         print(f" SES {ses.area:.2f} A^2, {ses.volume:.2f} A^3; SAS {sas.area:.2f} A^2, {sas.volume:.2f} A^3")
@@ -244,21 +259,19 @@ EXAMPLES
     meniscus_pockets polymer
     meniscus_pockets polymer, min_volume=100, name=site
     """
-    meniscus = the_library()
     number = int(state) if int(state) > 0 else cmd.get_state()
     atoms, probe = atoms_of(selection, context, int(state) or -1), probe_of(probe)
-    try:
-        found = surface_of(atoms, probe).pockets(float(large_probe), min_volume=float(min_volume))
-    except meniscus.Error as error:
-        raise CmdException(str(error)) from error
+    surface = surface_of(atoms, probe)
+    with refusals():
+        found = surface.pockets(float(large_probe), min_volume=float(min_volume))
     found = [pocket for pocket in found if atoms.selected[pocket.atoms].any()]
     name = free_name(name)
     for place, (pocket, color) in enumerate(zip(found, itertools.cycle(util._color_cycle)), 1):
         with warnings.catch_warnings():  # probes lie closer together than atoms do
             warnings.simplefilter("ignore")
-            balls = meniscus.surface(pocket.probes, probe, kind="vdw").mesh(0.1)
+            balls = the_library().surface(pocket.probes, probe, kind="vdw").mesh(0.1)
         colors = np.tile(cmd.get_color_tuple(color), (len(pocket.probes), 1))
-        cmd.load_cgo(cgo_of(balls, colors), f"{name}_{place}", number, zoom=0)
+        show({number: cgo_of(balls, colors)}, f"{name}_{place}")
         cmd.group(name, f"{name}_{place}")
         if not int(quiet):
             mouths = "".join(f", mouth {area:.1f} A^2" for area in pocket.mouth_areas)

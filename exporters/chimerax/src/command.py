@@ -14,8 +14,8 @@ class ExactSurface(Surface):
 
 
 def geometry(mesh, colors):
-    """Vertices, normals, triangles and vertex colors of a meniscus.Mesh. Triangles share no vertices, so that the colors
-    of atoms meet exactly where patches do, and normals at cusps are exact on both sides."""
+    """Vertices, normals, triangles and vertex colors of a meniscus.Mesh. Triangles share no vertices, so that colors of
+    atoms meet exactly where patches do, and normals at cusps are exact on both sides."""
     corners = mesh.triangles.ravel()
     normals = mesh.normals[corners]
     normals[mesh.sharp_corners] = mesh.sharp_normals
@@ -25,14 +25,15 @@ def geometry(mesh, colors):
 
 
 def meniscus(session, atoms=None, *, probe_radius=1.4, tolerance=0.05):
-    """One model for each structure that atoms belong to. As in ChimeraX's own surfaces, atoms outside of chains (solvent,
-    ligands, ions) are left out unless there are no others, and atoms that were not given do not count.
+    """One model for each structure that atoms belong to. As in ChimeraX's own surfaces, atoms outside of chains
+    (solvent, ligands, ions) are left out unless there are no others, and atoms that were not given do not count.
 
     probe_radius, tolerance: Å. Returns the models."""
     try:
         import meniscus as library
     except ImportError as error:
-        raise UserError(f"Meniscus is not in ChimeraX's Python ({error}); install it by the command: pip install meniscus") from error
+        raise UserError(f"Meniscus is not in ChimeraX's Python ({error}); install it by the command: "
+                        "pip install meniscus") from error
     atoms = all_atoms(session) if atoms is None else atoms
     in_chains = atoms.filter(atoms.in_chains)
     models = []
@@ -48,8 +49,8 @@ def meniscus(session, atoms=None, *, probe_radius=1.4, tolerance=0.05):
         structure.add([model])
         models.append(model)
         session.logger.info(
-            f"{structure}: {len(part)} atoms, probe {probe_radius:g} Å: solvent-excluded area {exact.area:.2f} Å², volume "
-            f"{exact.volume:.2f} Å³; solvent-accessible area {exact.atom_sas_areas.sum():.2f} Å²", is_html=False)
+            f"{structure}: {len(part)} atoms, probe {probe_radius:g} Å: solvent-excluded area {exact.area:.2f} Å², "
+            f"volume {exact.volume:.2f} Å³; solvent-accessible area {exact.atom_sas_areas.sum():.2f} Å²", is_html=False)
     if not models:
         raise UserError("there are no atoms")
     return models

@@ -408,8 +408,8 @@ print("FOUND", cmd.get_names(), [list(map(list, cmd.get_extent(name))) for name 
         from pymol import cmd
         with mock.patch.object(cmd, "load_cgo") as load_cgo:
             exec(self.export("whole.py").read_text(), {})
-        (shape, name), = (call.args for call in load_cgo.call_args_list)
-        self.assertEqual(name, "meniscus_1")
+        (shape, name, state), = (call.args for call in load_cgo.call_args_list)
+        self.assertEqual((name, state), ("meniscus_1", 1))
         rows = np.array(shape[2:-1]).reshape(-1, 3, 12)
         np.testing.assert_allclose(rows[:, :, 9:], self.positions[self.triangles], atol=1e-6)
         red = self.vertices["red"][self.triangles] / 255

@@ -56,8 +56,8 @@ class Plugin(unittest.TestCase):
         self.exact = meniscus.surface(*atoms("ubi and polymer"))
 
     def test_the_surface_has_the_extent_of_the_library_s_and_leaves_out_water(self):
-        self.assertIn("meniscus has 1 state\n", said_by("meniscus ubi"))
-        vertices = self.exact.mesh(0.05).vertices
+        self.assertIn("meniscus shows 1 state\n", said_by("meniscus ubi"))
+        vertices = self.exact.mesh(0.1).vertices
         found = np.array(cmd.get_extent("meniscus"))
         np.testing.assert_allclose(found, [vertices.min(axis=0), vertices.max(axis=0)], atol=1e-4)
 
@@ -164,6 +164,8 @@ class Plugin(unittest.TestCase):
                       "flag ignore, solvent, clear", said_by("meniscus solvent"))
         self.assertIn("'resn XYZ' selects no atoms", said_by("meniscus_area resn XYZ"))
         self.assertIn("probe_radius: -1 Å is negative", said_by("meniscus ubi, probe=-1"))
+        self.assertIn("tolerance", said_by("meniscus ubi, tolerance=0").splitlines()[0])
+        self.assertIn("large_probe", said_by("meniscus_pockets ubi, large_probe=1").splitlines()[0])
         self.assertIn("no atoms in this state", said_by("meniscus_area ubi, state=7"))
         with mock.patch.dict(sys.modules, {"meniscus": None}), self.assertRaisesRegex(CmdException, "-m pip install meniscus"):
             plugin.meniscus("ubi")
