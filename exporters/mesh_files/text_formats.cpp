@@ -84,12 +84,13 @@ from pymol.cgo import BEGIN, COLOR, END, NORMAL, TRIANGLES, VERTEX
 
 
 def show(name, vertices, triangles):
-    """Loads an object: rows of position, normal and color, and for each triangle the numbers of three rows."""
-    rows = [list(map(float, line.split())) for line in vertices.strip().splitlines()]
-    corners = [(COLOR, *row[6:], NORMAL, *row[3:6], VERTEX, *row[:3]) for row in rows]
+    """Loads an object. Rows of vertices: position, normal, color; of triangles: three vertices and, if it has one, a color."""
+    corners = [list(map(float, line.split())) for line in vertices.strip().splitlines()]
     shape = [BEGIN, TRIANGLES]
-    for number in triangles.split():
-        shape.extend(corners[int(number)])
+    for line in triangles.strip().splitlines():
+        numbers = list(map(int, line.split()))
+        for corner in (corners[n] for n in numbers[:3]):
+            shape += [COLOR, *(c / 255 for c in numbers[3:] or corner[6:]), NORMAL, *corner[3:6], VERTEX, *corner[:3]]
     cmd.load_cgo(shape + [END], name, 1)
 
 
@@ -101,16 +102,21 @@ void write_pymol_script(OutputFile& file, const MeshFile& mesh) {
   file.write(fmt::format("# {}\n{}", mesh.about, kPymolScript));
   std::size_t place = 0;
   for (const FileObject& object : mesh.objects) {
-    file.write(text_of_rows(fmt::format("show(\"meniscus_{}\", \"\"\"\n", ++place), object.positions.size(),
-                            [&](std::size_t v, auto out) {
-                              const glm::vec3 &x = object.positions[v], &n = object.normals[v];
-                              const auto& [red, green, blue] = object.colors[v];
-                              fmt::format_to(out, FMT_COMPILE("{} {} {} {:.6g} {:.6g} {:.6g} {:.4f} {:.4f} {:.4f}\n"),
-                                             x.x, x.y, x.z, n.x, n.y, n.z, red / 255.0, green / 255.0, blue / 255.0);
-                            }));
+    const std::string beginning = fmt::format("show(\"meniscus_{}\", \"\"\"\n", ++place);
+    file.write(text_of_rows(beginning, object.positions.size(), [&](std::size_t v, auto out) {
+      const glm::vec3 &x = object.positions[v], &n = object.normals[v];
+      const auto& [red, green, blue] = object.colors[v];
+      fmt::format_to(out, FMT_COMPILE("{} {} {} {:.6g} {:.6g} {:.6g} {} {} {}\n"), x.x, x.y, x.z, n.x, n.y, n.z, red,
+                     green, blue);
+    }));
     file.write(text_of_rows("\"\"\", \"\"\"\n", object.triangles.size(), [&](std::size_t t, auto out) {
-      const auto& [a, b, c] = object.triangles[t];
-      fmt::format_to(out, FMT_COMPILE("{} {} {}\n"), a, b, c);
+      fmt::format_to(out, FMT_COMPILE("{} {} {}"), object.triangles[t][0], object.triangles[t][1],
+                     object.triangles[t][2]);
+      if (!object.triangle_colors.empty()) {
+        const auto& [red, green, blue] = object.triangle_colors[t];
+        fmt::format_to(out, FMT_COMPILE(" {} {} {}"), red, green, blue);
+      }
+      *out = '\n';
     }));
     file.write("\"\"\")\n");
   }
