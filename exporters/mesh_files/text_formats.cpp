@@ -84,7 +84,7 @@ from pymol.cgo import BEGIN, COLOR, END, NORMAL, TRIANGLES, VERTEX
 
 
 def show(name, vertices, triangles):
-    """Loads an object. Rows of vertices: position, normal, color; of triangles: three vertices and, if it has one, a color."""
+    """Loads an object from rows: position, normal and color of vertices; vertices and, if any, color of triangles."""
     corners = [list(map(float, line.split())) for line in vertices.strip().splitlines()]
     shape = [BEGIN, TRIANGLES]
     for line in triangles.strip().splitlines():

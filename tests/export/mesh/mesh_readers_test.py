@@ -404,13 +404,17 @@ print("FOUND", cmd.get_names(), [list(map(list, cmd.get_extent(name))) for name 
         self.assertEqual(names, ["meniscus_1", "meniscus_2", "meniscus_3"])
         np.testing.assert_allclose(extents[0], [self.positions.min(axis=0), self.positions.max(axis=0)], atol=1e-3)
 
-    def test_triangles_have_the_colors_of_their_atoms(self):
+    def corners(self, *words):
+        """What a script loads: of each corner its color, normal and position, each behind its sign."""
         from pymol import cmd
         with mock.patch.object(cmd, "load_cgo") as load_cgo:
-            exec(self.export("whole.py").read_text(), {})
+            exec(self.export("whole.py", MOLECULE, *words).read_text(), {})
         (shape, name, state), = (call.args for call in load_cgo.call_args_list)
         self.assertEqual((name, state), ("meniscus_1", 1))
-        rows = np.array(shape[2:-1]).reshape(-1, 3, 12)
+        return np.array(shape[2:-1]).reshape(-1, 3, 12)
+
+    def test_triangles_have_the_colors_of_their_atoms(self):
+        rows = self.corners(*WORDS)
         np.testing.assert_allclose(rows[:, :, 9:], self.positions[self.triangles], atol=1e-6)
         of_corners = np.stack([self.vertices[c] for c in ("red", "green", "blue")], axis=1)[self.triangles]
         inside = (of_corners == of_corners[:, :1]).all(axis=(1, 2))  # elsewhere those of corners blend
@@ -418,6 +422,17 @@ print("FOUND", cmd.get_names(), [list(map(list, cmd.get_extent(name))) for name 
         np.testing.assert_allclose(rows[inside][:, :, 1:4], of_corners[inside] / 255, atol=1e-6)
         self.assertTrue((rows[:, :, 1:4] == rows[:, :1, 1:4]).all())
         self.assertLess(len(np.unique(rows[:, 0, 1:4], axis=0)), 77)
+
+    def test_colors_of_a_map_change_within_triangles(self):
+        low, high = self.positions.min(axis=0) - 3, self.positions.max(axis=0) + 3
+        step = " ".join(map(str, high - low)).split()
+        values = " ".join(str(x) for x in (-1, 1) for _ in range(4))
+        (self.folder / "a.dx").write_text(
+            f"object 1 class gridpositions counts 2 2 2\norigin {low[0]} {low[1]} {low[2]}\ndelta {step[0]} 0 0\n"
+            f"delta 0 {step[1]} 0\ndelta 0 0 {step[2]}\nobject 2 class gridconnections counts 2 2 2\n"
+            f"object 3 class array type double rank 0 items 8 data follows\n{values}\n")
+        rows = self.corners("--color-map-file", str(self.folder / "a.dx"), "--color-range=-1:1", "--tolerance", "0.3", "-q")
+        self.assertGreater((rows[:, :, 1:4] != rows[:, :1, 1:4]).any(axis=(1, 2)).mean(), 0.5)
 
     def test_ply_as_text_comes_a_hundred_times_as_large(self):
         path = self.export("text.ply", MOLECULE, *WORDS, "--format", "ply-ascii", "--scale", "0.01")
