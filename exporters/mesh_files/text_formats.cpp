@@ -83,7 +83,7 @@ constexpr std::string_view kPymolScript = R"(from pymol import cmd
 from pymol.cgo import BEGIN, COLOR, END, NORMAL, TRIANGLES, VERTEX
 
 
-def show(name, vertices, triangles):
+def show_of_meniscus(name, vertices, triangles):
     """Loads an object from rows: position, normal and color of vertices; vertices and, if any, color of triangles."""
     corners = [list(map(float, line.split())) for line in vertices.strip().splitlines()]
     shape = [BEGIN, TRIANGLES]
@@ -102,7 +102,7 @@ void write_pymol_script(OutputFile& file, const MeshFile& mesh) {
   file.write(fmt::format("# {}\n{}", mesh.about, kPymolScript));
   std::size_t place = 0;
   for (const FileObject& object : mesh.objects) {
-    const std::string beginning = fmt::format("show(\"meniscus_{}\", \"\"\"\n", ++place);
+    const std::string beginning = fmt::format("show_of_meniscus(\"meniscus_{}\", \"\"\"\n", ++place);
     file.write(text_of_rows(beginning, object.positions.size(), [&](std::size_t v, auto out) {
       const glm::vec3 &x = object.positions[v], &n = object.normals[v];
       const auto& [red, green, blue] = object.colors[v];

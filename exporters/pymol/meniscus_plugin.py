@@ -137,7 +137,7 @@ def cgo_of(mesh, colors, shown=None):
     return [BEGIN, TRIANGLES, *rows.ravel().tolist(), END]
 
 
-def show(states, name):
+def load_states(states, name):
     """Loads CGOs by the numbers of their states. States between them are there, too, but empty: without them PyMOL 2.5
     breaks down."""
     for number in range(1, max(states) + 1):
@@ -186,7 +186,7 @@ EXAMPLES
             place = number if number > 0 else cmd.get_state()
             states[place] = cgo_of(mesh, colors_of(atoms.keys, selection, color), atoms.selected)
     name = free_name(name)
-    show(states, name)
+    load_states(states, name)
     if not int(quiet):
         print(f" meniscus: {name} shows {len(states)} state{'s' * (len(states) > 1)}")
 
@@ -271,7 +271,7 @@ EXAMPLES
             warnings.simplefilter("ignore")
             balls = the_library().surface(pocket.probes, probe, kind="vdw").mesh(0.1)
         colors = np.tile(cmd.get_color_tuple(color), (len(pocket.probes), 1))
-        show({number: cgo_of(balls, colors)}, f"{name}_{place}")
+        load_states({number: cgo_of(balls, colors)}, f"{name}_{place}")
         cmd.group(name, f"{name}_{place}")
         if not int(quiet):
             mouths = "".join(f", mouth {area:.1f} A^2" for area in pocket.mouth_areas)

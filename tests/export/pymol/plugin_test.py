@@ -14,14 +14,13 @@ import meniscus
 import numpy as np
 
 try:
-    import pymol
+    from pymol import CmdException, cmd
 except ImportError:
     print("skipped: PyMOL is not in this Python; Debian's python3-pymol has it")
     sys.exit(77)
 
 PLUGIN = sys.argv.pop(1)
 UBIQUITIN = pathlib.Path("/usr/share/freesasa/test-data/1ubq.pdb")  # with water
-from pymol import CmdException, cmd  # noqa: E402
 
 spec = importlib.util.spec_from_file_location("meniscus_plugin", PLUGIN)
 plugin = importlib.util.module_from_spec(spec)
@@ -169,6 +168,13 @@ class Plugin(unittest.TestCase):
         self.assertIn("no atoms in this state", said_by("meniscus_area ubi, state=7"))
         with mock.patch.dict(sys.modules, {"meniscus": None}), self.assertRaisesRegex(CmdException, "-m pip install meniscus"):
             plugin.meniscus("ubi")
+
+    def test_names_of_users_do_not_break_it(self):
+        """`run` shares one namespace with scripts and with what is typed."""
+        said_by(f"run {PLUGIN}")
+        said_by("import meniscus")
+        said_by("show = name = states = None")
+        self.assertIn("shows 1 state", said_by("meniscus ubi, tolerance=0.5"))
 
     def test_a_script_loads_it_as_users_do(self):
         with tempfile.TemporaryDirectory() as folder:
