@@ -12,15 +12,20 @@
 
 namespace meniscus {
 
-void write_ply(OutputFile& file, const MeshFile& mesh) {
+std::string ply_header(std::string_view form, const MeshFile& mesh) {
   const FileObject& object = mesh.objects.front();
-  std::string header = fmt::format("ply\nformat binary_little_endian 1.0\ncomment {}\nelement vertex {}\n", mesh.about,
-                                   object.positions.size());
+  std::string header =
+      fmt::format("ply\nformat {} 1.0\ncomment {}\nelement vertex {}\n", form, mesh.about, object.positions.size());
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) header += fmt::format("property float {}\n", name);
   for (const char* name : {"red", "green", "blue"}) header += fmt::format("property uchar {}\n", name);
   for (const VertexNumbers& column : object.numbers) header += fmt::format("property float {}\n", column.name);
   header +=
       fmt::format("element face {}\nproperty list uchar int vertex_indices\nend_header\n", object.triangles.size());
+  return header;
+}
+
+void write_ply(OutputFile& file, const MeshFile& mesh) {
+  const FileObject& object = mesh.objects.front();
   BinaryRows rows;
   for (std::size_t v = 0; v < object.positions.size(); ++v) {
     rows.put(object.positions[v]);
@@ -32,7 +37,7 @@ void write_ply(OutputFile& file, const MeshFile& mesh) {
     rows.put(std::uint8_t{3});
     rows.put(triangle);
   }
-  file.write(header);
+  file.write(ply_header("binary_little_endian", mesh));
   file.write(rows.bytes());
 }
 

@@ -105,6 +105,9 @@ void MeshFileMaker::put(const SurfaceView& object, FineMesh mesh) {
   for (const glm::dvec3& x : mesh.mesh.positions) made.positions.emplace_back(request_.scale * x);
   for (const glm::dvec3& n : mesh.mesh.normals) made.normals.emplace_back(n);
   for (const glm::vec3& color : vertex_colors(mesh.mesh, object.coloring)) made.colors.push_back(bytes_of(color));
+  if (!object.coloring.volume)
+    for (std::size_t t = 0; t < mesh.mesh.triangles.size(); ++t)
+      made.triangle_colors.push_back(bytes_of(triangle_color(mesh.mesh, object.coloring, t)));
   for (std::size_t v = 0; v < made.positions.size(); ++v) {
     const std::uint32_t face = mesh.vertex_face[v];
     made.kind.push_back(face == kNone ? PatchKind::convex : object.surface.faces[face].kind);
@@ -153,6 +156,7 @@ MeshFile pocket_file(const TriangleMesh& mesh) {
       triangle[k] = vertex[v];
     }
     object.triangles.push_back(triangle);
+    object.triangle_colors.push_back(bytes_of(categorical_color(pocket)));
     object.component.push_back(pocket);
   }
   return file;

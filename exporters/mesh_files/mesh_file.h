@@ -34,9 +34,12 @@ struct FileObject {
   std::vector<glm::vec3> normals;                       ///< unit, towards the solvent
   std::vector<std::array<std::uint8_t, 3>> colors;      ///< sRGB
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from the solvent
-  std::vector<VertexNumbers> numbers;                   ///< alike in all objects of a file
-  std::vector<std::uint32_t> atom;                      ///< per vertex: into MeshFile::atoms
-  std::vector<PatchKind> kind;                          ///< per vertex
+  /// sRGB per triangle, which change exactly where patches do; empty where a map colours points, and of objects that
+  /// were joined.
+  std::vector<std::array<std::uint8_t, 3>> triangle_colors;
+  std::vector<VertexNumbers> numbers;    ///< alike in all objects of a file
+  std::vector<std::uint32_t> atom;       ///< per vertex: into MeshFile::atoms
+  std::vector<PatchKind> kind;           ///< per vertex
   std::vector<std::uint32_t> component;  ///< per triangle: each closed part of the file has a number of its own
   bool is_cavity = false;                ///< all of it bounds cavities
 };

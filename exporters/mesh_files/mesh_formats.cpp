@@ -21,6 +21,7 @@ void append(std::vector<T>& to, const std::vector<T>& more) {
 /// One object that has them all; the name of the first.
 FileObject joined(std::vector<FileObject> objects) {
   FileObject whole = std::move(objects.front());
+  whole.triangle_colors.clear();  // those of points remain, which all formats have
   for (std::size_t n = 1; n < objects.size(); ++n) {
     FileObject& next = objects[n];
     const auto first = static_cast<std::uint32_t>(whole.positions.size());
@@ -49,6 +50,8 @@ constexpr auto kFormats = std::to_array<MeshFormat>({
     {"smesh", "TetGen's facets", "", false, false, false, true, false, write_smesh},
     {"dms", "dots of dms", "Å", false, false, false, false, true, write_dms},
     {"ply", "PLY, binary", "", false, true, true, false, false, write_ply},
+    {"ply-ascii", "PLY, text", "", false, true, true, false, false, write_ascii_ply},
+    {"py", "script for PyMOL", "", true, true, false, false, false, write_pymol_script},
 });
 
 }  // namespace

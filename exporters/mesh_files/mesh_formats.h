@@ -16,7 +16,7 @@ inline constexpr double kSmallestFileScale = 1e-12, kLargestFileScale = 1e6;
 
 /// One format, one file beside this one.
 struct MeshFormat {
-  std::string_view word;   ///< how it is called, and the ending of its files without the dot
+  std::string_view word;   ///< how it is called, and the ending of its files without the dot, but for ply-ascii
   std::string_view title;  ///< for people
   std::string_view unit;   ///< that it says lengths are in; empty: it says none
   bool objects;            ///< more than one, with names

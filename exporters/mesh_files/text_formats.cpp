@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes the mesh formats that are lines of text: OBJ, OFF, smesh and DMS.
+// Writes the mesh formats that are lines of text: OBJ, OFF, smesh, DMS, PLY as text, and scripts for PyMOL.
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -59,6 +59,67 @@ void write_off(OutputFile& file, const MeshFile& mesh) {
     const auto& [a, b, c] = object.triangles[t];
     fmt::format_to(out, FMT_COMPILE("3 {} {} {}\n"), a, b, c);
   }));
+}
+
+void write_ascii_ply(OutputFile& file, const MeshFile& mesh) {
+  const FileObject& object = mesh.objects.front();
+  file.write(text_of_rows(ply_header("ascii", mesh), object.positions.size(), [&](std::size_t v, auto out) {
+    const glm::vec3 &x = object.positions[v], &n = object.normals[v];
+    const auto& [red, green, blue] = object.colors[v];
+    fmt::format_to(out, FMT_COMPILE("{} {} {} {} {} {} {} {} {}"), x.x, x.y, x.z, n.x, n.y, n.z, red, green, blue);
+    for (const VertexNumbers& column : object.numbers) fmt::format_to(out, FMT_COMPILE(" {}"), column.values[v]);
+    *out = '\n';
+  }));
+  file.write(text_of_rows("", object.triangles.size(), [&](std::size_t t, auto out) {
+    const auto& [a, b, c] = object.triangles[t];
+    fmt::format_to(out, FMT_COMPILE("3 {} {} {}\n"), a, b, c);
+  }));
+}
+
+namespace {
+
+// Behind it comes a call for each object, whose arguments are numbers in quotes.
+constexpr std::string_view kPymolScript = R"(from pymol import cmd
+from pymol.cgo import BEGIN, COLOR, END, NORMAL, TRIANGLES, VERTEX
+
+
+def show_of_meniscus(name, vertices, triangles):
+    """Loads an object from rows: position, normal and color of vertices; vertices and, if any, color of triangles."""
+    corners = [list(map(float, line.split())) for line in vertices.strip().splitlines()]
+    shape = [BEGIN, TRIANGLES]
+    for line in triangles.strip().splitlines():
+        numbers = list(map(int, line.split()))
+        for corner in (corners[n] for n in numbers[:3]):
+            shape += [COLOR, *(c / 255 for c in numbers[3:] or corner[6:]), NORMAL, *corner[3:6], VERTEX, *corner[:3]]
+    cmd.load_cgo(shape + [END], name, 1)
+
+
+)";
+
+}  // namespace
+
+void write_pymol_script(OutputFile& file, const MeshFile& mesh) {
+  file.write(fmt::format("# {}\n{}", mesh.about, kPymolScript));
+  std::size_t place = 0;
+  for (const FileObject& object : mesh.objects) {
+    const std::string beginning = fmt::format("show_of_meniscus(\"meniscus_{}\", \"\"\"\n", ++place);
+    file.write(text_of_rows(beginning, object.positions.size(), [&](std::size_t v, auto out) {
+      const glm::vec3 &x = object.positions[v], &n = object.normals[v];
+      const auto& [red, green, blue] = object.colors[v];
+      fmt::format_to(out, FMT_COMPILE("{} {} {} {:.6g} {:.6g} {:.6g} {} {} {}\n"), x.x, x.y, x.z, n.x, n.y, n.z, red,
+                     green, blue);
+    }));
+    file.write(text_of_rows("\"\"\", \"\"\"\n", object.triangles.size(), [&](std::size_t t, auto out) {
+      fmt::format_to(out, FMT_COMPILE("{} {} {}"), object.triangles[t][0], object.triangles[t][1],
+                     object.triangles[t][2]);
+      if (!object.triangle_colors.empty()) {
+        const auto& [red, green, blue] = object.triangle_colors[t];
+        fmt::format_to(out, FMT_COMPILE(" {} {} {}"), red, green, blue);
+      }
+      *out = '\n';
+    }));
+    file.write("\"\"\")\n");
+  }
 }
 
 // All count from 1.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The writers of the table, and what they share: rows of bytes, rows of text, text in XML. Each writes all of its file
-// but does not commit it.
+// The writers of the table, and what they share: rows of bytes, rows of text, text in XML.
 //
 // Each writes all of its file but does not commit it.
 #pragma once
@@ -45,6 +44,12 @@ void write_smesh(OutputFile& file, const MeshFile& mesh);
 void write_dms(OutputFile& file, const MeshFile& mesh);
 /// Binary little-endian PLY (G. Turk 1994).
 void write_ply(OutputFile& file, const MeshFile& mesh);
+/// The same as text.
+void write_ascii_ply(OutputFile& file, const MeshFile& mesh);
+/// Python that PyMOL runs: a compiled graphics object for each object, of numbers alone.
+void write_pymol_script(OutputFile& file, const MeshFile& mesh);
+/// The header of a PLY file in the form "binary_little_endian" or "ascii".
+std::string ply_header(std::string_view form, const MeshFile& mesh);
 
 static_assert(std::endian::native == std::endian::little);
 

@@ -17,6 +17,7 @@ install(TARGETS meniscus_openimageio meniscus_hdf5 LIBRARY DESTINATION lib/menis
         PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/exporters/blender/addon DESTINATION share/meniscus COMPONENT program
         PATTERN __pycache__ EXCLUDE)
+install(FILES ${CMAKE_SOURCE_DIR}/exporters/pymol/meniscus_plugin.py DESTINATION share/meniscus COMPONENT program)
 install(DIRECTORY ${share}/ DESTINATION share COMPONENT program)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs DESTINATION share/doc/meniscus COMPONENT program)
 install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/SECURITY.md DESTINATION share/doc/meniscus

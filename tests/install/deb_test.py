@@ -16,7 +16,7 @@ HOLDS = {
     "meniscus": {"usr/bin/meniscus", "usr/lib/meniscus/meniscus_openimageio.so", "usr/lib/meniscus/meniscus_hdf5.so",
                  "usr/share/man/man1/meniscus.1.gz", "usr/bin/meniscus-msms", "usr/bin/meniscus-nanoshaper", "usr/bin/meniscus-pdb_to_xyzr",
                  "usr/bin/meniscus-pdb_to_xyzrn", "usr/share/man/man1/meniscus-msms.1.gz",
-                 "usr/share/meniscus/addon/render_mns.py"},
+                 "usr/share/meniscus/addon/render_mns.py", "usr/share/meniscus/meniscus_plugin.py"},
     "libmeniscus0": {f"{LIBRARIES}/libmeniscus.so.0", f"{LIBRARIES}/libmeniscus.so.{{version}}"},
     "libmeniscus-dev": {"usr/include/meniscus/meniscus.h", "usr/include/meniscus/meniscus.hpp",
                         f"{LIBRARIES}/libmeniscus.so", f"{LIBRARIES}/pkgconfig/meniscus.pc",

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Programs that call MSMS, unmodified, with meniscus-msms in its place: Biopython, OpenStructure, Jmol, PyMOL; and a client
-of the server, as VMD is one."""
+"""Programs that call MSMS, unmodified, with meniscus-msms in its place: Biopython, OpenStructure, Jmol, PyMOL, PyVOL; the
+words and readers of others that no package has; and a client of the server, as VMD is one."""
 
 import glob
 import importlib.util
@@ -15,7 +15,7 @@ import sys
 import time
 import unittest
 
-from msms_run import ANALYTIC, BUILD, MSMS, UBIQUITIN, Folder, run, table, triangles, vertices
+from msms_run import ANALYTIC, BUILD, MSMS, TOXIN, UBIQUITIN, Folder, run, table, triangles, vertices
 
 
 def has(module):
@@ -36,7 +36,7 @@ class WithMsmsInPath(Folder):
     def script(self, text):
         path = self.folder / "script.py"
         path.write_text(text)
-        done = run("/usr/bin/python3", "-B", path, env=self.environment, cwd=self.folder)
+        done = run(sys.executable, "-B", path, env=self.environment, cwd=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stdout.split()
 
@@ -140,6 +140,94 @@ with pymol2.PyMOL() as pymol:
         for axis in range(3):
             self.assertTrue(0.8 < molecule[axis] - surface[axis] < 6)
             self.assertTrue(0.8 < surface[axis + 3] - molecule[axis + 3] < 6)
+
+
+@unittest.skipUnless(has("pyvol"), "bio-pyvol is not installed; scripts/more_mesh_readers.sh does it")
+class PyVol(WithMsmsInPath):
+    def test_surfaces_of_both_probes_and_a_cavity(self):
+        """Its defaults: 1.4 Å, and 3.4 Å for the large probe that tells pockets from the outside."""
+        self.molecule(TOXIN)
+        told = self.script("""
+import warnings; warnings.simplefilter("ignore")
+import numpy
+from pyvol.spheres import Spheres
+spheres = Spheres(xyzr=numpy.loadtxt("in.xyzr"))
+for probe in (1.4, 3.4):
+    surface, = spheres.calculate_surface(probe_radius=probe)
+    print(surface.mesh.is_watertight, surface.mesh.volume)
+parts = spheres.calculate_surface(probe_radius=1.4, all_components=True, min_volume=0)
+print(len(parts), all(part.mesh.is_watertight for part in parts))
+# an atom that lines a cavity; PyVOL numbers it from 0
+cavity = min(parts, key=lambda part: abs(part.mesh.volume - 100))
+atom = int(numpy.argmin(numpy.linalg.norm(spheres.xyz - cavity.mesh.vertices[0], axis=1) - spheres.r))
+found, = spheres.calculate_surface(probe_radius=1.4, cavity_atom=atom)
+print(found.mesh.volume, cavity.mesh.volume)
+""")
+        small, large = float(told[1]), float(told[3])
+        self.assertEqual((told[0], told[2], told[5]), ("True", "True", "True"))
+        self.assertTrue(70_000 < small < large < 110_000, told)
+        self.assertGreater(int(told[4]), 10)
+        self.assertAlmostEqual(float(told[6]), float(told[7]), places=3)
+
+
+class Conventions(Folder):
+    """What programs give to msms, word by word, and read of its files."""
+
+    def read(self, name="out", header=3):
+        """Rows as those read that throw three lines away and take the count from the third, or that have none."""
+        read = []
+        for ending, width in (("vert", (9, 10)), ("face", (5,))):
+            lines = (self.folder / f"{name}.{ending}").read_text().rstrip().split("\n")
+            if header:
+                self.assertEqual(int(lines[2].split()[0]), len(lines) - header)
+            read.append([line.split() for line in lines[header:]])
+            self.assertTrue({len(row) for row in read[-1]} <= set(width))
+        positions = [tuple(map(float, row[:3])) for row in read[0]]
+        corners = [tuple(int(word) - 1 for word in row[:3]) for row in read[1]]
+        edges = {(corner[k], corner[k - 2]) for corner in corners for k in range(3)}
+        self.assertTrue(all((b, a) in edges for a, b in edges))  # closed
+        self.assertEqual({corner for row in corners for corner in row}, set(range(len(positions))))
+        return read
+
+    def test_masif(self):
+        """Names of vertices are the keys of areas; surfaces for learning and design (SurfDock, too)."""
+        lines = self.molecule(program="meniscus-pdb_to_xyzrn").read_text().splitlines()
+        names = [f"A_{line.split()[-1]}_Green" for line in lines]
+        self.spheres("".join(" ".join([*line.split()[:4], "1", name]) + "\n" for line, name in zip(lines, names)), "in.xyzrn")
+        self.msms("-density", "3.0", "-hdensity", "3.0", "-probe", "1.5", "-if", "in.xyzrn", "-of", "out", "-af", "out")
+        rows, _ = self.read()
+        areas = {row[3]: float(row[1]) for row in map(str.split, (self.folder / "out.area").read_text().splitlines()[1:])}
+        self.assertEqual(set(areas), set(names))
+        self.assertTrue({row[9] for row in rows} <= set(areas))
+
+    def test_pygbe(self):
+        """By its recipe, without headers; inner cavities by one more word."""
+        self.molecule(TOXIN)
+        self.msms("-if", "in.xyzr", "-of", "out", "-prob", "1.4", "-d", "2", "-no_header")
+        self.read(header=0)
+        self.msms("-if", "in.xyzr", "-of", "all", "-prob", "1.4", "-d", "2", "-no_header", "-all_components")
+        self.read("all_1", header=0)
+
+    def test_pbj(self):
+        self.molecule()
+        self.msms("-if", self.folder / "in.xyzr", "-of", self.folder / "out", "-p", "1.4", "-d", "2.0", "-no_header")
+        self.read(header=0)
+
+    def test_tabi_pb_and_mibpb(self):
+        """Those of before NanoShaper, in C and in Fortran: five characters of density, two titles, a count, rows."""
+        self.molecule()
+        for words in (("-de", "10.00"), ("-dens", "10")):
+            self.msms("-if", "in.xyzr", "-prob", "1.4", *words, "-of", "out")
+            self.assertGreater(len(self.read()[0]), 20_000)
+
+    def test_pyvol(self):
+        """Its large probe on a protein of several chains; the names that it looks for with all components."""
+        self.molecule(TOXIN)
+        self.msms("-if", "in.xyzr", "-of", "out", "-probe_radius", "3.4", "-no_area", "-noh")
+        self.read()
+        self.msms("-if", "in.xyzr", "-of", "all", "-probe_radius", "1.4", "-no_area", "-noh", "-all_components")
+        for path in sorted(self.folder.glob("all_*.face")):
+            self.read(path.stem)
 
 
 class Server(Folder):

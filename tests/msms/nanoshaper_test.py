@@ -131,6 +131,15 @@ class NanoShaper(Folder):
         self.assertEqual((shells(whole), shells(filled)), (1 + len(cavities), 1 + len(large)))
         self.assertGreater(area_and_volume(filled)[1], area_and_volume(whole)[1])
 
+    def test_the_template_of_pbj(self):
+        """Blanks at ends of lines, numbers with zeros before them, a path, and no end of the last line."""
+        path = self.molecule()
+        text = CONFIGURATION.format(scale="02.0 ", fill="false").replace("molecule.xyzr", f"{path} ")
+        (self.folder / "surfaceConfiguration.prm").write_text(
+            text.replace("Surface = ses", "Surface = ses ") + "Self_Intersections_Grid_Coefficient = 2")
+        self.good(BUILD / "meniscus-nanoshaper", cwd=self.folder)
+        self.assertGreater(len(read_mesh(self.folder).triangles), 10_000)
+
     def test_another_file_may_be_named(self):
         self.shape()
         (self.folder / "surfaceConfiguration.prm").rename(self.folder / "other.prm")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""mesh_readers_test.py PROGRAM [BLENDER]: mesh files in other programs. ADMesh, TetGen, meshio, Assimp and Blender read
+"""mesh_readers_test.py PROGRAM [BLENDER]: mesh files in other programs. ADMesh, TetGen, meshio, Assimp, PyMOL and Blender read
 what `meniscus export mesh` writes, and find the triangles, the bounds, the volume and the colours of the PLY file, nothing
 open, nothing that meets itself; VTP, DMS and the numbers of GLB, which none of these reads, are read here."""
 
@@ -16,6 +16,7 @@ import sys
 import tempfile
 import unittest
 import zipfile
+from unittest import mock
 from xml.etree import ElementTree
 
 import numpy as np
@@ -307,7 +308,7 @@ class Contents(Case):
 
     @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full")
     def test_no_half_file_where_there_is_no_room(self):
-        for ending in ("stl", "3mf", "obj", "off", "glb", "vtp", "smesh", "dms", "ply"):
+        for ending in ("stl", "3mf", "obj", "off", "glb", "vtp", "smesh", "dms", "ply", "py"):
             with self.subTest(ending):
                 path = self.folder / f"full.{ending}"
                 done = subprocess.run(["sh", "-c", 'ulimit -f 100; trap "" XFSZ; exec "$@"', "sh", PROGRAM, "export",
@@ -383,6 +384,75 @@ class Assimp(Case):
             path = self.export("p." + ending, MOLECULE, *WORDS, "--by", "component")
             said = self.tool("assimp", "info", path)
             self.assertEqual(int(re.search(r"^Meshes: +(\d+)", said, re.M)[1]), 3, said)
+
+
+@unittest.skipUnless(importlib.util.find_spec("pymol"), "python3-pymol is not installed")
+class Pymol(Case):
+    def said_by(self, text):
+        script = self.folder / "in_pymol.py"
+        script.write_text("from pymol import cmd\n" + text)
+        return self.tool(sys.executable, "-m", "pymol", "-cq", script)
+
+    def test_a_script_shows_each_object(self):
+        path = self.export("parts.py", MOLECULE, *WORDS, "--by", "component")
+        said = self.said_by(f"""
+cmd.load({str(path)!r})
+cmd.sync()
+print("FOUND", cmd.get_names(), [list(map(list, cmd.get_extent(name))) for name in cmd.get_names()])
+""")
+        names, extents = map(json.loads, re.search(r"FOUND (\[.*?\]) (.*)", said.replace("'", '"')).groups())
+        self.assertEqual(names, ["meniscus_1", "meniscus_2", "meniscus_3"])
+        np.testing.assert_allclose(extents[0], [self.positions.min(axis=0), self.positions.max(axis=0)], atol=1e-3)
+
+    def corners(self, *words):
+        """What a script loads: of each corner its color, normal and position, each behind its sign."""
+        from pymol import cmd
+        with mock.patch.object(cmd, "load_cgo") as load_cgo:
+            exec(self.export("whole.py", MOLECULE, *words).read_text(), {})
+        (shape, name, state), = (call.args for call in load_cgo.call_args_list)
+        self.assertEqual((name, state), ("meniscus_1", 1))
+        return np.array(shape[2:-1]).reshape(-1, 3, 12)
+
+    def test_triangles_have_the_colors_of_their_atoms(self):
+        rows = self.corners(*WORDS)
+        np.testing.assert_allclose(rows[:, :, 9:], self.positions[self.triangles], atol=1e-6)
+        of_corners = np.stack([self.vertices[c] for c in ("red", "green", "blue")], axis=1)[self.triangles]
+        inside = (of_corners == of_corners[:, :1]).all(axis=(1, 2))  # elsewhere those of corners blend
+        self.assertLess(0.2, inside.mean())
+        np.testing.assert_allclose(rows[inside][:, :, 1:4], of_corners[inside] / 255, atol=1e-6)
+        self.assertTrue((rows[:, :, 1:4] == rows[:, :1, 1:4]).all())
+        self.assertLess(len(np.unique(rows[:, 0, 1:4], axis=0)), 77)
+
+    def test_colors_of_a_map_change_within_triangles(self):
+        low, high = self.positions.min(axis=0) - 3, self.positions.max(axis=0) + 3
+        step = " ".join(map(str, high - low)).split()
+        values = " ".join(str(x) for x in (-1, 1) for _ in range(4))
+        (self.folder / "a.dx").write_text(
+            f"object 1 class gridpositions counts 2 2 2\norigin {low[0]} {low[1]} {low[2]}\ndelta {step[0]} 0 0\n"
+            f"delta 0 {step[1]} 0\ndelta 0 0 {step[2]}\nobject 2 class gridconnections counts 2 2 2\n"
+            f"object 3 class array type double rank 0 items 8 data follows\n{values}\n")
+        rows = self.corners("--color-map-file", str(self.folder / "a.dx"), "--color-range=-1:1", "--tolerance", "0.3", "-q")
+        self.assertGreater((rows[:, :, 1:4] != rows[:, :1, 1:4]).any(axis=(1, 2)).mean(), 0.5)
+
+    def test_ply_as_text_comes_a_hundred_times_as_large(self):
+        path = self.export("text.ply", MOLECULE, *WORDS, "--format", "ply-ascii", "--scale", "0.01")
+        said = self.said_by(f"""
+cmd.load({str(path)!r}, "a")
+print("FOUND", list(map(list, cmd.get_extent("a"))))
+""")
+        found = json.loads(re.search("FOUND (.*)", said)[1])
+        np.testing.assert_allclose(found, [self.positions.min(axis=0), self.positions.max(axis=0)], atol=1e-3)
+
+    def test_ply_as_text_holds_what_the_binary_one_does(self):
+        lines = self.export("text.ply", MOLECULE, *WORDS, *EXTRA, "--format", "ply-ascii").read_text().splitlines()
+        names = [line.split()[2] for line in lines if line.startswith("property") and "list" not in line]
+        self.assertEqual(tuple(names), self.vertices.dtype.names)
+        first = lines.index("end_header") + 1
+        rows = np.array([line.split() for line in lines[first:first + len(self.vertices)]], dtype=float)
+        for column, name in enumerate(names):
+            np.testing.assert_array_equal(rows[:, column].astype(self.vertices[name].dtype), self.vertices[name])
+        triangles = np.array([line.split() for line in lines[first + len(self.vertices):]], dtype=int)
+        np.testing.assert_array_equal(triangles[:, 1:], self.triangles)
 
 
 class Blender(Case):

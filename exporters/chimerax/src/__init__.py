@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Registers the bundle's command with ChimeraX."""
+from chimerax.core.toolshed import BundleAPI
+
+
+class _Bundle(BundleAPI):
+    api_version = 1
+
+    @staticmethod
+    def get_class(class_name):
+        """For sessions, which name the class of a model."""
+        from .command import ExactSurface
+        return ExactSurface if class_name == "ExactSurface" else None
+
+    @staticmethod
+    def register_command(bundle_info, command_info, logger):
+        from chimerax.core.commands import register
+
+        from .command import description, meniscus
+        description.synopsis = command_info.synopsis
+        register(command_info.name, description, meniscus, logger=logger)
+
+
+bundle_api = _Bundle()
