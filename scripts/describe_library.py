@@ -20,7 +20,7 @@ def versions(names):
 def of_elf(binary):
     needs = [version for requirement in binary.symbols_version_requirement for version in
              (auxiliary.name for auxiliary in requirement.get_auxiliary_symbols())]
-    names = [symbol.name for symbol in binary.exported_symbols]
+    names = {symbol.name for symbol in binary.exported_symbols}
     return binary.header.machine_type.name, versions(needs), list(binary.libraries), names
 
 

@@ -58,6 +58,9 @@ if ! compgen -G "$sources/gemmi-*/" > /dev/null; then
     [[ -f $work/gemmi-0.7.0.tar.gz ]]
   tar xzf "$work/gemmi-0.7.0.tar.gz" -C "$sources"
 fi
+# Their functions are for this library, and leave it under no system.
+sed -i 's/define _EXPORT .*/define _EXPORT/' "$sources"/onetbb-*/include/oneapi/tbb/detail/_export.h
+sed -i 's/__attribute__(( visibility( "default" ) ))/ /' "$sources"/freetype-*/include/freetype/config/public-macros.h
 source_of() { compgen -G "$sources/$1-*/" | head -n 1; }
 
 # ---- What the library is built of ----------------------------------------------------------------------------------------
@@ -68,7 +71,8 @@ with_cmake() {
   shift
   cmake -S "$folder" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_TOOLCHAIN_FILE="$root/scripts/cmake/zig.cmake" \
     -DMENISCUS_ZIG="$zig" -DMENISCUS_ZIG_TARGET="$triple" -DCMAKE_INSTALL_PREFIX="$prefix" -DCMAKE_FIND_ROOT_PATH="$prefix" \
-    -DCMAKE_PREFIX_PATH="$prefix" -DBUILD_SHARED_LIBS=OFF -DCMAKE_POSITION_INDEPENDENT_CODE=ON "$@"
+    -DCMAKE_PREFIX_PATH="$prefix" -DBUILD_SHARED_LIBS=OFF -DCMAKE_POSITION_INDEPENDENT_CODE=ON \
+    -DCMAKE_C_VISIBILITY_PRESET=hidden -DCMAKE_CXX_VISIBILITY_PRESET=hidden -DCMAKE_VISIBILITY_INLINES_HIDDEN=ON "$@"
   ninja -C "$build" install
 }
 
@@ -82,7 +86,7 @@ by_hand() {
     local language=(cc)
     [[ $file == *.cpp ]] && language=(c++ -std=c++17)
     # shellcheck disable=SC2086
-    "$zig" "${language[@]}" -target "$triple" -O2 -fPIC -w $flags -c "$folder/$file" -o "$object"
+    "$zig" "${language[@]}" -target "$triple" -O2 -fPIC -fvisibility=hidden -w $flags -c "$folder/$file" -o "$object"
     objects+=("$object")
   done
   rm -f "$prefix/lib/lib$name.a"
