@@ -54,8 +54,7 @@ for package in "${packages[@]}"; do
     { echo "targets.sh: Debian's source of $package cannot be had; see $work/$package.log" >&2; exit 1; }
 done
 if ! compgen -G "$sources/gemmi-*/" > /dev/null; then
-  "$tools/bin/pip" download -q --no-deps --no-binary :all: --no-build-isolation -d "$work" gemmi==0.7.0 > "$work/gemmi.log" 2>&1 ||
-    [[ -f $work/gemmi-0.7.0.tar.gz ]]
+  "$tools/bin/pip" download -q --no-deps --no-binary :all: -d "$work" gemmi==0.7.0 > "$work/gemmi.log" 2>&1
   tar xzf "$work/gemmi-0.7.0.tar.gz" -C "$sources"
 fi
 # Their functions are for this library, and leave it under no system.

@@ -28,11 +28,11 @@ TARGETS = {"x86_64-linux": ("manylinux_2_28_x86_64", "libmeniscus.so"),
 #: What is linked or compiled into the library: its name, licence, and where its text is, below build/targets/sources or in
 #: the system. The first file that is there counts.
 PARTS = [("oneTBB", "Apache-2.0", "onetbb-*/LICENSE.txt"), ("FreeType", "FTL", "freetype-*/docs/FTL.TXT"),
-         ("zlib", "Zlib", "/usr/share/doc/zlib1g-dev/copyright"), ("libdeflate", "MIT", "libdeflate-*/COPYING"),
+         ("zlib", "Zlib", "zlib-*/LICENSE"), ("libdeflate", "MIT", "libdeflate-*/COPYING"),
          ("fmt", "MIT", "fmtlib-*/LICENSE.rst"), ("musl", "MIT", "musl-*/COPYRIGHT"), ("gemmi", "MPL-2.0", "gemmi-*/LICENSE*"),
          ("PEGTL", "MIT", "/usr/share/doc/tao-pegtl-dev/copyright"), ("GLM", "MIT", "/usr/share/doc/libglm-dev/copyright"),
          ("nlohmann-json", "MIT", "/usr/share/doc/nlohmann-json3-dev/copyright"),
-         ("LLVM libc++", "Apache-2.0 WITH LLVM-exception", "../tools/lib/python3*/site-packages/ziglang/lib/libcxx/LICENSE.TXT")]
+         ("LLVM libc++", "Apache-2.0 WITH LLVM-exception", "../tools/lib/python3*/site-packages/ziglang-*.dist-info/licenses/ziglang/lib/libcxx/LICENSE.TXT")]
 
 
 def version():

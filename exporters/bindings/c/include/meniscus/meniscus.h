@@ -37,12 +37,19 @@
 #ifndef MENISCUS_MENISCUS_H
 #define MENISCUS_MENISCUS_H
 
+#if defined(__STDC_VERSION__) && __STDC_VERSION__ < 199901L
+#error "meniscus.h needs C99 or C++"
+#endif
+
 #include <stddef.h>
 #include <stdint.h>
 
-#if defined(MENISCUS_STATIC)
-#define MENISCUS_API
-#elif defined(_WIN32) && defined(MENISCUS_BUILDS_LIBRARY)
+/* Of this header; meniscus_version() tells that of the library. */
+#define MENISCUS_VERSION_MAJOR 0
+#define MENISCUS_VERSION_MINOR 1
+#define MENISCUS_VERSION_PATCH 0
+
+#if defined(_WIN32) && defined(MENISCUS_BUILDS_LIBRARY)
 #define MENISCUS_API __declspec(dllexport)
 #elif defined(_WIN32)
 #define MENISCUS_API __declspec(dllimport)

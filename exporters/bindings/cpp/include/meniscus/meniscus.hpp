@@ -23,6 +23,10 @@
 #ifndef MENISCUS_MENISCUS_HPP
 #define MENISCUS_MENISCUS_HPP
 
+#if __cplusplus < 202002L && (!defined(_MSVC_LANG) || _MSVC_LANG < 202002L)
+#error "meniscus.hpp needs C++20: -std=c++20 or /std:c++20; meniscus.h is for C99 and any C++"
+#endif
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
