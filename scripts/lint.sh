@@ -14,7 +14,7 @@ if [[ ${1:-} == --all ]]; then
   shift
 fi
 files=("$@")
-if ((${#files[@]} == 0)); then mapfile -t files < <(find "${folders[@]}" -name '*.cpp' | sort); fi
+if ((${#files[@]} == 0)); then mapfile -t files < <(find "${folders[@]}" -name '*.cpp' ! -name '*_windows.cpp' | sort); fi
 
 # How clang compiles each file, by itself and without precompiled headers: so nothing has to be built before.
 build=build/lint

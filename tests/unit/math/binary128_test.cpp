@@ -2,8 +2,9 @@
 // Quadruple precision in integers has the bits of the compiler's own.
 #include "core/math/binary128.h"
 
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <limits>
 #include <random>
 #include <vector>
@@ -15,6 +16,8 @@ namespace {
 
 #if defined(__SIZEOF_FLOAT128__)
 __extension__ typedef __float128 Quad;
+
+std::uint64_t bits(double number) { return std::bit_cast<std::uint64_t>(number); }
 
 /// A number in both kinds, made by the same operations.
 struct Pair {
@@ -41,7 +44,7 @@ void expect_equal(const Pair& a, const char* what) {
       << what << ": " << static_cast<double>(a.ours) << " and " << static_cast<double>(a.theirs) << ", apart by "
       << static_cast<double>(a.ours - converted);
   const auto x = static_cast<double>(a.ours), y = static_cast<double>(a.theirs);
-  EXPECT_TRUE(nan ? std::isnan(x) : std::memcmp(&x, &y, sizeof x) == 0) << what << " as double: " << x << ", " << y;
+  EXPECT_TRUE(nan ? std::isnan(x) : bits(x) == bits(y)) << what << " as double: " << x << ", " << y;
 }
 
 /// Numbers of many kinds: short and long ones, neighbors of powers of two, equal and opposite ones.
@@ -94,16 +97,14 @@ TEST(Binary128, EveryOperationHasTheBitsOfTheCompilersOwn) {
 TEST(Binary128, DoublesOfTheWholeRangeComeBack) {
   std::mt19937_64 engine(3);
   for (int n = 0; n < 200000; ++n) {
-    const std::uint64_t bits = engine();
-    double value;
-    std::memcpy(&value, &bits, sizeof value);
+    auto value = std::bit_cast<double>(engine());
     if (n % 4 == 0) value = std::ldexp(value, -1070);  // subnormal
     if (std::isnan(value)) continue;
     const auto back = static_cast<double>(Binary128(value));
-    ASSERT_EQ(std::memcmp(&back, &value, sizeof value), 0) << value;
+    ASSERT_EQ(bits(back), bits(value)) << value;
     // A third of it has many digits, also where doubles are subnormal.
     const auto third = static_cast<double>(Binary128(value) / 3), expected = static_cast<double>(Quad(value) / 3);
-    ASSERT_EQ(std::memcmp(&third, &expected, sizeof third), 0) << value;
+    ASSERT_EQ(bits(third), bits(expected)) << value;
   }
 }
 
