@@ -60,6 +60,7 @@ rows=(
   "peers|areas beside those of FreeSASA, GROMACS, MDTraj and PyMOL|bash scripts/compare_peers.sh build/test/meniscus"
   "faults|calls that fail, full disks, kills, other writers|ctest --test-dir build/test -L fault --timeout 1800 -j $jobs"
   "packages|the Debian packages in a bare Debian 12: installed, used, taken away|bash scripts/packaging/try_package.sh"
+  "targets|the library for Linux, Windows and macOS, and the same results of all that run here|bash scripts/targets.sh"
   "alone|the library alone, built and used in a bare Debian 12 with its three dependencies|bash scripts/packaging/try_library.sh"
   "image|the image of a farm node, built and at work on a film|bash scripts/packaging/try_image.sh"
   "option|an option is added in three files, and works through every door|bash scripts/add_option.sh"

@@ -186,7 +186,12 @@ for target in "${chosen[@]}"; do
   mkdir -p "$target_folder"
   echo "== $target" >&2
   log=$target_folder/build.log
-  if ! (set -e; [[ -f $prefix/done ]] || { build_dependencies; touch "$prefix/done"; }; build_library; collect) > "$log" 2>&1; then
+  # Not as a condition, where bash would go on after a failure.
+  set +e
+  (set -e; [[ -f $prefix/done ]] || { build_dependencies; touch "$prefix/done"; }; build_library; collect) > "$log" 2>&1
+  built=$?
+  set -e
+  if ((built)); then
     tail -n 5 "$log" >&2
     lines+=("$target: was not built; see $log")
     failed=1

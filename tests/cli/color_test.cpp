@@ -142,7 +142,7 @@ TEST_F(ColorCommand, WhatAMapDoesNotReachIsSaid) {
       {{"export", "povray"}, "povray"},
       {{"export", "mitsuba"}, "mitsuba"}};
   for (const auto& [door, name] : doors) {
-    const auto call = [&](const std::string& file, const std::string& of_map) {
+    const auto call = [&, &door = door, &name = name](const std::string& file, const std::string& of_map) {
       std::vector<std::string> words = door;
       words.insert(words.end(), {file, "-o", path(name), "--force", "--color-map-file", of_map, "--color-range=-1:1"});
       return meniscus(words);
