@@ -46,7 +46,8 @@ std::ptrdiff_t read_at(int file, std::byte* bytes, std::size_t count, std::uint6
 std::ptrdiff_t write(int file, const std::byte* bytes, std::size_t count);
 std::ptrdiff_t write_at(int file, const std::byte* bytes, std::size_t count, std::uint64_t offset);
 
-/// Brings what was written to the disk, whoever wrote it. File systems that cannot do it have not failed.
+/// Writes all bytes of the file to the disk, also those that another program wrote. True as well on file systems that
+/// have no such request.
 bool sync(const std::filesystem::path& path);
 /// Makes a rename durable, as far as the file system can.
 void sync_folder(const std::filesystem::path& folder);
