@@ -28,10 +28,10 @@ class Extension(unittest.TestCase):
             self.wheel(tag)
 
     def wheel(self, tag, version=None, license="licenses/LICENSE"):
-        """Its path."""
+        """Its path. Written again, it has the same bytes."""
         path = os.path.join(self.wheels, f"meniscus-{version or self.manifest['version']}-py3-none-{tag}.whl")
         with zipfile.ZipFile(path, "w") as file:
-            file.writestr(f"meniscus.dist-info/{license}", tag)
+            file.writestr(zipfile.ZipInfo(f"meniscus.dist-info/{license}"), tag)  # of 1980, not of now
         return path
 
     def make(self, *platforms):
