@@ -97,6 +97,14 @@ std::string to_string(const DeviceChoice& choice) {
   return {};
 }
 
+bool can_list_devices(std::string_view client_extensions) {
+  const auto has = [&](std::string_view name) {
+    const std::string words = ' ' + std::string(client_extensions) + ' ';
+    return words.find(' ' + std::string(name) + ' ') != words.npos;
+  };
+  return has("EGL_EXT_platform_device") && (has("EGL_EXT_device_base") || has("EGL_EXT_device_enumeration"));
+}
+
 std::vector<GlDevice> visible_gpus(const DeviceChoice& choice, std::span<const GlDevice> devices) {
   std::vector<GlDevice> gpus;
   std::ranges::copy_if(devices, std::back_inserter(gpus), [](const GlDevice& device) { return !device.software; });

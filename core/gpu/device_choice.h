@@ -53,6 +53,11 @@ std::optional<DeviceChoice> parse_device_choice(std::string_view text);
 /// The inverse, of kind, index and name: "auto", "gpu", "gpu:0", "software".
 std::string to_string(const DeviceChoice& choice);
 
+/// Whether an EGL with these client extensions (EGL_EXTENSIONS of no display) can list its devices and open one.
+/// EGL_EXT_device_base is the older name of EGL_EXT_device_query and EGL_EXT_device_enumeration together, and the only
+/// one that NVIDIA's driver gives.
+bool can_list_devices(std::string_view client_extensions);
+
 /// The hardware GPUs that count, in the order of "gpu:N".
 std::vector<GlDevice> visible_gpus(const DeviceChoice& choice, std::span<const GlDevice> devices);
 

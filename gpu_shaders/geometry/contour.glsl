@@ -4,8 +4,8 @@
 //
 // Common subset of GLSL and C++, below circle.glsl. What is left of the circle are variables: globals of a kernel, members
 // of a struct in C++, which has this file as its body (core/reduced_surface/contour/contour.h). The includer defines kUnitRoundoff and
-//   exposed_arcs               a list of ExposedArc, indexed by uint
-//   bool hold_arcs(uint count) makes room for so many; false if there is none
+//   ExposedArc get_arc(uint n)            one of a list, and
+//   bool set_arc(uint n, ExposedArc arc)  puts it there, behind the last one too; false if there is no room
 
 Circle contour_circle;
 real contour_weight;  // of the circle's first ball
@@ -37,7 +37,7 @@ GEOMETRY bool contour_is_covered() { return !exposed_whole && exposed_count == 0
 GEOMETRY bool contour_ended() { return exposed_doubtful || contour_is_covered(); }
 
 GEOMETRY void expose_arc(ExposedArc arc) {
-  if (hold_arcs(exposed_count + 1u)) exposed_arcs[exposed_count++] = arc;
+  if (set_arc(exposed_count, arc)) ++exposed_count;
   else exposed_doubtful = true;
 }
 
@@ -53,12 +53,12 @@ GEOMETRY void cover_arc(CoveredArc covered, uint label) {
   bool split = false;  // at most one arc is
   ExposedArc second = exposed_arc(real(0), real(0), label, label);
   for (uint n = 0u; n < exposed_count; ++n) {
-    ExposedArc arc = exposed_arcs[n];
+    ExposedArc arc = get_arc(n);
     real margin;
     int change = cut_arc(arc, covered, label, second, margin);
     if (!(margin > real(2) * exposed_error + real(16) * kUnitRoundoff)) exposed_doubtful = true;
     if (change == kSplit) split = true;
-    if (change != kRemove) exposed_arcs[kept++] = arc;
+    if (change != kRemove) set_arc(kept++, arc);
   }
   exposed_count = kept;
   if (split) expose_arc(second);

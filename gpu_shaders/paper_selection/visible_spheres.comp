@@ -31,7 +31,11 @@ void main() {
     if (square < 0.0) continue;
     float depth = along - sqrt(square);
     if (depth <= 0.0) continue;
-    if (params.pass == 0u) atomicMin(pixel_depths[pixel_index(pixel)], floatBitsToUint(depth));
-    else if (pixel_depths[pixel_index(pixel)] == floatBitsToUint(depth)) visible[a] = drawn[a] = 1u;
+    if (params.pass == 0u) {
+      atomicMin(pixel_depths[pixel_index(pixel)], floatBitsToUint(depth));
+    } else if (pixel_depths[pixel_index(pixel)] == floatBitsToUint(depth)) {
+      visible[a] = 1u;
+      drawn[a] = 1u;
+    }
   }
 }

@@ -22,14 +22,21 @@ layout(std430, binding = 6) readonly buffer NeighborLabels { uint neighbor_label
 layout(std430, binding = 7) readonly buffer NeighborBalls { vec4 neighbor_balls[]; };  // relative centre
 layout(std140, binding = 0) uniform Parameters { ConcaveParameters params; };
 
-dvec3 contact[3];  // unit vectors, counter-clockwise seen from the probe
+// Unit vectors, counter-clockwise seen from the probe. Three variables: NVIDIA's compiler (580.159) rounds doubles to floats in
+// arrays with a variable index.
+dvec3 contact_a;
+dvec3 contact_b;
+dvec3 contact_c;
 
 // Whether the bisector towards a probe at s + d reaches into the spherical polygon.
 bool cuts(dvec3 d) {
   double distance = length(d);
   if (!(distance > 0.0LF) || distance >= 2.0LF * scene.probe_radius) return false;
   PolygonReach reach = no_reach();
-  for (int n = 0; n < 3; ++n) add_side(reach, contact[n], contact[n == 2 ? 0 : n + 1], d / distance);
+  dvec3 towards = d / distance;
+  add_side(reach, contact_a, contact_b, towards);
+  add_side(reach, contact_b, contact_c, towards);
+  add_side(reach, contact_c, contact_a, towards);
   return reaches_bisector(reach, scene.probe_radius, distance);
 }
 
@@ -73,16 +80,15 @@ void main() {
   ProbeRecord probe = probes[self];
   dvec3 s = probe.position;
   uvec3 atom = probe.atoms.w != 0u ? probe.atoms.xyz : probe.atoms.xzy;
-  dvec3 sum = dvec3(0.0LF);
-  for (int n = 0; n < 3; ++n) {
-    contact[n] = normalize(atoms[atom[n]].xyz - s);
-    sum += contact[n];
-  }
+  contact_a = normalize(atoms[atom.x].xyz - s);
+  contact_b = normalize(atoms[atom.y].xyz - s);
+  contact_c = normalize(atoms[atom.z].xyz - s);
+  dvec3 sum = contact_a + contact_b + contact_c;
   PatchBound bound = PatchBound(s, scene.probe_radius);
   if (length(sum) > 1e-6LF) {
     // A cap of at most half a sphere is convex on the sphere: it holds the patch if it holds the contacts.
     dvec3 axis = normalize(sum);
-    double cosine = min(min(dot(contact[0], axis), dot(contact[1], axis)), dot(contact[2], axis));
+    double cosine = min(min(dot(contact_a, axis), dot(contact_b, axis)), dot(contact_c, axis));
     bound = cap_bound(s, scene.probe_radius, axis, cosine);
   }
 
@@ -112,7 +118,9 @@ void main() {
     dvec3 d = probes[neighbor_labels[n]].position - s;
     if (low && !coincides(n, self) && cuts(d)) add_row(normalize(d), 0.5LF * length(d));
   }
-  for (int n = 0; n < 3; ++n) add_bits(contact[n], atom[n]);
+  add_bits(contact_a, atom.x);
+  add_bits(contact_b, atom.y);
+  add_bits(contact_c, atom.z);
   // A point takes the colour of the nearest contact, and the other members of an n-fold probe have more of them.
   for (uint n = first; n < last && contact_count > 3u; ++n) {
     if (!coincides(n, self)) continue;

@@ -52,8 +52,10 @@ void expose_among_partners(ListedArc listed, uint b) {
 // Whether an arc that is left is none of the surface: then some other atom is needed.
 bool is_spurious(ListedArc listed, uint b) {
   bool spurious = exposed_whole && !known(listed, uvec3(b, kNone, kNone));
-  for (uint n = 0u; n < exposed_count && !spurious; ++n)
-    spurious = !known(listed, uvec3(b, exposed_arcs[n].begin_by, exposed_arcs[n].end_by));
+  for (uint n = 0u; n < exposed_count && !spurious; ++n) {
+    ExposedArc arc = get_arc(n);
+    spurious = !known(listed, uvec3(b, arc.begin_by, arc.end_by));
+  }
   return spurious;
 }
 

@@ -100,6 +100,8 @@ void main() {
   }
   uint j = neighbor_labels[place];
   if (exposed_whole) append(uvec4(i, j, kNone, kNone));
-  for (uint n = 0u; n < exposed_count; ++n)
-    append(uvec4(i, j, neighbor_labels[exposed_arcs[n].begin_by], neighbor_labels[exposed_arcs[n].end_by]));
+  for (uint n = 0u; n < exposed_count; ++n) {
+    ExposedArc arc = get_arc(n);
+    append(uvec4(i, j, neighbor_labels[arc.begin_by], neighbor_labels[arc.end_by]));
+  }
 }

@@ -97,7 +97,7 @@ void main() {
   }
   if (exposed_whole) append(s, t, kNone, kNone, c.u, c.u);
   for (uint n = 0u; n < exposed_count; ++n) {
-    ExposedArc arc = exposed_arcs[n];
+    ExposedArc arc = get_arc(n);
     vec2 begin = direction_at(arc.begin);
     vec2 end = direction_at(arc.end);
     append(s, t, arc.begin_by, arc.end_by, begin.x * c.u + begin.y * c.v, end.x * c.u + end.y * c.v);

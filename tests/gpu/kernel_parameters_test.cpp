@@ -233,10 +233,11 @@ TEST(KernelParameters, StandWhereTheDriverLooks) {
       GLint count = 0;
       glGetProgramInterfaceiv(program, GL_UNIFORM, GL_ACTIVE_RESOURCES, &count);
       for (GLuint index = 0; index < static_cast<GLuint>(count); ++index) {
+        if (is_opaque(program, index)) continue;  // NVIDIA's driver says that atomic counters are in some block
         std::size_t offset = 0;
         const std::string place = place_of(program, index, structs_of_blocks(source.text), offset);
         if (place.empty()) {
-          EXPECT_TRUE(is_opaque(program, index)) << shader.path << " has a number outside of its blocks";
+          ADD_FAILURE() << shader.path << " has a number outside of its blocks";
           continue;
         }
         const auto expected = places_in_cpp().find(place);

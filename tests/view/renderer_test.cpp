@@ -17,7 +17,7 @@ namespace meniscus {
 namespace {
 
 TEST(Renderer, PicksWhatItDraws) {
-  const EglContext context({DeviceChoice::Kind::software, 0});
+  const EglContext context;
   ViewPipeline atoms;
   atoms.set_atoms({{{0, 0, 0}, 1.7}, {{3, 0, 0}, 1.5}});
   Coloring coloring;
@@ -50,7 +50,7 @@ TEST(Renderer, PicksWhatItDraws) {
 }
 
 TEST(Renderer, PicksTheAtomOfEveryPixelOfThePicture) {
-  const EglContext context({DeviceChoice::Kind::software, 0});
+  const EglContext context;
   const std::vector<Ball> balls{{{0, 0, 0}, 1.7}, {{3, 0.4, 0}, 1.5}, {{1.2, 2.6, -1}, 1.2}, {{-2, 2, 1}, 1.6}};
   Coloring coloring;
   coloring.atom.assign(balls.size(), glm::vec3(0.5f));

@@ -75,7 +75,7 @@ class Views : public ::testing::Test {
     return count;
   }
 
-  const EglContext context_{{DeviceChoice::Kind::software, 0}};
+  const EglContext context_;
   ViewPipeline view_;
   Renderer renderer_;
 };
@@ -135,6 +135,7 @@ TEST_F(Views, ManyPartnersAreNoMoreThanOneInvocationCanGoThrough) {
   ASSERT_GT(partners.size() * partners.size(), 2u * 65'535u);
   ASSERT_LT(partners.size(), 400u) << "no small atom is a partner";
   const Surface surface = assemble_surface(atoms, 1.4, reduced);
+  view_.set_counting(Counting::now);  // so that primitives are there, counted, when prepare() ends
   load(atoms);
   EXPECT_EQ(differing_from_host(surface, false), 0);
   StageClock clock;

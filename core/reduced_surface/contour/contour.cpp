@@ -15,8 +15,10 @@ namespace quad_geometry {
 // What balls leave of one circle, in quadruple precision.
 struct Remainder {
   std::vector<ExposedArc> exposed_arcs;
-  bool hold_arcs(uint count) {
-    if (exposed_arcs.size() < count) exposed_arcs.resize(count);
+  const ExposedArc& get_arc(uint n) const { return exposed_arcs[n]; }
+  bool set_arc(uint n, const ExposedArc& arc) {
+    if (exposed_arcs.size() <= n) exposed_arcs.resize(n + 1);
+    exposed_arcs[n] = arc;
     return true;
   }
 #include "gpu_shaders/geometry/contour.glsl"

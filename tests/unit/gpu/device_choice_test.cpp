@@ -100,5 +100,17 @@ TEST(DeviceChoice, KnowsSoftwareByItsName) {
     EXPECT_FALSE(is_software_renderer(name)) << name;
 }
 
+TEST(DeviceChoice, NvidiaListsDevicesByTheOlderExtensionAlone) {
+  constexpr const char* kNvidia580 =
+      "EGL_EXT_platform_base EGL_EXT_device_base EGL_KHR_client_get_all_proc_addresses EGL_EXT_client_extensions "
+      "EGL_KHR_debug EGL_KHR_platform_x11 EGL_EXT_platform_x11 EGL_EXT_platform_device EGL_MESA_platform_surfaceless "
+      "EGL_EXT_explicit_device";
+  EXPECT_TRUE(can_list_devices(kNvidia580));
+  EXPECT_TRUE(can_list_devices("EGL_EXT_device_enumeration EGL_EXT_device_query EGL_EXT_platform_device"));
+  EXPECT_FALSE(can_list_devices("EGL_EXT_device_base EGL_EXT_platform_device_drm"));
+  EXPECT_FALSE(can_list_devices("EGL_EXT_platform_device EGL_EXT_device_query"));
+  EXPECT_FALSE(can_list_devices(""));
+}
+
 }  // namespace
 }  // namespace meniscus
