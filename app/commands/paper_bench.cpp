@@ -160,14 +160,14 @@ void print_paper_tables(const std::vector<PaperBenchMolecule>& molecules, const 
   const EglContext context(settings.device);
   std::size_t width = 8;
   for (const PaperBenchMolecule& molecule : molecules) width = std::max(width, escaped(molecule.name).size());
-  fmt::print(std::cout,
-             "Frames of {}x{} pixels, probe {} \u00c5, on {}, GL {}. Milliseconds, medians of {} frames.\n"
-             "visible atoms, potential (arcs in place of faces), faces, primitives: the paper's groups of stages; ray "
-             "cast: with tile lists. Each group is timed alone, the GPU idle before and after it; total and fps are of whole\n"
-             "frames as a viewer draws them. The camera turns; in the last two columns the probe changes, or all atoms move.\n"
-             "paper: frames per second of table 1 in Krone, Dachsbacher & Ertl 2010, GeForce GTX 285.\n\n",
-             settings.size.x, settings.size.y, settings.probe_radius, context.renderer(), context.version(),
-             settings.runs);
+  fmt::print(
+      std::cout,
+      "Frames of {}x{} pixels, probe {} \u00c5, on {}, GL {}. Milliseconds, medians of {} frames.\n"
+      "visible atoms, potential (arcs in place of faces), faces, primitives: the paper's groups of stages; ray "
+      "cast: with tile lists. Each group is timed alone, the GPU idle before and after it; total and fps are of whole\n"
+      "frames as a viewer draws them. The camera turns; in the last two columns the probe changes, or all atoms move.\n"
+      "paper: frames per second of table 1 in Krone, Dachsbacher & Ertl 2010, GeForce GTX 285.\n\n",
+      settings.size.x, settings.size.y, settings.probe_radius, context.renderer(), context.version(), settings.runs);
   print_head(width);
   for (const PaperBenchMolecule& molecule : molecules) {
     MoleculeBench bench(molecule, settings);

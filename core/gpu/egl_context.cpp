@@ -20,8 +20,9 @@ std::vector<EGLDeviceEXT> query_devices() {
   if (!epoxy_has_egl()) throw GpuError("EGL was not found; install libegl1 and a GL driver (Debian: libgl1-mesa-dri)");
   const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   if (!can_list_devices(extensions ? extensions : ""))
-    throw GpuError("this EGL cannot list devices (EGL_EXT_device_base or EGL_EXT_platform_device is missing); a newer GL "
-                   "driver is needed");
+    throw GpuError(
+        "this EGL cannot list devices (EGL_EXT_device_base or EGL_EXT_platform_device is missing); a newer GL "
+        "driver is needed");
   EGLint count = 0;
   if (!eglQueryDevicesEXT(0, nullptr, &count)) throw GpuError("EGL refused to list devices");
   std::vector<EGLDeviceEXT> devices(static_cast<std::size_t>(count));
