@@ -15,7 +15,7 @@ import sys
 import time
 import unittest
 
-from msms_run import ANALYTIC, BUILD, MSMS, TOXIN, UBIQUITIN, Folder, run, table, triangles, vertices
+from msms_run import ANALYTIC, BUILD, MSMS, TOXIN, UBIQUITIN, Folder, run, scanned_vertices, table, triangles, vertices
 
 
 def has(module):
@@ -178,8 +178,10 @@ class Conventions(Folder):
         read = []
         for ending, width in (("vert", (9, 10)), ("face", (5,))):
             lines = (self.folder / f"{name}.{ending}").read_text().rstrip().split("\n")
-            if header:
-                self.assertEqual(int(lines[2].split()[0]), len(lines) - header)
+            if header:  # Fortran takes four numbers from the third line, and passes over empty ones before it
+                self.assertTrue(all(lines[:2]))
+                count, *others = map(float, lines[2].split())
+                self.assertEqual((count, len(others)), (len(lines) - header, 3))
             read.append([line.split() for line in lines[header:]])
             self.assertTrue({len(row) for row in read[-1]} <= set(width))
         positions = [tuple(map(float, row[:3])) for row in read[0]]
@@ -200,25 +202,58 @@ class Conventions(Folder):
         self.assertEqual(set(areas), set(names))
         self.assertTrue({row[9] for row in rows} <= set(areas))
 
+    def rows(self, pdb=UBIQUITIN):
+        """Four numbers a sphere."""
+        return [tuple(map(float, line.split()[:4])) for line in self.molecule(pdb).read_text().splitlines()]
+
     def test_pygbe(self):
-        """By its recipe, without headers; inner cavities by one more word."""
-        self.molecule(TOXIN)
-        self.msms("-if", "in.xyzr", "-of", "out", "-prob", "1.4", "-d", "2", "-no_header")
-        self.read(header=0)
-        self.msms("-if", "in.xyzr", "-of", "all", "-prob", "1.4", "-d", "2", "-no_header", "-all_components")
-        self.read("all_1", header=0)
+        """By its recipe: columns of a PQR by awk, which makes blanks of the last line; hydrogens may have radius 0; no headers.
+        Inner cavities by one more word; a Stern layer of larger spheres, and a small probe."""
+        spheres = self.rows(TOXIN)
+        self.spheres("".join(f"{x:.3f} {y:.3f} {z:.3f} {r:.4f}\n{x:.3f} {y:.3f} {z + 1:.3f} 0.0000\n" for x, y, z, r in spheres)
+                     + "   \n", "protein.xyzr")
+        for words in ((), ("-all_components",)):
+            self.msms("-if", "protein.xyzr", "-of", "protein1", "-prob", "1.4", "-d", "2", "-no_header", *words)
+            rows, _ = self.read("protein1", header=0)
+            self.assertEqual({int(row[7]) % 2 for row in rows}, {1})  # of two spheres each time the first
+        self.read("protein1_1", header=0)
+        self.spheres("".join(f"{x:5.5f} {y:5.5f} {z:5.5f} {r + 2:5.5f}\n" for x, y, z, r in spheres), "protein.stern")
+        self.msms("-if", "protein.stern", "-of", "protein1_stern", "-prob", "0.5", "-d", "2", "-no_header")
+        self.read("protein1_stern", header=0)
 
     def test_pbj(self):
-        self.molecule()
-        self.msms("-if", self.folder / "in.xyzr", "-of", self.folder / "out", "-p", "1.4", "-d", "2.0", "-no_header")
+        """Tabulators between columns."""
+        self.spheres("".join(f"{x:.3f}\t{y:.3f}\t{z:.3f}\t{r:.4f}\n" for x, y, z, r in self.rows()), "tabs.xyzr")
+        self.msms("-if", self.folder / "tabs.xyzr", "-of", self.folder / "out", "-p", "1.4", "-d", "2.0", "-no_header")
         self.read(header=0)
 
     def test_tabi_pb_and_mibpb(self):
-        """Those of before NanoShaper, in C and in Fortran: five characters of density, two titles, a count, rows."""
+        """Those of before NanoShaper, in C and in Fortran, which writes all digits of a number, some with exponents, and five
+        characters of density."""
+        spheres = self.rows()
+        (self.folder / "data").mkdir()
+        for form, words in (("%f %f %f %f\n", ("-de", "10.00")), ("  %.17E        %.15f        %.16f     %.17f     \n", ("-de", "1    "))):
+            self.spheres("".join(form % sphere for sphere in spheres), "data/x.xyzr")
+            self.msms("-if", "data/x.xyzr", "-prob", "1.4", *words, "-of", "data/x")
+            rows, faces = self.read("data/x")
+            self.assertGreater(len(rows) / float(words[1]), 2_000)
+            self.assertTrue(all(int(word) for row in rows for word in row[7:9]) and all(int(row[3]) in (1, 2, 3) for row in faces))
+
+    def test_vmd_by_files(self):
+        """What it does on Windows, and elsewhere where VMDMSMSUSEFILE is set: a name with points in it, nine numbers by scanf."""
+        spheres = self.rows()
+        self.spheres("".join("%f %f %f %f\n" % sphere for sphere in spheres), "vmdmsms.u0.478")
+        name = self.folder / "vmdmsms.u0.478"
+        self.msms("-if", name, "-of", name, "-probe_radius", "1.500", "-density", "1.500", "-no_area", "-no_header")
+        rows, _ = self.read(name.name, header=0)
+        self.assertEqual([" ".join(row) for row in rows], [" ".join(row) for row in scanned_vertices(self.folder / f"{name.name}.vert")])
+        self.assertTrue(all(1 <= int(row[7]) <= len(spheres) for row in rows))
+
+    def test_bcl(self):
+        """Areas alone, the ending given by the client."""
         self.molecule()
-        for words in (("-de", "10.00"), ("-dens", "10")):
-            self.msms("-if", "in.xyzr", "-prob", "1.4", *words, "-of", "out")
-            self.assertGreater(len(self.read()[0]), 20_000)
+        self.msms("-if", "in.xyzr", "-af", "in.area", "-probe_radius", "1.399")
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["in.area", "in.xyzr"])
 
     def test_pyvol(self):
         """Its large probe on a protein of several chains; the names that it looks for with all components."""

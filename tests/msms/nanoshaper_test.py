@@ -4,6 +4,7 @@
 import collections
 import json
 import math
+import pathlib
 import unittest
 
 from msms_run import BUILD, TOXIN, UBIQUITIN, Folder, run
@@ -139,6 +140,39 @@ class NanoShaper(Folder):
             text.replace("Surface = ses", "Surface = ses ") + "Self_Intersections_Grid_Coefficient = 2")
         self.good(BUILD / "meniscus-nanoshaper", cwd=self.folder)
         self.assertGreater(len(read_mesh(self.folder).triangles), 10_000)
+
+    def test_the_parameters_of_vmd(self):
+        """As it writes them, in a file that it names; it reads both files of MSMS behind three lines, by scanf."""
+        path, base = self.molecule(), self.folder / "vmdns.u0.664."
+        path.rename(f"{base}xyzr")
+        pathlib.Path(f"{base}prm").write_text(f"""Operative_Mode = normal
+Pocket_Radius_Small = 1.4
+Pocket_Radius_Big = 3.0
+Surface = ses
+Grid_scale = 2.0
+XYZR_FileName = {base}xyzr
+Probe_Radius = 1.4
+Skin_Surface_Parameter = 0.45
+Blobbyness = -2.5
+Compute_Vertex_Normals = true
+Save_Mesh_MSMS_Format = true
+Vertex_Atom_Info = true
+Grid_perfil = 70.0
+Build_epsilon_maps = false
+Build_status_map = true
+Smooth_Mesh = true
+Triangulation = true
+Max_Probes_Self_Intersections = 5000
+Self_Intersections_Grid_Coefficient = 5.0
+Accurate_Triangulation = true
+Root_FileName = {base}
+Max_skin_patches_per_auxiliary_grid_2d_cell = 2000
+""")
+        self.good(BUILD / "meniscus-nanoshaper", f"{base}prm", cwd="/")
+        made = {width: rows(pathlib.Path(f"{base}triangulatedSurf.{kind}"), width) for kind, width in (("vert", 9), ("face", 5))}
+        count = len(pathlib.Path(f"{base}xyzr").read_text().splitlines())
+        self.assertEqual({int(word) for row in made[5] for word in row[:3]}, set(range(1, len(made[9]) + 1)))
+        self.assertTrue(all(1 <= int(row[7]) <= count for row in made[9]))
 
     def test_another_file_may_be_named(self):
         self.shape()
