@@ -3,12 +3,27 @@
 """Tells of a shared library of any system what can be told without loading it: the processor, the oldest system, the
 libraries that it needs, and how many functions it gives.
 
-describe_library.py FILE      needs lief, of PyPI. Exit code 1 if it gives other names than meniscus_*."""
+describe_library.py FILE      needs lief, of PyPI. Exit code 1 if it gives other names than meniscus_*, or takes a mathematical
+function from the system, whose last digit is that of the system."""
 
 import re
 import sys
 
 import lief
+
+
+#: Those that no standard rounds exactly, without the suffix of float and long double.
+INEXACT = set("acos acosh asin asinh atan atan2 atanh cbrt cos cosh erf erfc exp exp10 exp2 expm1 hypot lgamma log log10 log1p log2 pow "
+              "sin sincos sinh tan tanh tgamma".split())
+
+
+def of_system(binary):
+    """Mathematical functions that the library takes from elsewhere."""
+    if isinstance(binary, lief.PE.Binary):
+        names = {entry.name for library in binary.imports for entry in library.entries}
+    else:
+        names = {symbol.name for symbol in binary.imported_symbols}
+    return sorted({name.lstrip("_").partition("@")[0] for name in names} & (INEXACT | {name + suffix for name in INEXACT for suffix in "fl"}))
 
 
 def versions(names):
@@ -52,10 +67,12 @@ def main():
         sys.exit(f"{sys.argv[1]}: not a shared library of a known system")
     machine, oldest, needed, names = facts
     ours = [name for name in names if name.startswith("meniscus_")]
+    taken = of_system(binary)
     foreign = sorted(name for name in set(names) - set(ours) if not re.match(r"MENISCUS_|_fini$|_init$", name))
     print(f"{machine}, {oldest}; needs {', '.join(needed)}; {len(ours)} functions" +
-          (f" and {len(foreign)} foreign names, such as {foreign[0]}" if foreign else ""))
-    return 1 if foreign or not ours else 0
+          (f" and {len(foreign)} foreign names, such as {foreign[0]}" if foreign else "") +
+          (f"; takes {', '.join(taken)} from the system" if taken else ""))
+    return 1 if foreign or taken or not ours else 0
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "core/base/system_file.h"
 #include "core/base/text_file.h"
 #include "core/base/text.h"
 
@@ -110,7 +111,7 @@ Camera parse_camera(std::string_view text, const std::string& file) {
 }
 
 Camera read_camera(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
+  std::ifstream stream(path_of_text(file), std::ios::binary);
   if (!stream) throw InputError(file, 0, "camera: the file cannot be opened");
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   if (stream.bad()) throw InputError(file, 0, "camera: the file cannot be read");
@@ -157,7 +158,7 @@ CameraPath parse_camera_path(std::string_view text, const std::string& file) {
 }
 
 CameraPath read_camera_path(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
+  std::ifstream stream(path_of_text(file), std::ios::binary);
   if (!stream) throw InputError(file, 0, "camera path: cannot be read");
   return parse_camera_path(std::string(std::istreambuf_iterator<char>(stream), {}), file);
 }

@@ -17,6 +17,7 @@
 
 #include "core/base/error.h"
 #include "core/base/parse_number.h"
+#include "core/base/system_file.h"
 #include "core/base/text.h"
 #include "core/camera/camera_json.h"
 #include "core/math/rigid_motion.h"
@@ -175,7 +176,7 @@ Camera parse_any_camera(std::string_view text, const std::string& file, double a
 
 Camera read_any_camera(const std::string& file, double aspect) {
   if (file.starts_with('{')) return parse_any_camera(file, "--camera", aspect);
-  std::ifstream stream(file, std::ios::binary);
+  std::ifstream stream(path_of_text(file), std::ios::binary);
   if (!stream) throw InputError(file, 0, "camera: the file cannot be opened");
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   if (stream.bad()) throw InputError(file, 0, "camera: the file cannot be read");

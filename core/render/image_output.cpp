@@ -30,6 +30,7 @@
 
 #include "core/base/constants.h"
 #include "core/base/error.h"
+#include "core/base/system_file.h"
 #include "core/base/text.h"
 #include "core/base/uninterrupted.h"
 #include "core/image/color_space.h"
@@ -71,7 +72,7 @@ class MemoryFile {
 };
 
 std::string extension_of(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
+  std::string extension = text_of_path(path.extension());
   std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
   return extension;
 }
@@ -210,8 +211,9 @@ void refuse_limited_size(const std::filesystem::path& path, const ImageToEncode&
   const rlim_t largest = pixels + pixels / 1000 + kOfALine * lines + kDirectories;
   rlimit limit{};
   if (::getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur >= largest) return;
-  throw OutputError(path.string(), fmt::format("may have up to {} bytes, and the system allows files of {} (ulimit -f)",
-                                               with_thousands(largest), with_thousands(limit.rlim_cur)));
+  throw OutputError(text_of_path(path),
+                    fmt::format("may have up to {} bytes, and the system allows files of {} (ulimit -f)",
+                                with_thousands(largest), with_thousands(limit.rlim_cur)));
 }
 
 }  // namespace
@@ -280,7 +282,7 @@ class ImageWriter::File {
     } catch (const Error&) {
       throw;
     } catch (const std::runtime_error& error) {
-      throw OutputError(path_.string(), std::string("cannot be encoded: ") + error.what());
+      throw OutputError(text_of_path(path_), std::string("cannot be encoded: ") + error.what());
     }
   }
 
@@ -318,7 +320,7 @@ std::vector<std::uint8_t> srgb_pixels(const Framebuffer& picture, const std::opt
 void check_image_path(const std::filesystem::path& path) {
   constexpr std::array<std::string_view, 7> kExtensions{".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".exr"};
   if (std::ranges::find(kExtensions, extension_of(path)) == kExtensions.end())
-    throw OutputError(path.string(), "a picture's name must end in .png, .jpg, .webp, .tif, .tiff or .exr");
+    throw OutputError(text_of_path(path), "a picture's name must end in .png, .jpg, .webp, .tif, .tiff or .exr");
   if (extension_of(path) != ".png") image_codec();  // what is missing is missed before anything is computed
 }
 

@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "core/base/error.h"
+#include "core/base/system_file.h"
 #include "core/base/text.h"
 
 namespace meniscus {
@@ -69,7 +70,8 @@ struct Font::Face {
 
 std::optional<std::string> find_font_file() {
   std::error_code ignored;
-  const auto file = std::ranges::find_if(kFonts, [&](const char* f) { return std::filesystem::exists(f, ignored); });
+  const auto file =
+      std::ranges::find_if(kFonts, [&](const char* f) { return std::filesystem::exists(path_of_text(f), ignored); });
   return file == kFonts.end() ? std::nullopt : std::optional<std::string>(*file);
 }
 

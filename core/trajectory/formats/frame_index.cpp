@@ -18,6 +18,7 @@
 #include "core/base/output_file.h"
 #include "core/base/text.h"
 #include "core/base/binary_file.h"
+#include "core/base/system_file.h"
 #include "core/trajectory/trajectory.h"
 
 namespace meniscus {
@@ -47,7 +48,7 @@ void put(std::string& bytes, std::string_view text) {
 /// What an index must begin with to be that of this file as it is now.
 std::string identity(const BinaryFile& file) {
   std::string bytes(kMagic);
-  put(bytes, fs::absolute(file.path()).string());
+  put(bytes, text_of_path(fs::absolute(path_of_text(file.path()))));
   put(bytes, file.size());
   put(bytes, static_cast<std::uint64_t>(file.modified()));
   return bytes;
@@ -69,7 +70,7 @@ class Fields {
 };
 
 std::optional<FrameIndex> kept_index(const BinaryFile& file, const std::string& folder) {
-  std::ifstream stream(frame_index_path(folder, file.path()), std::ios::binary);
+  std::ifstream stream(path_of_text(frame_index_path(folder, file.path())), std::ios::binary);
   if (!stream) return std::nullopt;
   const std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
   const std::string expected = identity(file);
@@ -101,9 +102,9 @@ void keep_index(const BinaryFile& file, const std::string& folder, const FrameIn
   put(bytes, std::string_view(index.cut_short));
   put(bytes, checksum(bytes));
   std::error_code ignored;
-  fs::create_directories(folder, ignored);
+  fs::create_directories(path_of_text(folder), ignored);
   try {
-    OutputFile output(frame_index_path(folder, file.path()), Existing::replace);
+    OutputFile output(path_of_text(frame_index_path(folder, file.path())), Existing::replace);
     output.write(bytes);
     output.commit();
   } catch (const OutputError&) {
@@ -137,7 +138,8 @@ FrameIndex walk(const BinaryFile& file, const std::function<FrameExtent(std::uin
 }  // namespace
 
 std::string frame_index_path(const std::string& folder, const std::string& path) {
-  return (fs::path(folder) / fmt::format("{:016x}.frames", checksum(fs::absolute(path).string()))).string();
+  const std::string whole = text_of_path(fs::absolute(path_of_text(path)));
+  return text_of_path(path_of_text(folder) / fmt::format("{:016x}.frames", checksum(whole)));
 }
 
 FrameIndex find_frames(BinaryFile& file, const std::string& folder,
