@@ -118,6 +118,32 @@ TEST_F(CStructure, HasAColumnForEachThingAFileSaysOfAtoms) {
   EXPECT_NE(std::string(report.sentence).find("4 used"), std::string::npos) << report.sentence;
 }
 
+TEST_F(CStructure, ColorsAtomsByTheWordsOfTheProgram) {
+  const auto structure = structure_of(path);
+  const auto colors = [&](const char* scheme) {
+    std::vector<float> rgb(3 * 4, -1.0f);
+    EXPECT_EQ(meniscus_structure_colors(structure.get(), scheme, rgb.data()), MENISCUS_OK) << meniscus_last_error();
+    return rgb;
+  };
+  const auto refused = [&](const char* scheme, meniscus_status status, const std::string& words) {
+    std::vector<float> rgb(3 * 4, -1.0f);
+    EXPECT_EQ(meniscus_structure_colors(structure.get(), scheme, rgb.data()), status) << scheme;
+    EXPECT_NE(std::string(meniscus_last_error()).find(words), std::string::npos) << meniscus_last_error();
+    EXPECT_EQ(rgb, std::vector<float>(3 * 4, -1.0f));
+  };
+  EXPECT_EQ(colors("#ff0033"), (std::vector<float>{1, 0, 0.2f, 1, 0, 0.2f, 1, 0, 0.2f, 1, 0, 0.2f}));
+  const std::vector<float> by_chain = colors("chain"), by_element = colors("element");
+  EXPECT_TRUE(std::equal(by_chain.begin(), by_chain.begin() + 3, by_chain.begin() + 3));
+  EXPECT_FALSE(std::equal(by_chain.begin(), by_chain.begin() + 3, by_chain.begin() + 9));
+  EXPECT_TRUE(std::equal(by_element.begin(), by_element.begin() + 3, by_element.begin() + 9));
+  EXPECT_NE(colors("bfactor"), by_chain);
+  for (const char* scheme : {"kind", "component", "buried", "rmsf", "file"})
+    refused(scheme, MENISCUS_USAGE, "needs more than the atoms of a file");
+  refused("chains", MENISCUS_USAGE, "'chains' is none of element, ");
+  refused("charge", MENISCUS_INPUT, "partial charges");
+  EXPECT_EQ(column<double>(structure, MENISCUS_STRUCTURE_HYDROPATHIES), (std::vector<double>{1.8, 1.8, 1.8, -0.4}));
+}
+
 TEST_F(CStructure, TakesWhatTheOptionsSay) {
   const auto names = [&](const meniscus_read_options& options) {
     std::string all;

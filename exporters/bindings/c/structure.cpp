@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Molecules of the C interface: their atoms as columns, seen where they lie.
 #include <algorithm>
+#include <cstring>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/structure/element_tables.h"
 #include "core/structure/structure.h"
 #include "exporters/bindings/c/counted.h"
 #include "exporters/bindings/c/guard.h"
 #include "exporters/bindings/c/read_file.h"
+#include "exporters/bindings/c/structure_colors.h"
 #include "exporters/bindings/c/caller_memory.h"
 
 namespace meniscus::c_api {
@@ -53,11 +56,14 @@ struct meniscus_structure : meniscus::c_api::Counted {
         chains(meniscus::c_api::text_column(structure.atoms, &meniscus::Atom::chain)),
         segments(meniscus::c_api::text_column(structure.atoms, &meniscus::Atom::segment)),
         warnings(structure.report.warnings.size(),
-                 [&](std::size_t n) -> const std::string& { return structure.report.warnings[n].text; }) {}
+                 [&](std::size_t n) -> const std::string& { return structure.report.warnings[n].text; }) {
+    for (const meniscus::Atom& atom : structure.atoms) hydropathies.push_back(meniscus::hydropathy(atom.residue_name));
+  }
 
   const meniscus::Structure structure;
   const std::string sentence;
   const meniscus::c_api::TextColumn names, residue_names, chains, segments, warnings;
+  std::vector<double> hydropathies;
 };
 
 namespace meniscus::c_api {
@@ -104,6 +110,8 @@ meniscus_array find_column(const meniscus_structure& of, std::int32_t wanted) {
       return column(atoms, &Atom::kind);
     case MENISCUS_STRUCTURE_WARNINGS:
       return of.warnings.array();
+    case MENISCUS_STRUCTURE_HYDROPATHIES:
+      return {of.hydropathies.data(), of.hydropathies.size(), sizeof(double)};
     default:
       refuse(MENISCUS_USAGE, "a structure has no table {}", wanted);
   }
@@ -169,5 +177,16 @@ meniscus_status meniscus_structure_table(const meniscus_structure* structure, me
     require(structure, "structure");
     require(array, "array");
     *array = find_column(*structure, table);
+  });
+}
+
+meniscus_status meniscus_structure_colors(const meniscus_structure* structure, const char* scheme, float* atom_colors) {
+  using namespace meniscus::c_api;
+  return guarded([&] {
+    require(structure, "structure");
+    require(scheme, "scheme");
+    require(atom_colors, "atom_colors");
+    const std::vector<glm::vec3> colors = structure_colors(structure->structure, scheme);
+    std::memcpy(atom_colors, colors.data(), colors.size() * sizeof(glm::vec3));
   });
 }

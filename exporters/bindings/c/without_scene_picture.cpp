@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Refuses scenes of molecules, in builds without the libraries that read and write them.
+// Refuses scenes of molecules and their schemes of colours, in builds without the libraries that read and write them.
 #include "exporters/bindings/c/guard.h"
+#include "exporters/bindings/c/structure_colors.h"
 
 namespace {
 
@@ -12,6 +13,10 @@ meniscus_status refused(const char* what) {
 }
 
 }  // namespace
+
+std::vector<glm::vec3> meniscus::c_api::structure_colors(const Structure&, std::string_view) {
+  refuse(MENISCUS_USAGE, "this build has no schemes of colours, for it was made without nlohmann_json or FreeType");
+}
 
 meniscus_status meniscus_scene_read(const char*, meniscus_scene**) { return refused("reads"); }
 meniscus_status meniscus_scene_parse(const char*, meniscus_scene**) { return refused("parses"); }

@@ -143,7 +143,7 @@ class Molecules(WithFolder):
                 wanted, asked = self.by_program(file, "--color", color), request.Request(file=file, color=color)
                 if wanted is None:
                     refused.append((os.path.basename(file), color))
-                    with self.assertRaisesRegex(mns_reader.MnsError, "to colour by"):
+                    with self.assertRaisesRegex(self.library.InputError, "to colour by|choose another"):
                         molecules.read(self.library, asked)
                     continue
                 found = molecules.read(self.library, asked).atoms

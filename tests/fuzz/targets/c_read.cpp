@@ -50,7 +50,7 @@ meniscus_read_options options_of(std::string_view line) {
 
 /// Each column has a row an atom that can be read; texts end within their rows.
 void look_at(const meniscus_structure* structure, std::size_t atoms) {
-  for (std::int32_t column = 0; column <= MENISCUS_STRUCTURE_WARNINGS; ++column) {
+  for (std::int32_t column = 0; column <= MENISCUS_STRUCTURE_HYDROPATHIES; ++column) {
     meniscus_array array{};
     require(done(meniscus_structure_table(structure, meniscus_structure_table_id{column}, &array)),
             "a structure has all its columns");

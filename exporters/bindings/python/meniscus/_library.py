@@ -41,7 +41,7 @@ UNKNOWN_HALT, UNKNOWN_GUESS, UNKNOWN_SKIP = range(3)
 (STRUCTURE_POSITIONS, STRUCTURE_RADII, STRUCTURE_ELEMENTS, STRUCTURE_INDICES, STRUCTURE_NAMES, STRUCTURE_RESIDUE_NAMES,
  STRUCTURE_CHAINS, STRUCTURE_SEGMENTS, STRUCTURE_RESIDUE_NUMBERS, STRUCTURE_INSERTION_CODES, STRUCTURE_ALTLOCS,
  STRUCTURE_RESIDUES, STRUCTURE_MODELS, STRUCTURE_COPIES, STRUCTURE_CHARGES, STRUCTURE_B_FACTORS, STRUCTURE_OCCUPANCIES,
- STRUCTURE_CLASSES, STRUCTURE_WARNINGS) = range(19)
+ STRUCTURE_CLASSES, STRUCTURE_WARNINGS, STRUCTURE_HYDROPATHIES) = range(20)
 
 OK, INTERNAL, USAGE, INPUT, NO_GPU, CAPACITY, OUTPUT, NOT_CLOSED = range(8)
 _EXCEPTIONS = {INTERNAL: InternalError, USAGE: UsageError, INPUT: InputError, NO_GPU: GpuError,
@@ -249,6 +249,7 @@ _CALLS: dict[str, list[Any]] = {
     "read": [c_char_p, POINTER(ReadOptions), POINTER(c_void_p)],
     "structure_report": [c_void_p, POINTER(ReadReport)],
     "structure_table": [c_void_p, c_int32, POINTER(Array)],
+    "structure_colors": [c_void_p, c_char_p, c_void_p],
     "default_pocket_options": [POINTER(PocketOptions)],
     "surface_pockets": [c_void_p, POINTER(PocketOptions), POINTER(c_void_p)],
     "pockets_table": [c_void_p, c_int32, POINTER(Array)],

@@ -19,7 +19,8 @@ _NUMBERS: dict[int, Any] = {  # what a row is; other columns are texts
     lib.STRUCTURE_INDICES: (np.uint32,), lib.STRUCTURE_RESIDUE_NUMBERS: (np.int32,),
     lib.STRUCTURE_RESIDUES: (np.uint32,), lib.STRUCTURE_MODELS: (np.int32,), lib.STRUCTURE_COPIES: (np.uint32,),
     lib.STRUCTURE_CHARGES: (np.float32,), lib.STRUCTURE_B_FACTORS: (np.float32,),
-    lib.STRUCTURE_OCCUPANCIES: (np.float32,), lib.STRUCTURE_CLASSES: (np.uint8,)}
+    lib.STRUCTURE_OCCUPANCIES: (np.float32,), lib.STRUCTURE_CLASSES: (np.uint8,),
+    lib.STRUCTURE_HYDROPATHIES: (np.float64,)}
 
 
 class _Report(NamedTuple):
@@ -55,7 +56,7 @@ class Structure:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickles hold what was read, so that the file is not needed again."""
-        columns = range(lib.STRUCTURE_POSITIONS, lib.STRUCTURE_WARNINGS + 1)
+        columns = range(lib.STRUCTURE_POSITIONS, lib.STRUCTURE_HYDROPATHIES + 1)
         return _unpacked, (self._report, {column: self._column(column) for column in columns})
 
     def __copy__(self) -> Structure:
@@ -267,6 +268,29 @@ class Structure:
         {'polymer'}"""
         words = np.array(["polymer", "ligand", "water", "ion", "unclassified"])
         return words[self._column(lib.STRUCTURE_CLASSES)]
+
+    @property
+    def hydropathies(self) -> Floats:
+        """(n,) of the residue (Kyte & Doolittle 1982); NaN where it is no amino acid.
+
+        >>> molecule.hydropathies[:3].tolist()
+        [1.8, 1.8, 1.8]"""
+        return self._column(lib.STRUCTURE_HYDROPATHIES)
+
+    def colors(self, scheme: str = "element") -> Singles:
+        """(n, 3) sRGB in [0, 1], as the program colours atoms and as render() and save() take them. scheme: "chain",
+        "bfactor" or another word of `meniscus colors` that means atoms by what the file says of them, a name such as "red",
+        or "#rrggbb"; UsageError for others, InputError where a scheme is of numbers that no atom has, and for a structure
+        from a pickle.
+
+        >>> molecule.colors("red")[0].tolist()
+        [1.0, 0.0, 0.0]
+        >>> meniscus.surface(molecule).mesh(0.1).save("helix.ply", colors=molecule.colors("residue"))"""
+        if self._handle is None:
+            raise InputError("colors: of a structure that was read, not of one that was unpickled; read the file again")
+        colors = np.empty((len(self), 3), np.float32)
+        lib.call("structure_colors", self._handle.pointer, scheme.encode(), colors.ctypes.data)
+        return colors
 
 
 def _unpacked(report: _Report, columns: dict[int, AnyArray]) -> Structure:

@@ -442,11 +442,19 @@ typedef enum meniscus_structure_table_id MENISCUS_WORDS {
   MENISCUS_STRUCTURE_B_FACTORS = 15,      /* float, Å^2; likewise */
   MENISCUS_STRUCTURE_OCCUPANCIES = 16,    /* float; likewise */
   MENISCUS_STRUCTURE_CLASSES = 17,        /* uint8_t: 0 polymer, 1 ligand, 2 water, 3 ion, 4: the file does not say */
-  MENISCUS_STRUCTURE_WARNINGS = 18        /* text: a sentence a row about what is odd in the file */
+  MENISCUS_STRUCTURE_WARNINGS = 18,       /* text: a sentence a row about what is odd in the file */
+  MENISCUS_STRUCTURE_HYDROPATHIES = 19    /* double, of the residue (Kyte & Doolittle 1982); NaN: no amino acid */
 } meniscus_structure_table_id;
 
 MENISCUS_API meniscus_status meniscus_structure_table(const meniscus_structure* structure,
                                                       meniscus_structure_table_id table, meniscus_array* array);
+
+/* The colours of atoms as the program has them. scheme: "chain", "bfactor" or another word of `meniscus colors` that
+ * colours atoms by what the file says of them, a name such as "red", or "#rrggbb"; MENISCUS_USAGE for others.
+ * atom_colors: room for three floats an atom, sRGB in [0, 1], as meniscus_render() takes them. MENISCUS_INPUT where a
+ * scheme is of numbers that no atom of the file has. */
+MENISCUS_API meniscus_status meniscus_structure_colors(const meniscus_structure* structure, const char* scheme,
+                                                       float* atom_colors);
 
 /* ---- Pockets ------------------------------------------------------------------------------------------------- */
 

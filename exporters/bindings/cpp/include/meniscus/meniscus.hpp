@@ -304,6 +304,13 @@ class Structure {
   Rows<float> b_factors() const { return Rows<float>(table(MENISCUS_STRUCTURE_B_FACTORS)); }
   Rows<float> occupancies() const { return Rows<float>(table(MENISCUS_STRUCTURE_OCCUPANCIES)); }
   Rows<std::uint8_t> classes() const { return Rows<std::uint8_t>(table(MENISCUS_STRUCTURE_CLASSES)); }
+  Rows<double> hydropathies() const { return Rows<double>(table(MENISCUS_STRUCTURE_HYDROPATHIES)); }
+  // By "chain", "bfactor", "#ffd700", ...: three numbers an atom, sRGB in [0, 1].
+  std::vector<float> colors(const std::string& scheme) const {
+    std::vector<float> colors(3 * size());
+    check(meniscus_structure_colors(structure_.get(), scheme.c_str(), colors.data()));
+    return colors;
+  }
 
   // For the functions of meniscus.h; owned by this.
   meniscus_structure* get() const noexcept { return structure_.get(); }

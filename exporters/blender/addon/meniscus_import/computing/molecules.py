@@ -6,8 +6,10 @@ import os
 import numpy as np
 
 from .. import mns_reader, sequence_reader
-from . import palette
 from .atoms import AtomFile, Atoms
+
+#: sRGB of convex, toroidal and concave patches, which atoms do not have.
+_KINDS = (np.array([[0x00, 0x9e, 0x73], [0x56, 0xb4, 0xe9], [0xd5, 0x5e, 0x00]]) / 255).tolist()
 
 
 def read(library, request):
@@ -55,23 +57,33 @@ def _names(structure):
     return np.stack([structure.names, structure.residue_numbers.astype(str), structure.chains])
 
 
+def _in_order(names):
+    """The names, each once, in the order in which they come; and the place of each among them."""
+    found, first, place = np.unique(names, return_index=True, return_inverse=True)
+    order = np.argsort(first)
+    rank = np.empty(len(order), dtype=np.int32)
+    rank[order] = np.arange(len(order))
+    return [str(name) for name in found[order]], rank[place]
+
+
 def _atoms(structure, color):
-    chains, chain = palette.in_order(structure.chains)
+    chains, chain = _in_order(structure.chains)
     numbers = {"atom.file_index": structure.indices, "atom.b_factor": np.nan_to_num(structure.b_factors),
                "atom.atomic_number": structure.elements.astype(np.int32), "atom.res_id": structure.residue_numbers, "atom.chain_id": chain}
     names = {}
     for key, array, texts in (("atom_names", "atom.name_id", structure.names),
                               ("residue_names", "atom.residue_name_id", structure.residue_names)):
-        found, place = palette.in_order(texts)
+        found, place = _in_order(texts)
         names[key] = found if any(found) else []
         if names[key]:
             numbers[array] = place
-    for array, values in (("atom.charge", structure.charges), ("atom.hydrophobicity", palette.hydropathy(structure.residue_names))):
+    for array, values in (("atom.charge", structure.charges), ("atom.hydrophobicity", structure.hydropathies)):
         if np.isfinite(values).any():
             numbers[array] = np.nan_to_num(values).astype(np.float32)
     classes = ["polymer", "ligand", "water", "ion", "unclassified"]
     entity = np.array([classes.index(name) for name in structure.classes], dtype=np.int32)
     if (entity != classes.index("unclassified")).any():
         numbers["atom.entity"] = entity
-    return Atoms(structure.positions, structure.radii, palette.colors_of(structure, color), np.arange(len(structure), dtype=np.uint32),
-                 numbers, chains, palette.kind_colors(color), os.path.basename(structure.file), names)
+    kinds = _KINDS if color == "kind" else None
+    return Atoms(structure.positions, structure.radii, structure.colors("grey" if kinds else color),
+                 np.arange(len(structure), dtype=np.uint32), numbers, chains, kinds, os.path.basename(structure.file), names)
