@@ -12,6 +12,7 @@
 
 #include "core/base/error.h"
 #include "core/base/parse_number.h"
+#include "core/base/system_file.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"
 #include "core/structure/formats/structure_formats.h"
@@ -90,12 +91,12 @@ Spheres read_spheres(const std::string& file) {
 void OutputFiles::begin(const std::string& path) {
   if (files_.contains(path)) return;
   namespace fs = std::filesystem;
-  const fs::path target(path), parent = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  const fs::path target = path_of_text(path), parent = target.has_parent_path() ? target.parent_path() : fs::path(".");
   std::error_code none;
   if (!fs::is_directory(parent, none)) throw OutputError(path, "its folder does not exist; make it first");
-  std::unique_ptr<OutputFolder>& folder = folders_[parent.string()];
+  std::unique_ptr<OutputFolder>& folder = folders_[text_of_path(parent)];
   if (!folder) folder = std::make_unique<OutputFolder>(parent, Existing::replace);
-  files_[path] = &folder->file(target.filename().string());
+  files_[path] = &folder->file(text_of_path(target.filename()));
 }
 
 void OutputFiles::write(const std::string& path, const std::string& text) {

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program `meniscus-msms`: MSMS's command line, files and words for exact surfaces.
 
-#include <array>
 #include <chrono>
 #include <cstdint>
 #include <iostream>
 #include <span>
 #include <string>
 #include <vector>
-
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -20,7 +16,9 @@
 #include "app/msms/serve.h"
 #include "app/process/program_error.h"
 #include "app/process/program_main.h"
+#include "app/process/system_process.h"
 #include "core/base/output_file.h"
+#include "core/base/system_file.h"
 #include "core/base/text.h"
 #include "core/surface/reduced_components.h"
 #include "exporters/msms/msms_files.h"
@@ -31,23 +29,15 @@ namespace {
 /// The version whose files and lines these are.
 constexpr const char* kAnswersAs = "2.6.1";
 
-std::string host() {
-  std::array<char, 256> name{};
-  return ::gethostname(name.data(), name.size() - 1) == 0 && name.front() ? name.data() : "localhost";
-}
-
-double seconds_of(const timeval& time) {
-  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-}
-
 /// Which program, as whom it answers, where.
 std::string banner() {
+  const std::string host = system_process::host();
   return fmt::format(
       "MSMS {} started on {}\n"
       "Copyright of the Meniscus developers: this is meniscus-msms " MENISCUS_VERSION
       ", which answers as MSMS does\n"
       "Compilation flags none\n",
-      kAnswersAs, host());
+      kAnswersAs, host.empty() ? "localhost" : host);
 }
 
 /// The lines INPUT and PARAM.
@@ -90,11 +80,10 @@ std::string numeric_table(double probe_radius, std::span<const ReducedComponentS
 
 /// The last two lines. Time since `start`, and of processors since the process began.
 std::string ending(std::chrono::steady_clock::time_point start) {
-  rusage used{};
-  ::getrusage(RUSAGE_SELF, &used);
+  const system_process::ProcessorTime used = system_process::processor_time();
   const std::chrono::duration<double> real = std::chrono::steady_clock::now() - start;
   return fmt::format("MSMS terminated normally\nTotal Time real: {:.2f} user: {:.2f} sys: {:.2f}\n", real.count(),
-                     seconds_of(used.ru_utime), seconds_of(used.ru_stime));
+                     used.user, used.system);
 }
 
 std::string with_extension(const std::string& path, const std::string& extension) {
@@ -110,7 +99,7 @@ void run(const Arguments& arguments, std::chrono::steady_clock::time_point start
   const bool mesh_wanted = arguments.mesh && !arguments.mesh_files.empty();
   // Whether they can be written is known before the work begins.
   OutputFiles files;
-  protect_input(arguments.spheres);
+  protect_input(path_of_text(arguments.spheres));
   if (mesh_wanted)
     for (const char* extension : {".vert", ".face"}) files.begin(mesh_path(arguments, 0, extension));
   const std::string area_path = arguments.area_file.empty() ? "" : with_extension(arguments.area_file, ".area");
@@ -165,5 +154,5 @@ ExitCode run(std::span<const char* const> words) {
 
 int main(int argc, char** argv) {
   using namespace meniscus;
-  return program_main("meniscus-msms", [=] { return msms::run(std::span<const char* const>(argv + 1, argv + argc)); });
+  return program_main("meniscus-msms", [=] { return msms::run(system_process::words(argc, argv).subspan(1)); });
 }

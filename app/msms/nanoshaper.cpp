@@ -16,9 +16,11 @@
 #include "app/msms/drop_in.h"
 #include "app/process/program_error.h"
 #include "app/process/program_main.h"
+#include "app/process/system_process.h"
 #include "core/base/error.h"
 #include "core/base/output_file.h"
 #include "core/base/parse_number.h"
+#include "core/base/system_file.h"
 #include "core/base/text.h"
 #include "core/base/text_file.h"
 #include "core/mesh/even_mesh.h"
@@ -251,7 +253,7 @@ ExitCode run(std::span<const char* const> words) {
   const std::string vert = settings.root + "triangulatedSurf.vert", face = settings.root + "triangulatedSurf.face",
                     off = settings.root + "triangulatedSurf.off";
   OutputFiles files;
-  for (const std::string& input : {path, settings.spheres}) protect_input(input);
+  for (const std::string& input : {path, settings.spheres}) protect_input(path_of_text(input));
   if (settings.msms_files)
     for (const std::string& name : {vert, face}) files.begin(name);
   if (settings.off_file) files.begin(off);
@@ -281,6 +283,5 @@ ExitCode run(std::span<const char* const> words) {
 
 int main(int argc, char** argv) {
   using namespace meniscus;
-  return program_main("meniscus-nanoshaper",
-                      [=] { return msms::run(std::span<const char* const>(argv + 1, argv + argc)); });
+  return program_main("meniscus-nanoshaper", [=] { return msms::run(system_process::words(argc, argv).subspan(1)); });
 }

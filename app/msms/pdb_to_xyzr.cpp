@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The programs `meniscus-pdb_to_xyzr` and, by that name, `meniscus-pdb_to_xyzrn`: spheres of a molecule for MSMS.
-#include <filesystem>
 #include <iostream>
 #include <iterator>
 #include <span>
@@ -11,6 +10,8 @@
 
 #include "app/process/program_error.h"
 #include "app/process/program_main.h"
+#include "app/process/system_process.h"
+#include "core/base/system_file.h"
 #include "core/base/text.h"
 #include "core/structure/formats/read_structure.h"
 
@@ -104,9 +105,10 @@ void run(std::span<const char* const> words, bool named) {
 
 int main(int argc, char** argv) {
   using namespace meniscus;
-  const bool named = argc > 0 && std::filesystem::path(argv[0]).filename().string().ends_with("xyzrn");
+  const std::span<const char* const> words = system_process::words(argc, argv);
+  const bool named = !words.empty() && text_of_path(path_of_text(words[0]).stem()).ends_with("xyzrn");
   return program_main(named ? "pdb_to_xyzrn" : "pdb_to_xyzr", [=] {
-    msms::run(std::span<const char* const>(argv + 1, argv + argc), named);
+    msms::run(words.subspan(1), named);
     return kExitOk;
   });
 }

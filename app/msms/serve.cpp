@@ -1,28 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plain blocking sockets: there is one client, and whatever it has to wait for or we have has a limit.
+// There is one client, and whatever it has to wait for or we have has a limit.
 #include "app/msms/serve.h"
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
+#include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
 #include <fmt/format.h>
 
 #include "app/msms/chosen_surface.h"
+#include "app/msms/local_socket.h"
 #include "app/process/program_error.h"
 #include "core/base/error.h"
-#include "core/base/uninterrupted.h"
 
 namespace meniscus::msms {
 namespace {
@@ -33,79 +27,45 @@ constexpr std::size_t kMostSpheres = 50'000'000;
 constexpr std::size_t kSpheresTogether = 1 << 16;  // memory grows with what has come, not with what was announced
 constexpr const char* kClient = "the client of -socketPort";
 
-/// Closed with this object.
-class Socket {
- public:
-  explicit Socket(int descriptor) : descriptor_(descriptor) {}
-  ~Socket() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  Socket(const Socket&) = delete;
-  Socket& operator=(const Socket&) = delete;
-  int descriptor() const { return descriptor_; }
-
- private:
-  int descriptor_;
-};
-
-[[noreturn]] void refuse_port(std::uint16_t port) {
-  throw UsageError(fmt::format("-socketPort {}: the port cannot be had: {}; try another", port, std::strerror(errno)));
+LocalSocket listening_on(std::uint16_t port) {
+  std::optional<LocalSocket> listener = LocalSocket::listening_on(port);
+  if (!listener)
+    throw UsageError(
+        fmt::format("-socketPort {}: the port cannot be had: {}; try another", port, LocalSocket::last_error()));
+  return std::move(*listener);
 }
 
-int listening_on(std::uint16_t port) {
-  const int descriptor = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  if (descriptor < 0) refuse_port(port);
-  const int on = 1;
-  ::setsockopt(descriptor, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-  sockaddr_in here{};
-  here.sin_family = AF_INET;
-  here.sin_port = htons(port);
-  here.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  if (::bind(descriptor, reinterpret_cast<const sockaddr*>(&here), sizeof here) != 0 || ::listen(descriptor, 1) != 0) {
-    const int error = errno;
-    ::close(descriptor);
-    errno = error;
-    refuse_port(port);
-  }
-  return descriptor;
-}
-
-int first_client(const Socket& listener) {
-  pollfd waiting{listener.descriptor(), POLLIN, 0};
-  if (uninterrupted([&] { return ::poll(&waiting, 1, kWaitForClient); }) <= 0)
+LocalSocket first_client(const LocalSocket& listener) {
+  if (!listener.has_caller(kWaitForClient))
     throw InputError(kClient, 0, fmt::format("did not come within {} s", kWaitForClient / 1000));
-  const int client = uninterrupted([&] { return ::accept4(listener.descriptor(), nullptr, nullptr, SOCK_CLOEXEC); });
-  if (client < 0) throw InputError(kClient, 0, fmt::format("is gone again: {}", std::strerror(errno)));
-  const timeval limit{kWaitForBlock, 0};
-  ::setsockopt(client, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
-  ::setsockopt(client, SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
-  return client;
+  std::optional<LocalSocket> client = listener.caller(kWaitForBlock);
+  if (!client) throw InputError(kClient, 0, fmt::format("is gone again: {}", LocalSocket::last_error()));
+  return std::move(*client);
 }
 
 template <typename T, std::size_t kExtent>
-void receive(const Socket& client, std::span<T, kExtent> values) {
+void receive(const LocalSocket& client, std::span<T, kExtent> values) {
   std::span<std::byte> bytes = std::as_writable_bytes(values);
   while (!bytes.empty()) {
-    const ssize_t got = uninterrupted([&] { return ::recv(client.descriptor(), bytes.data(), bytes.size(), 0); });
+    const std::ptrdiff_t got = client.receive(bytes);
     if (got == 0) throw InputError(kClient, 0, "closed the connection before it had sent all");
-    if (got < 0) throw InputError(kClient, 0, fmt::format("sends nothing more: {}", std::strerror(errno)));
+    if (got < 0) throw InputError(kClient, 0, fmt::format("sends nothing more: {}", LocalSocket::last_error()));
     bytes = bytes.subspan(static_cast<std::size_t>(got));
   }
 }
 
-void send(const Socket& client, std::span<const std::byte> bytes) {
+void send(const LocalSocket& client, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
-    const ssize_t sent =
-        uninterrupted([&] { return ::send(client.descriptor(), bytes.data(), bytes.size(), MSG_NOSIGNAL); });
-    if (sent <= 0) throw OutputError(kClient, fmt::format("takes nothing more: {}", std::strerror(errno)));
+    const std::ptrdiff_t sent = client.send(bytes);
+    if (sent <= 0) throw OutputError(kClient, fmt::format("takes nothing more: {}", LocalSocket::last_error()));
     bytes = bytes.subspan(static_cast<std::size_t>(sent));
   }
 }
 
-void send(const Socket& client, const std::string& text) { send(client, std::as_bytes(std::span(text))); }
+void send(const LocalSocket& client, const std::string& text) { send(client, std::as_bytes(std::span(text))); }
 
 template <typename T>
-void send(const Socket& client, const std::vector<T>& values) {
+void send(const LocalSocket& client, const std::vector<T>& values) {
   send(client, std::as_bytes(std::span(values)));
 }
 
@@ -114,7 +74,7 @@ struct SentSphere {
   std::int32_t flag;  // as in files; what VMD has there is not looked at
 };
 
-Spheres receive_spheres(const Socket& client, Arguments& arguments) {
+Spheres receive_spheres(const LocalSocket& client, Arguments& arguments) {
   std::array<float, 2> probe_and_density{};
   std::array<std::int32_t, 3> numbers{};  // of which the last one counts the spheres
   receive(client, std::span(probe_and_density));
@@ -137,7 +97,7 @@ Spheres receive_spheres(const Socket& client, Arguments& arguments) {
   return spheres_of(std::move(balls), {}, kClient);
 }
 
-void send_mesh(const Socket& client, const MsmsMesh& mesh, const Spheres& spheres) {
+void send_mesh(const LocalSocket& client, const MsmsMesh& mesh, const Spheres& spheres) {
   send(client, "MSMS RCF\n");
   send(client,
        std::vector{static_cast<std::int32_t>(mesh.triangles.size()), static_cast<std::int32_t>(mesh.vertices.size())});
@@ -165,8 +125,8 @@ void send_mesh(const Socket& client, const MsmsMesh& mesh, const Spheres& sphere
 }  // namespace
 
 void serve(std::uint16_t port) {
-  const Socket listener(listening_on(port));
-  const Socket client(first_client(listener));
+  const LocalSocket listener = listening_on(port);
+  const LocalSocket client = first_client(listener);
   send(client, "MSMS of meniscus-msms " MENISCUS_VERSION "\n");
   Arguments arguments;
   const Spheres spheres = receive_spheres(client, arguments);

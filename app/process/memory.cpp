@@ -1,24 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Asks the system and its control groups for limits, and sets the handlers that speak up when memory is short.
+// Asks the system and its control groups for limits, and remembers when memory was short.
 #include "app/process/memory.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <climits>
-#include <csignal>
 #include <cstdlib>
-#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <new>
 #include <string>
-#include <string_view>
 
-#include <sys/resource.h>
-#include <unistd.h>
-
-#include "app/process/program_error.h"
+#include "app/process/system_process.h"
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -59,52 +52,13 @@ std::uint64_t memory_limit(std::istream& groups, const std::filesystem::path& mo
 }
 
 std::uint64_t memory_size() {
-  const std::uint64_t physical =
-      static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
   std::ifstream groups("/proc/self/cgroup");
-  return std::min(physical, memory_limit(groups, "/sys/fs/cgroup"));
+  return std::min(system_process::physical_memory(), memory_limit(groups, "/sys/fs/cgroup"));
 }
 
-namespace {
+void libraries_are_loaded() { system_process::libraries_are_loaded(); }
 
-constexpr unsigned kSecondsToLoad = 60;
-
-/// Nothing but what a signal handler may do.
-[[noreturn]] void give_up() {
-  constexpr std::string_view kLine =
-      "meniscus: error: not enough memory under the limit on address space; raise it (ulimit -v), or use fewer "
-      "--threads\n";
-  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kLine.data(), kLine.size());
-  ::_exit(kExitCapacity);
-}
-
-void handle(int) { give_up(); }
-
-void watch() {
-  if (!memory_is_limited()) return;
-  static std::array<char, 1 << 16> stack;  // the other one may be what could not grow
-  stack_t alternative{};
-  alternative.ss_sp = stack.data();
-  alternative.ss_size = stack.size();
-  ::sigaltstack(&alternative, nullptr);
-  struct sigaction action {};
-  action.sa_handler = handle;
-  action.sa_flags = SA_ONSTACK;
-  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGALRM}) ::sigaction(signal, &action, nullptr);
-  std::set_terminate(give_up);
-  ::alarm(kSecondsToLoad);
-}
-
-__attribute__((section(".preinit_array"), used)) void (*const watch_from_the_beginning)() = watch;
-
-}  // namespace
-
-void libraries_are_loaded() { ::alarm(0); }
-
-bool memory_is_limited() {
-  rlimit limit{};
-  return ::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
-}
+bool memory_is_limited() { return system_process::memory_is_limited(); }
 
 namespace {
 

@@ -8,18 +8,16 @@
 #include <new>
 #include <sstream>
 #include <string>
-#include <string_view>
-
-#include <fcntl.h>
-#include <unistd.h>
 
 #include <fmt/format.h>
 
 #include "app/process/memory.h"
 #include "app/process/program_error.h"
 #include "app/process/stop_signals.h"
+#include "app/process/system_process.h"
 #include "core/base/error.h"
 #include "core/base/output_file.h"
+#include "core/base/system_file.h"
 #include "core/base/text.h"
 
 namespace meniscus {
@@ -65,18 +63,16 @@ ExitCode report_with_memory() {
 
 /// Needs no memory at all.
 ExitCode report_without_memory() noexcept {
-  constexpr std::string_view kLine =
+  system_process::say(
       "meniscus: error: not enough memory; use a machine with more, a smaller molecule or picture, or fewer "
-      "--threads\n";
-  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kLine.data(), kLine.size());
+      "--threads\n");
   return kExitCapacity;
 }
 
 /// An exception that would leave a function which promises to throw none is no current one: nobody can ask what it is.
 ExitCode report_unnamed_error() noexcept {
   if (memory_ran_out()) return report_without_memory();
-  constexpr std::string_view kLine = "meniscus: error: internal: an exception where none may be; please report this\n";
-  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kLine.data(), kLine.size());
+  system_process::say("meniscus: error: internal: an exception where none may be; please report this\n");
   return kExitInternal;
 }
 
@@ -95,20 +91,10 @@ ExitCode report_current_error() noexcept {
 /// Unfinished files are removed.
 [[noreturn]] void end_by_uncaught_error() {
   static std::atomic_flag ending;
-  while (ending.test_and_set()) ::pause();  // another thread says it already
+  while (ending.test_and_set()) system_file::wait_a_millisecond();  // another thread says it already
   const ExitCode code = std::current_exception() ? report_current_error() : report_unnamed_error();
   remove_unfinished_outputs();
-  ::_exit(code);
-}
-
-/// A standard stream that is closed gets a descriptor that nothing can be read from or written to, lest the next file
-/// opened takes its number and messages are written into it.
-void hold_standard_streams() {
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    if (::fcntl(stream, F_GETFD) >= 0) continue;
-    // The lowest free number is taken, and those below are in use. If even /dev/null is missing, so be it.
-    [[maybe_unused]] const int held = ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
-  }
+  system_process::end(code);
 }
 
 }  // namespace
@@ -126,7 +112,7 @@ int program_main(const char* name, const std::function<ExitCode()>& work) {
     remember_failed_allocations();
     program_name = name;
     std::set_terminate(end_by_uncaught_error);
-    hold_standard_streams();
+    system_process::hold_standard_streams();
     clean_up_on_signals();
     code = work();
   } catch (...) {
@@ -136,7 +122,7 @@ int program_main(const char* name, const std::function<ExitCode()>& work) {
   // ever, and its destructor waits for it.
   if (memory_is_limited() || code == kExitCapacity) {
     std::cout.flush();
-    ::_exit(code);
+    system_process::end(code);
   }
   return code;
 }

@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A thread waits until a handler, which may run on any other, tells it of a signal.
+// What the thread does that hears of a stop, and what it calls before.
 #include "app/process/stop_signals.h"
 
-#include <atomic>
-#include <cerrno>
-#include <csignal>
 #include <mutex>
 #include <optional>
-#include <thread>
 #include <utility>
 
-#include <pthread.h>
-#include <semaphore.h>
-#include <unistd.h>
-
+#include "app/process/system_process.h"
 #include "core/base/output_file.h"
 
 namespace meniscus {
@@ -30,42 +23,16 @@ Handling& handling() {
   return instance;
 }
 
-std::atomic<int> first_signal{0};
-static_assert(std::atomic<int>::is_always_lock_free);
-sem_t told;
-
-/// Nothing but what a signal handler may do.
-void tell(int signal) {
-  int none = 0;
-  if (first_signal.compare_exchange_strong(none, signal)) ::sem_post(&told);
+void stop(int signal) {
+  const std::lock_guard lock(handling().mutex);
+  if (handling().stop) handling().stop();
+  remove_unfinished_outputs();
+  system_process::end(handling().exit_code.value_or(128 + signal));
 }
 
 }  // namespace
 
-// All threads of ours but one block the signals, so that nothing of theirs is interrupted. That alone would not do:
-// libraries such as OpenBLAS start threads before main begins, and one of these would end the program at once.
-void clean_up_on_signals() {
-  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is then an error of write(), and reported
-  ::sem_init(&told, 0, 0);
-  struct sigaction action {};
-  action.sa_handler = tell;
-  action.sa_flags = SA_RESTART;
-  sigset_t signals;
-  sigemptyset(&signals);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) {
-    ::sigaction(signal, &action, nullptr);
-    sigaddset(&signals, signal);
-  }
-  std::thread([] {
-    while (::sem_wait(&told) != 0 && errno == EINTR) {
-    }
-    const std::lock_guard lock(handling().mutex);
-    if (handling().stop) handling().stop();
-    remove_unfinished_outputs();
-    ::_exit(handling().exit_code.value_or(128 + first_signal));
-  }).detach();
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-}
+void clean_up_on_signals() { system_process::await_stop(stop); }
 
 StopHandler::StopHandler(std::function<void()> stop, std::optional<int> exit_code) {
   const std::lock_guard lock(handling().mutex);

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Processes of Linux and macOS.
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <exception>
+#include <thread>
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "app/process/program_error.h"
+#include "app/process/system_process.h"
+#include "core/base/error.h"
+
+namespace meniscus::system_process {
+
+std::span<const char* const> words(int argc, char** argv) { return {argv, static_cast<std::size_t>(argc)}; }
+
+void hold_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) >= 0) continue;
+    // The lowest free number is taken, and those below are in use. If even /dev/null is missing, so be it.
+    [[maybe_unused]] const int held = ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+  }
+}
+
+void say(std::string_view line) noexcept {
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
+}
+
+void end(int code) noexcept { ::_exit(code); }
+
+bool memory_is_limited() {
+  rlimit limit{};
+  return ::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+}
+
+std::uint64_t physical_memory() {
+  return static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+#if defined(__ELF__)
+namespace {
+
+constexpr unsigned kSecondsToLoad = 60;
+
+/// Nothing but what a signal handler may do.
+[[noreturn]] void give_up() {
+  say("meniscus: error: not enough memory under the limit on address space; raise it (ulimit -v), or use fewer "
+      "--threads\n");
+  end(kExitCapacity);
+}
+
+void handle(int) { give_up(); }
+
+void watch() {
+  if (!memory_is_limited()) return;
+  static std::array<char, 1 << 16> stack;  // the other one may be what could not grow
+  stack_t alternative{};
+  alternative.ss_sp = stack.data();
+  alternative.ss_size = stack.size();
+  ::sigaltstack(&alternative, nullptr);
+  struct sigaction action {};
+  action.sa_handler = handle;
+  action.sa_flags = SA_ONSTACK;
+  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGALRM}) ::sigaction(signal, &action, nullptr);
+  std::set_terminate(give_up);
+  ::alarm(kSecondsToLoad);
+}
+
+__attribute__((section(".preinit_array"), used)) void (*const watch_from_the_beginning)() = watch;
+
+}  // namespace
+
+void libraries_are_loaded() { ::alarm(0); }
+#else
+void libraries_are_loaded() {}
+#endif
+
+namespace {
+
+std::atomic<int> first_signal{0};
+static_assert(std::atomic<int>::is_always_lock_free);
+std::array<int, 2> told{-1, -1};  // a pipe: macOS has no semaphores without names
+
+/// Nothing but what a signal handler may do.
+void tell(int signal) {
+  const int before = errno;
+  int none = 0;
+  if (first_signal.compare_exchange_strong(none, signal)) {
+    [[maybe_unused]] const ssize_t written = ::write(told[1], "", 1);
+  }
+  errno = before;
+}
+
+}  // namespace
+
+// All threads of ours but one block the signals, so that nothing of theirs is interrupted. That alone would not do:
+// libraries such as OpenBLAS start threads before main begins, and one of these would end the program at once.
+void await_stop(void (*stopped)(int signal)) {
+  std::signal(SIGXFSZ, SIG_IGN);
+  if (::pipe(told.data()) != 0)
+    throw CapacityError(std::string("the system gives no pipe for signals: ") + std::strerror(errno));
+  for (const int end : told) ::fcntl(end, F_SETFD, FD_CLOEXEC);
+  struct sigaction action {};
+  action.sa_handler = tell;
+  action.sa_flags = SA_RESTART;
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) {
+    ::sigaction(signal, &action, nullptr);
+    sigaddset(&signals, signal);
+  }
+  std::thread([stopped] {
+    for (char byte = 0; ::read(told[0], &byte, 1) != 1;) {
+    }
+    stopped(first_signal);
+  }).detach();
+  ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+}
+
+ProcessorTime processor_time() {
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  rusage used{};
+  ::getrusage(RUSAGE_SELF, &used);
+  return {seconds(used.ru_utime), seconds(used.ru_stime)};
+}
+
+std::string host() {
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+}
+
+}  // namespace meniscus::system_process

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Processes of Windows.
+#include <array>
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <vector>
+
+#include <fcntl.h>
+#include <io.h>
+#include <windows.h>
+
+#include <shellapi.h>
+
+#include "app/process/system_process.h"
+#include "core/base/error.h"
+
+namespace meniscus::system_process {
+namespace {
+
+std::string in_utf8(const wchar_t* text) {
+  const int size = ::WideCharToMultiByte(CP_UTF8, 0, text, -1, nullptr, 0, nullptr, nullptr);
+  std::string bytes(size > 0 ? static_cast<std::size_t>(size) : 1, '\0');
+  ::WideCharToMultiByte(CP_UTF8, 0, text, -1, bytes.data(), size, nullptr, nullptr);
+  bytes.pop_back();  // the zero at its end
+  return bytes;
+}
+
+/// The words of the command line as they were given: those of main() are in the code page of the machine, and where
+/// they hold * or ? the C library has put names of files in their place.
+std::vector<std::string> given_words() {
+  int count = 0;
+  const std::unique_ptr<wchar_t*, decltype(&::LocalFree)> wide(::CommandLineToArgvW(::GetCommandLineW(), &count),
+                                                               ::LocalFree);
+  std::vector<std::string> words;
+  for (int n = 0; wide && n < count; ++n) words.push_back(in_utf8(wide.get()[n]));
+  return words;
+}
+
+}  // namespace
+
+std::span<const char* const> words(int, char**) {
+  static const std::vector<std::string> texts = given_words();
+  static const std::vector<const char*> pointers = [] {
+    std::vector<const char*> all;
+    for (const std::string& text : texts) all.push_back(text.c_str());
+    return all;
+  }();
+  return pointers;
+}
+
+// A closed stream keeps its number here. Texts are UTF-8 wherever they go, and lines end as elsewhere.
+void hold_standard_streams() {
+  ::SetConsoleOutputCP(CP_UTF8);
+  for (std::FILE* stream : {stdout, stderr}) ::_setmode(::_fileno(stream), _O_BINARY);
+}
+
+void say(std::string_view line) noexcept {
+  DWORD written = 0;
+  ::WriteFile(::GetStdHandle(STD_ERROR_HANDLE), line.data(), static_cast<DWORD>(line.size()), &written, nullptr);
+}
+
+void end(int code) noexcept { ::_exit(code); }
+
+// There is no limit on address space.
+bool memory_is_limited() { return false; }
+void libraries_are_loaded() {}
+
+std::uint64_t physical_memory() {
+  MEMORYSTATUSEX status{};
+  status.dwLength = sizeof status;
+  return ::GlobalMemoryStatusEx(&status) ? status.ullTotalPhys : UINT64_MAX;
+}
+
+namespace {
+
+void (*when_stopped)(int signal) = nullptr;
+std::atomic_flag is_stopped;
+
+/// On a thread that the system starts for it.
+BOOL WINAPI take_event(DWORD event) {
+  constexpr int kHangUp = 1;  // SIGHUP of others
+  const int signal = event == CTRL_C_EVENT ? SIGINT : event == CTRL_BREAK_EVENT ? SIGTERM : kHangUp;
+  if (!is_stopped.test_and_set()) when_stopped(signal);
+  return TRUE;
+}
+
+}  // namespace
+
+void await_stop(void (*stopped)(int signal)) {
+  when_stopped = stopped;
+  if (!::SetConsoleCtrlHandler(take_event, TRUE))
+    throw CapacityError("the system does not tell of Ctrl-C: error " + std::to_string(::GetLastError()));
+}
+
+ProcessorTime processor_time() {
+  const auto seconds = [](const FILETIME& time) {
+    constexpr double kPerSecond = 1e7;
+    return static_cast<double>(std::uint64_t{time.dwHighDateTime} << 32 | time.dwLowDateTime) / kPerSecond;
+  };
+  FILETIME begun{}, ended{}, system{}, user{};
+  ::GetProcessTimes(::GetCurrentProcess(), &begun, &ended, &system, &user);
+  return {seconds(user), seconds(system)};
+}
+
+std::string host() {
+  std::array<wchar_t, MAX_COMPUTERNAME_LENGTH + 1> name{};
+  auto size = static_cast<DWORD>(name.size());
+  return ::GetComputerNameW(name.data(), &size) ? in_utf8(name.data()) : "";
+}
+
+}  // namespace meniscus::system_process
