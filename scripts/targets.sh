@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Builds libmeniscus for Linux, Windows and macOS, runs it where this machine can, and compares the results of all.
+# Builds libmeniscus and the drop-in programs for Linux, Windows and macOS, runs them where this machine can, and compares
+# the results of all.
 #
 #   scripts/targets.sh [--build-only] [TARGET...]
 #
@@ -19,7 +20,7 @@ chosen=()
 while (($#)); do
   case $1 in
     --build-only) run= ;;
-    -h | --help) sed -n '2,10s/^# \{0,1\}//p' "$0"; exit ;;
+    -h | --help) sed -n '2,11s/^# \{0,1\}//p' "$0"; exit ;;
     *) [[ ${triples[$1]:-} ]] || { echo "targets.sh: there is no target $1; there are ${order[*]}" >&2; exit 2; }
        chosen+=("$1") ;;
   esac
@@ -130,23 +131,24 @@ build_dependencies() {
 }
 
 build_library() {
-  cmake -S "$root" -B "$target_folder/library" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_SHARED_LINKER_FLAGS=-s \
+  cmake -S "$root" -B "$target_folder/library" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_{SHARED,EXE}_LINKER_FLAGS=-s \
     -DCMAKE_TOOLCHAIN_FILE="$root/scripts/cmake/zig.cmake" -DMENISCUS_ZIG="$zig" -DMENISCUS_ZIG_TARGET="$triple" \
-    -DCMAKE_FIND_ROOT_PATH="$prefix" -DCMAKE_PREFIX_PATH="$prefix" -DMENISCUS_APP=OFF -DMENISCUS_TESTS=OFF \
+    -DCMAKE_FIND_ROOT_PATH="$prefix" -DCMAKE_PREFIX_PATH="$prefix" -DMENISCUS_APP=OFF -DMENISCUS_DROP_INS=ON -DMENISCUS_TESTS=OFF \
     -DMENISCUS_GL=OFF -DMENISCUS_LIBM="$prefix/lib/libmeniscus_libm.a" \
     -DMENISCUS_{GEMMI,ZLIB,JSON,DEFLATE,SCENES}=ON
-  ninja -C "$target_folder/library" meniscus_c
+  ninja -C "$target_folder/library" meniscus_c meniscus_msms meniscus_nanoshaper meniscus_pdb_to_xyzr
 }
 
-# The library, and the program that writes the table of results, side by side in build/targets/TARGET.
+# The library, the programs, and the one that writes the table of results, side by side in build/targets/TARGET.
 collect() {
-  local built=$target_folder/library/exporters/bindings/c library table=result_table link
+  local built=$target_folder/library/exporters/bindings/c library table=result_table suffix="" link
   case $target in
-    *windows) library=meniscus.dll link=$built/libmeniscus.dll.a table=result_table.exe ;;
+    *windows) library=meniscus.dll link=$built/libmeniscus.dll.a table=result_table.exe suffix=.exe ;;
     *macos) library=libmeniscus.dylib link=$built/libmeniscus.dylib ;;
     *) library=libmeniscus.so link=$built/libmeniscus.so ;;
   esac
   cp -L "$built/$library" "$target_folder/$library"
+  cp "$target_folder/library"/meniscus-{msms,nanoshaper,pdb_to_xyzr}"$suffix" "$target_folder"
   "$zig" c++ -target "$triple" -std=c++20 -O2 -Iexporters/bindings/c/include tests/targets/result_table.cpp "$link" \
     -o "$target_folder/$table"
   [[ $target != *linux ]] || cp -L "$built/libmeniscus.so" "$target_folder/libmeniscus.so.0"

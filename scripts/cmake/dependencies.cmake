@@ -1,6 +1,7 @@
 # What Meniscus is built from. The library needs GLM, fmt and TBB; each other part of it needs a library of its own, and
 # where that is missing the call that would need it says so. The programs need all of them, and more.
 option(MENISCUS_APP "Build the programs; OFF: libmeniscus alone, of what is there" ON)
+option(MENISCUS_DROP_INS "Build the programs in the place of MSMS and NanoShaper, which need molecule files and no more" ${MENISCUS_APP})
 option(MENISCUS_PREVIEW "Build the window and the page of `meniscus preview`; with the programs only" ON)
 # Sine, arctangent and the like differ in the last bit from system to system. With one library of them for all
 # (scripts/targets.sh: musl's) results have the same bits everywhere.
@@ -76,6 +77,12 @@ if(MENISCUS_WITH_GEMMI AND MENISCUS_WITH_JSON AND Freetype_FOUND)
 endif()
 meniscus_part(SCENES "${scenes_FOUND}" WORDS "scenes and their pictures" NEEDS "FreeType (with gemmi and nlohmann_json)")
 
+if(MENISCUS_APP AND NOT MENISCUS_DROP_INS)
+  message(FATAL_ERROR "The programs are built together: MENISCUS_DROP_INS may be OFF where MENISCUS_APP is")
+endif()
+if(MENISCUS_DROP_INS AND NOT MENISCUS_WITH_GEMMI)
+  message(FATAL_ERROR "MENISCUS_DROP_INS needs gemmi (with PEGTL), for molecule files")
+endif()
 if(MENISCUS_APP)
   find_package(CLI11 REQUIRED)
   find_package(OpenImageIO REQUIRED)
