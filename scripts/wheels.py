@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Packs the libraries that scripts/targets.sh built into wheels, one a system, with the notices of all that is in them.
+"""Packs the libraries and programs that scripts/targets.sh built into wheels, one a system, with the notices of all that is in
+them.
 
     wheels.py OUT [TARGET...]      targets as in targets.sh; all that are built by default
 
-The same libraries give the same bytes. Each wheel has the package, its library, LICENSE, THIRD_PARTY.txt with the licences
-of what is linked into the library, and a bill of materials (CycloneDX 1.5; PEP 770)."""
+The same files give the same bytes. Each wheel has the package, its library, the programs as scripts, which installers put
+beside Python, LICENSE, THIRD_PARTY.txt with the licences of what is linked into them, and a bill of materials (CycloneDX 1.5;
+PEP 770)."""
 
 import base64
 import glob
@@ -13,6 +15,7 @@ import hashlib
 import json
 import os
 import re
+import stat
 import sys
 import zipfile
 
@@ -25,7 +28,9 @@ TARGETS = {"x86_64-linux": ("manylinux_2_28_x86_64", "libmeniscus.so"),
            "x86_64-windows": ("win_amd64", "meniscus.dll"),
            "aarch64-macos": ("macosx_13_0_arm64", "libmeniscus.dylib"),
            "x86_64-macos": ("macosx_13_0_x86_64", "libmeniscus.dylib")}
-#: What is linked or compiled into the library: its name, licence, and where its text is, below build/targets/sources or in
+#: In all of them.
+PROGRAMS = ("meniscus-msms", "meniscus-nanoshaper", "meniscus-pdb_to_xyzr")
+#: What is linked or compiled into the library and the programs: its name, licence, and where its text is, below build/targets/sources or in
 #: the system. The first file that is there counts.
 PARTS = [("oneTBB", "Apache-2.0", "onetbb-*/LICENSE.txt"), ("FreeType", "FTL", "freetype-*/docs/FTL.TXT"),
          ("zlib", "Zlib", "zlib-*/LICENSE"), ("libdeflate", "MIT", "libdeflate-*/COPYING"),
@@ -56,7 +61,7 @@ def version_of(pattern):
 
 
 def third_party():
-    begin = "What is linked or compiled into the library of this package, beside Meniscus itself.\n"
+    begin = "What is linked or compiled into the library and the programs of this package, beside Meniscus itself.\n"
     return begin + "".join(f"\n{'=' * 80}\n{name} ({licence})\n{'=' * 80}\n\n{text_of(name, pattern)}"
                            for name, licence, pattern in PARTS)
 
@@ -86,6 +91,12 @@ def read(path):
         return file.read()
 
 
+def programs(target):
+    """Names in the wheel -> paths. Installers make them executable and put them where commands are found."""
+    suffix = ".exe" if "windows" in target else ""
+    return {f"meniscus-{version()}.data/scripts/{name}{suffix}": os.path.join(BUILT, target, name + suffix) for name in PROGRAMS}
+
+
 def contents(target):
     """Names in the wheel -> bytes."""
     tag, library = TARGETS[target]
@@ -93,6 +104,7 @@ def contents(target):
     files = {f"meniscus/{name}": read(os.path.join(PACKAGE, name)) for name in os.listdir(PACKAGE)
              if name.endswith(".py") or name == "py.typed"}
     files[f"meniscus/{library}"] = read(os.path.join(BUILT, target, library))
+    files.update({name: read(path) for name, path in programs(target).items()})
     files[f"{info}/METADATA"] = metadata().encode()
     files[f"{info}/WHEEL"] = ("Wheel-Version: 1.0\nGenerator: meniscus scripts/wheels.py\nRoot-Is-Purelib: false\n"
                               f"Tag: py3-none-{tag}\n").encode()
@@ -112,7 +124,8 @@ def pack(target, out):
     with zipfile.ZipFile(path + ".part", "w", zipfile.ZIP_DEFLATED) as wheel:
         for name in sorted(files, key=lambda name: (".dist-info/" in name, name)):
             entry = zipfile.ZipInfo(name)  # of 1980
-            entry.create_system, entry.external_attr = 3, (0o755 if "libmeniscus" in name else 0o644) << 16
+            executable = "libmeniscus" in name or ".data/scripts/" in name
+            entry.create_system, entry.external_attr = 3, (stat.S_IFREG | (0o755 if executable else 0o644)) << 16
             entry.compress_type = zipfile.ZIP_DEFLATED
             wheel.writestr(entry, files[name], compresslevel=9)
     os.replace(path + ".part", path)

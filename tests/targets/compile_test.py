@@ -12,8 +12,10 @@ import unittest
 
 ROOT, FOLDER = (os.path.abspath(path) for path in sys.argv[1:3])
 TARGETS = ("x86_64-linux-gnu.2.28", "aarch64-linux-gnu.2.28", "x86_64-windows-gnu", "aarch64-macos.13.0", "x86_64-macos.13.0")
-FILES = ["core/base/output_file.cpp", "core/reduced_surface/contour/contour.cpp", "core/surface/fixed_probes.cpp",
+FILES = ["app/process/program_main.cpp", "core/base/output_file.cpp", "core/reduced_surface/contour/contour.cpp", "core/surface/fixed_probes.cpp",
          "core/render/cpu/lanes_16.cpp"]
+#: One file for Windows, and one for the others.
+BY_SYSTEM = ["app/msms/local_socket_{}.cpp", "app/process/system_process_{}.cpp", "core/base/system_file_{}.cpp"]
 #: Headers that are the same on every system.
 HEADERS = ["fmt", "glm", "oneapi", "tbb"]
 
@@ -51,7 +53,7 @@ class Compile(unittest.TestCase):
         for target in TARGETS:
             system = "windows" if "windows" in target else "posix"
             with self.subTest(target=target):
-                self.compile(target, *FILES, f"core/base/system_file_{system}.cpp")
+                self.compile(target, *FILES, *(name.format(system) for name in BY_SYSTEM))
 
 
 if __name__ == "__main__":

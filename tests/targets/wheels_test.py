@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Are the programs in a wheel, and found as commands where pip has installed it?
+
+wheels_test.py ROOT BUILD: packs what BUILD has in the place of what scripts/targets.sh builds."""
+
+import csv
+import importlib.util
+import io
+import os
+import platform
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+import zipfile
+
+ROOT, BUILD = (os.path.abspath(path) for path in sys.argv[1:3])
+UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
+
+
+def wheels_of(folder):
+    """scripts/wheels.py, which finds a target and licences in this folder."""
+    spec = importlib.util.spec_from_file_location("wheels", os.path.join(ROOT, "scripts", "wheels.py"))
+    wheels = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(wheels)
+    wheels.BUILT = folder
+    wheels.PARTS = [("oneTBB", "Apache-2.0", "onetbb-*/LICENSE.txt")]
+    licence = os.path.join(folder, "sources", "onetbb-2021.8.0", "LICENSE.txt")
+    os.makedirs(os.path.dirname(licence))
+    with open(licence, "w", encoding="utf-8") as file:
+        file.write("a licence")
+    return wheels
+
+
+class Wheels(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.wheels = wheels_of(self.folder)
+
+    def built(self, target, suffix=""):
+        """What stands for the files of a target: the programs of BUILD, and no library."""
+        os.mkdir(os.path.join(self.folder, target))
+        for program in self.wheels.PROGRAMS:
+            shutil.copy(os.path.join(BUILD, program), os.path.join(self.folder, target, program + suffix))
+        with open(os.path.join(self.folder, target, self.wheels.TARGETS[target][1]), "wb"):
+            pass
+
+    def test_programs_are_commands_where_the_wheel_is_installed(self):
+        target = platform.machine() + "-linux"
+        self.built(target)
+        wheel = self.wheels.pack(target, self.folder)
+        venv = os.path.join(self.folder, "venv")
+        subprocess.run([sys.executable, "-m", "venv", venv], check=True)
+        subprocess.run([os.path.join(venv, "bin", "python"), "-m", "pip", "install", "-q", "--disable-pip-version-check", "--no-deps",
+                        "--no-index", wheel], check=True)
+        path = {**os.environ, "PATH": os.path.join(venv, "bin")}
+        spheres = subprocess.run(["meniscus-pdb_to_xyzr", UBIQUITIN], env=path, check=True, capture_output=True)
+        areas = subprocess.run(["meniscus-msms", "-if", "-", "-surface", "ases"], env=path, check=True, capture_output=True,
+                               input=spheres.stdout)
+        self.assertIn(b"ANALYTICAL SURFACE AREA", areas.stdout)
+        help_text = subprocess.run(["meniscus-nanoshaper", "--help"], env=path, check=True, capture_output=True)
+        self.assertIn(b"NanoShaper", help_text.stdout)
+
+    def test_each_file_is_in_the_record_and_programs_may_be_run(self):
+        self.built("x86_64-windows", ".exe")
+        path = self.wheels.pack("x86_64-windows", self.folder)
+        with zipfile.ZipFile(path) as wheel:
+            info = {entry.filename: entry for entry in wheel.infolist()}
+            record = wheel.read(f"meniscus-{self.wheels.version()}.dist-info/RECORD").decode()
+        self.assertEqual(sorted(row[0] for row in csv.reader(io.StringIO(record))), sorted(info))
+        scripts = f"meniscus-{self.wheels.version()}.data/scripts/"
+        names = [name for name in info if name.startswith(scripts)]
+        self.assertEqual(sorted(names), [scripts + name + ".exe" for name in sorted(self.wheels.PROGRAMS)])
+        for name in names:
+            self.assertEqual(info[name].external_attr >> 16, 0o100755, name)
+
+    def test_the_same_files_give_the_same_bytes(self):
+        self.built("aarch64-macos")
+        written = []
+        for _ in range(2):
+            with open(self.wheels.pack("aarch64-macos", self.folder), "rb") as file:
+                written.append(file.read())
+        self.assertEqual(*written)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
