@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tells of a shared library of any system what can be told without loading it: the processor, the oldest system, the
-libraries that it needs, and how many functions it gives.
+"""Tells of a shared library or a program of any system what can be told without running it: the processor, the oldest system,
+the libraries that it needs, and how many functions a library gives.
 
-describe_library.py FILE      needs lief, of PyPI. Exit code 1 if it gives other names than meniscus_*, or takes a mathematical
-function from the system, whose last digit is that of the system."""
+describe_library.py FILE...     needs lief, of PyPI. Exit code 1 if one needs a library that its system does not bring, or takes a
+mathematical function from the system, whose last digit is that of the system, or if a library gives other names than
+meniscus_*."""
 
+import os
 import re
 import sys
 
@@ -18,12 +20,17 @@ INEXACT = set("acos acosh asin asinh atan atan2 atanh cbrt cos cosh erf erfc exp
 
 
 def of_system(binary):
-    """Mathematical functions that the library takes from elsewhere."""
+    """Mathematical functions that it takes from elsewhere."""
     if isinstance(binary, lief.PE.Binary):
         names = {entry.name for library in binary.imports for entry in library.entries}
     else:
         names = {symbol.name for symbol in binary.imported_symbols}
     return sorted({name.lstrip("_").partition("@")[0] for name in names} & (INEXACT | {name + suffix for name in INEXACT for suffix in "fl"}))
+
+
+#: What systems bring: glibc, Windows, macOS.
+OF_SYSTEMS = re.compile(r"lib(c|dl|m|pthread|rt)\.so\.\d$|ld-linux-.*|api-ms-win-crt-.*|(kernel32|shell32|ws2_32)\.dll$|"
+                        r"/usr/lib/libSystem\.B\.dylib$", re.IGNORECASE)
 
 
 def versions(names):
@@ -36,13 +43,13 @@ def of_elf(binary):
     needs = [version for requirement in binary.symbols_version_requirement for version in
              (auxiliary.name for auxiliary in requirement.get_auxiliary_symbols())]
     names = {symbol.name for symbol in binary.exported_symbols}
-    return binary.header.machine_type.name, versions(needs), list(binary.libraries), names
+    return binary.header.machine_type.name, versions(needs), list(binary.libraries), None if binary.has_interpreter else names
 
 
 def of_pe(binary):
     version = f"Windows {binary.optional_header.major_subsystem_version}.{binary.optional_header.minor_subsystem_version}"
     return (binary.header.machine.name, version, [entry.name for entry in binary.imports],
-            [entry.name for entry in binary.get_export().entries])
+            [entry.name for entry in binary.get_export().entries] if binary.has_exports else None)
 
 
 def of_macho(binary):
@@ -50,13 +57,12 @@ def of_macho(binary):
     own = binary.id_dylib.name if hasattr(binary, "id_dylib") else ""
     return (binary.header.cpu_type.name, version,
             [library.name for library in binary.libraries if library.name != own and "meniscus" not in library.name],
-            [symbol.name.lstrip("_") for symbol in binary.exported_symbols])
+            [symbol.name.lstrip("_") for symbol in binary.exported_symbols] if hasattr(binary, "id_dylib") else None)
 
 
-def main():
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    binary = lief.parse(sys.argv[1])
+def describe(path):
+    """A line about it, and whether all is well."""
+    binary = lief.parse(path)
     if isinstance(binary, lief.ELF.Binary):
         facts = of_elf(binary)
     elif isinstance(binary, lief.PE.Binary):
@@ -64,15 +70,32 @@ def main():
     elif isinstance(binary, lief.MachO.Binary):
         facts = of_macho(binary)
     else:
-        sys.exit(f"{sys.argv[1]}: not a shared library of a known system")
+        sys.exit(f"{path}: not of a known system")
     machine, oldest, needed, names = facts
-    ours = [name for name in names if name.startswith("meniscus_")]
+    line = f"{machine}, {oldest}; needs {', '.join(needed)}"
+    strange = [name for name in needed if not OF_SYSTEMS.match(name)]
+    if strange:
+        line += f", of which no system brings {', '.join(strange)}"
     taken = of_system(binary)
+    if taken:
+        line += f"; takes {', '.join(taken)} from the system"
+    if names is None:
+        return line, not (strange or taken)
+    ours = [name for name in names if name.startswith("meniscus_")]
     foreign = sorted(name for name in set(names) - set(ours) if not re.match(r"MENISCUS_|_fini$|_init$", name))
-    print(f"{machine}, {oldest}; needs {', '.join(needed)}; {len(ours)} functions" +
-          (f" and {len(foreign)} foreign names, such as {foreign[0]}" if foreign else "") +
-          (f"; takes {', '.join(taken)} from the system" if taken else ""))
-    return 1 if foreign or taken or not ours else 0
+    line += f"; {len(ours)} functions" + (f" and {len(foreign)} foreign names, such as {foreign[0]}" if foreign else "")
+    return line, not (strange or taken or foreign) and bool(ours)
+
+
+def main():
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    fine = True
+    for path in sys.argv[1:]:
+        line, well = describe(path)
+        print(f"{os.path.basename(path):25} {os.path.getsize(path):9} bytes  {line}")
+        fine = fine and well
+    return 0 if fine else 1
 
 
 if __name__ == "__main__":

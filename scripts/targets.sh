@@ -141,16 +141,16 @@ build_library() {
 
 # The library, the programs, and the one that writes the table of results, side by side in build/targets/TARGET.
 collect() {
-  local built=$target_folder/library/exporters/bindings/c library table=result_table suffix="" link
+  local built=$target_folder/library/exporters/bindings/c library link
   case $target in
-    *windows) library=meniscus.dll link=$built/libmeniscus.dll.a table=result_table.exe suffix=.exe ;;
+    *windows) library=meniscus.dll link=$built/libmeniscus.dll.a ;;
     *macos) library=libmeniscus.dylib link=$built/libmeniscus.dylib ;;
     *) library=libmeniscus.so link=$built/libmeniscus.so ;;
   esac
   cp -L "$built/$library" "$target_folder/$library"
   cp "$target_folder/library"/meniscus-{msms,nanoshaper,pdb_to_xyzr}"$suffix" "$target_folder"
   "$zig" c++ -target "$triple" -std=c++20 -O2 -Iexporters/bindings/c/include tests/targets/result_table.cpp "$link" \
-    -o "$target_folder/$table"
+    -o "$target_folder/result_table$suffix"
   [[ $target != *linux ]] || cp -L "$built/libmeniscus.so" "$target_folder/libmeniscus.so.0"
 }
 
@@ -161,22 +161,31 @@ molecules=(/usr/share/freesasa/test-data/{1ubq,1a0q,1d3z,2jo4}.pdb /usr/share/py
 
 # One thread under qemu, which is slow, and fewer ties: MENISCUS_TARGETS_TIES changes their number for all.
 write_table() {
-  local out=$target_folder/results.txt
   cd "$target_folder"
-  case $target in
-    x86_64-linux) LD_LIBRARY_PATH=. ./result_table "$out" "${molecules[@]}" ;;
-    aarch64-linux) qemu-aarch64-static -L /usr/aarch64-linux-gnu -E LD_LIBRARY_PATH=. ./result_table "$out" "${molecules[@]}" ;;
-    x86_64-windows) WINEPREFIX=$work/wine WINEDEBUG=-all wine ./result_table.exe results.txt "${molecules[@]}" ;;
-  esac
+  "${on_target[@]}" "./result_table$suffix" results.txt "${molecules[@]}"
   cd "$root"
 }
 
-# What can be told of a library without running it.
+# What the programs make of a molecule whose name is not of ASCII, in build/targets/TARGET/made.
+run_programs() {
+  export LC_ALL=C.UTF-8
+  rm -rf "$target_folder/made"
+  mkdir "$target_folder/made"
+  cd "$target_folder/made"
+  cp "${molecules[0]}" Å.pdb
+  "${on_target[@]}" "../meniscus-pdb_to_xyzr$suffix" Å.pdb > Å.xyzr
+  "${on_target[@]}" "../meniscus-msms$suffix" -if Å.xyzr -of Å -af Å -density 3 -all_components > said.txt
+  printf 'XYZR_FileName = Å.xyzr\nRoot_FileName = Å.\n' > Å.prm
+  "${on_target[@]}" "../meniscus-nanoshaper$suffix" Å.prm >> said.txt
+  sed -i '/started on\|Total Time/d' said.txt
+  cd "$root"
+}
+
+# What can be told of the library and the programs without running them.
 describe() {
-  local file
-  file=$(ls "$target_folder"/{libmeniscus.so,libmeniscus.dylib,meniscus.dll} 2> /dev/null | head -n 1)
-  printf '%-15s %-18s %9s bytes  ' "$target" "$(basename "$file")" "$(stat -c %s "$file")"
-  "$tools/bin/python" scripts/describe_library.py "$file"
+  echo "$target:"
+  "$tools/bin/python" scripts/describe_library.py $(ls "$target_folder"/{libmeniscus.so,libmeniscus.dylib,meniscus.dll} 2> /dev/null) \
+    "$target_folder"/meniscus-{msms,nanoshaper,pdb_to_xyzr}"$suffix"
 }
 
 failed=0
@@ -184,6 +193,12 @@ lines=()
 for target in "${chosen[@]}"; do
   triple=${triples[$target]}
   target_folder=$work/$target
+  suffix=
+  case $target in
+    x86_64-linux) on_target=(env LD_LIBRARY_PATH=.) ;;
+    aarch64-linux) on_target=(qemu-aarch64-static -L /usr/aarch64-linux-gnu -E LD_LIBRARY_PATH=.) ;;
+    x86_64-windows) on_target=(env WINEPREFIX="$work/wine" WINEDEBUG=-all wine) suffix=.exe ;;
+  esac
   prefix=$target_folder/deps
   mkdir -p "$target_folder"
   echo "== $target" >&2
@@ -199,16 +214,29 @@ for target in "${chosen[@]}"; do
     failed=1
     continue
   fi
-  line=$(describe)
+  line=$(describe) || failed=1
   case $target in
-    *macos) line+="; not run" ;;
+    *macos) line+=$'\n  not run' ;;
     *)
-      if [[ $run ]] && ! (write_table); then
-        line+="; result_table failed"
-        failed=1
-      elif [[ $run && $target != x86_64-linux && -f $work/x86_64-linux/results.txt ]]; then
+      # In shells of their own, whose end at a failure no condition prevents.
+      if [[ $run ]]; then
+        for step in write_table run_programs; do
+          set +e
+          (set -e; "$step")
+          result=$?
+          set -e
+          ((result == 0)) || { line+=$'\n'"  $step failed"; failed=1; }
+        done
+      fi
+      if [[ $run && $target != x86_64-linux && -f $work/x86_64-linux/results.txt ]]; then
         compared=$(python3 tests/targets/compare_tables.py "$work/x86_64-linux/results.txt" "$target_folder/results.txt") || failed=1
-        line+="; $compared"
+        line+=$'\n'"  $compared"
+        if diff -rq "$work/x86_64-linux/made" "$target_folder/made"; then
+          line+="; programs: the same $(ls "$target_folder/made" | wc -l) files"
+        else
+          line+="; programs: other files"
+          failed=1
+        fi
       fi
       ;;
   esac

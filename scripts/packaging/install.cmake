@@ -11,8 +11,7 @@ add_custom_command(
   COMMENT "Writing manual and completion" VERBATIM)
 add_custom_target(meniscus_share ALL DEPENDS ${share}/man/man1/meniscus.1.gz)
 
-install(TARGETS meniscus meniscus_msms meniscus_nanoshaper meniscus_pdb_to_xyzr RUNTIME DESTINATION bin COMPONENT program)
-install(FILES ${CMAKE_BINARY_DIR}/meniscus-pdb_to_xyzrn DESTINATION bin COMPONENT program)
+install(TARGETS meniscus RUNTIME DESTINATION bin COMPONENT program)
 install(TARGETS meniscus_openimageio meniscus_hdf5 LIBRARY DESTINATION lib/meniscus COMPONENT program
         PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/exporters/blender/addon DESTINATION share/meniscus COMPONENT program

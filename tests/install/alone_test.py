@@ -77,6 +77,23 @@ class Alone(unittest.TestCase):
         self.assertRegex(run.stdout, r"yes, with gemmi \(with PEGTL\)")
         self.assertRegex(run.stdout, "programs: no: MENISCUS_APP is OFF")
 
+    def test_has_the_drop_in_programs_where_they_are_asked_for(self):
+        run = configure(self.folder, "-DMENISCUS_APP=OFF", "-DMENISCUS_DROP_INS=ON", "-DMENISCUS_UNITY=OFF")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertRegex(run.stdout, "programs: meniscus-msms, meniscus-nanoshaper and meniscus-pdb_to_xyzr alone")
+        commands = json.loads((pathlib.Path(self.folder) / "compile_commands.json").read_text())
+        folders = {pathlib.Path(command["file"]).relative_to(ROOT).parts[1] for command in commands
+                   if command["file"].startswith(str(ROOT / "app"))}
+        self.assertEqual(folders, {"msms", "process"})
+        ninja = (pathlib.Path(self.folder) / "build.ninja").read_text()
+        for program in ("meniscus-msms", "meniscus-nanoshaper", "meniscus-pdb_to_xyzr"):
+            self.assertIn(f"build {program}: CXX_EXECUTABLE", ninja)
+
+    def test_drop_in_programs_need_molecule_files(self):
+        run = configure(self.folder, "-DMENISCUS_APP=OFF", "-DMENISCUS_DROP_INS=ON", "-DMENISCUS_GEMMI=OFF")
+        self.assertNotEqual(run.returncode, 0)
+        self.assertIn("MENISCUS_DROP_INS needs gemmi (with PEGTL), for molecule files", " ".join(run.stderr.split()))
+
     def test_programs_do_not_do_without(self):
         run = configure(self.folder, "-DCMAKE_DISABLE_FIND_PACKAGE_ZLIB=ON")
         self.assertNotEqual(run.returncode, 0)
