@@ -131,7 +131,7 @@ build_dependencies() {
 }
 
 build_library() {
-  cmake -S "$root" -B "$target_folder/library" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_{SHARED,EXE}_LINKER_FLAGS=-s \
+  cmake -S "$root" -B "$target_folder/library" -G Ninja -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_TOOLCHAIN_FILE="$root/scripts/cmake/zig.cmake" -DMENISCUS_ZIG="$zig" -DMENISCUS_ZIG_TARGET="$triple" \
     -DCMAKE_FIND_ROOT_PATH="$prefix" -DCMAKE_PREFIX_PATH="$prefix" -DMENISCUS_APP=OFF -DMENISCUS_DROP_INS=ON -DMENISCUS_TESTS=OFF \
     -DMENISCUS_GL=OFF -DMENISCUS_LIBM="$prefix/lib/libmeniscus_libm.a" \
@@ -149,7 +149,7 @@ collect() {
   esac
   cp -L "$built/$library" "$target_folder/$library"
   cp "$target_folder/library"/meniscus-{msms,nanoshaper,pdb_to_xyzr}"$suffix" "$target_folder"
-  "$zig" c++ -target "$triple" -std=c++20 -O2 -Iexporters/bindings/c/include tests/targets/result_table.cpp "$link" \
+  "$zig" c++ -target "$triple" -s -std=c++20 -O2 -Iexporters/bindings/c/include tests/targets/result_table.cpp "$link" \
     -o "$target_folder/result_table$suffix"
   [[ $target != *linux ]] || cp -L "$built/libmeniscus.so" "$target_folder/libmeniscus.so.0"
 }

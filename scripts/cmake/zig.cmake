@@ -11,8 +11,9 @@ elseif(MENISCUS_ZIG_TARGET MATCHES "macos")
 else()
   set(CMAKE_SYSTEM_NAME Linux)
 endif()
-set(CMAKE_C_COMPILER ${MENISCUS_ZIG} cc -target ${MENISCUS_ZIG_TARGET})
-set(CMAKE_CXX_COMPILER ${MENISCUS_ZIG} c++ -target ${MENISCUS_ZIG_TARGET})
+# zig compiles the systems' C and C++ libraries once for each target and once more for links without symbols: -s, always.
+set(CMAKE_C_COMPILER ${MENISCUS_ZIG} cc -target ${MENISCUS_ZIG_TARGET} -s)
+set(CMAKE_CXX_COMPILER ${MENISCUS_ZIG} c++ -target ${MENISCUS_ZIG_TARGET} -s)
 # CMake takes these as one word.
 foreach(tool ar ranlib rc)
   set(wrapper ${CMAKE_BINARY_DIR}/zig-${tool})
