@@ -11,7 +11,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ostream.h>
 
 #include "app/msms/drop_in.h"
 #include "app/process/program_error.h"
@@ -248,8 +247,8 @@ ExitCode run(std::span<const char* const> words) {
   if (words.size() > 1 || path.starts_with('-')) throw UsageError("give one configuration file, or none; see --help");
   const ShaperSettings settings = read_shaper_settings(path);
   for (const std::string& key : settings.unknown_keys)
-    fmt::print(std::cerr, "meniscus-nanoshaper: warning: {}: {} is no key of NanoShaper and changes nothing\n",
-               escaped(path), in_quotes(key));
+    std::cerr << fmt::format("meniscus-nanoshaper: warning: {}: {} is no key of NanoShaper and changes nothing\n",
+                             escaped(path), in_quotes(key));
   const std::string vert = settings.root + "triangulatedSurf.vert", face = settings.root + "triangulatedSurf.face",
                     off = settings.root + "triangulatedSurf.off";
   OutputFiles files;
@@ -270,8 +269,8 @@ ExitCode run(std::span<const char* const> words) {
     files.write(face, face_text(mesh, spheres.rows, header));
   }
   if (settings.off_file) files.write(off, off_text(mesh));
-  fmt::print(std::cout, "{}: {} spheres, {} vertices, {} triangles\n", escaped(settings.spheres), spheres.rows.count,
-             mesh.vertices.size(), mesh.triangles.size());
+  std::cout << fmt::format("{}: {} spheres, {} vertices, {} triangles\n", escaped(settings.spheres), spheres.rows.count,
+                           mesh.vertices.size(), mesh.triangles.size());
   finish_standard_output();
   files.commit();
   return kExitOk;
