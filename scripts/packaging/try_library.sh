@@ -116,7 +116,7 @@ check "Python says what this build cannot" python3 missing.py
 check "C says what this build cannot" 'cc read.c -lmeniscus -o read && ./read | grep "^2 molecule.pdb: this build reads no molecule files"'
 check "an archive" 'cmake -DBUILD_SHARED_LIBS=OFF build && cmake --build build && cmake --install build --prefix /opt/archive &&
   ls /opt/archive/lib/*/libmeniscus.a && ! ls /opt/archive/lib/*/*.so*'
-check "a C program that needs no libmeniscus" 'cmake -S meniscus/exporters/bindings/c/example -B of_archive -DCMAKE_PREFIX_PATH=/opt/archive &&
+check "a C program that needs no libmeniscus" 'cmake -G Ninja -S meniscus/exporters/bindings/c/example -B of_archive -DCMAKE_PREFIX_PATH=/opt/archive &&
   cmake --build of_archive && ! readelf -d of_archive/areas | grep libmeniscus && of_archive/areas <atoms.xyzr | grep -F "$(cat measures)"'
 echo "cases $cases failures $failures"
 ((failures == 0))
