@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-import ctypes.util
 import numbers
 import operator
 import os
@@ -284,7 +283,10 @@ def _place() -> str:
     beside = pathlib.Path(__file__).with_name(own)
     if beside.exists():
         return str(beside)
-    return "libmeniscus.so.0" if sys.platform == "linux" else ctypes.util.find_library("meniscus") or own
+    if sys.platform == "linux":
+        return "libmeniscus.so.0"
+    import ctypes.util  # which takes its time
+    return ctypes.util.find_library("meniscus") or own
 
 
 def _open() -> tuple[ctypes.CDLL, str]:
