@@ -21,7 +21,7 @@ test_packages=(python3-venv python3-pip libgtest-dev libbenchmark-dev glslang-to
   apbs pdb2pqr
   python3-biopython python3-ost jmol
   admesh tetgen python3-meshio assimp-utils
-  dpkg-dev lintian man-db mandoc zsh fish)
+  dpkg-dev lintian man-db mandoc zsh fish ruby nix-bin)
 fuzz_packages=(clang-14 libclang-rt-14-dev)
 # form, and a second compiler with sanitizers
 check_packages=("${fuzz_packages[@]}" clang-format-14 clang-tidy-14)

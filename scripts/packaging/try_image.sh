@@ -5,7 +5,8 @@
 #
 #   scripts/packaging/try_image.sh [FOLDER [BARE.tar]]
 #
-# As for try_package.sh: FOLDER has the packages, BARE.tar is a bare system. The last line says `cases N failures M`.
+# As for try_package.sh: FOLDER has the packages, or is a clone (.), which the image's first stage then builds; BARE.tar is a
+# bare system. The last line says `cases N failures M`.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 packages=${1:-}
@@ -55,6 +56,7 @@ pictures() { [[ $(head -q -c 4 "$work"/films/film/images/frame_*.png | tr -d '\2
 
 check "a base of nothing but Debian" base
 check "the image" buildah build -q --build-arg BASE=localhost/bare -f scripts/packaging/Dockerfile -t node "$packages"
+check "its size" buildah images --format '{{.Size}}' node
 check "it runs the program, as nobody" entry_point
 node=$(buildah from node)
 mkdir -m 777 "$work/films"

@@ -106,7 +106,7 @@ check "configures" 'cmake -S meniscus -B build -G Ninja -DCMAKE_BUILD_TYPE=Relea
 check "says what is built, and why the rest is not" 'for part in gemmi zlib epoxy nlohmann_json libdeflate; do
   grep "no: $part.* was not found" configured || exit 1; done'
 check "builds" "cmake --build build -j ${MENISCUS_JOBS:-$(nproc)}"
-check "installs" 'cmake --install build --prefix /usr/local && ldconfig'
+check "installs, and says what is left to do" 'cmake --install build --prefix /usr/local | grep "run ldconfig" && ldconfig'
 check "needs fmt and TBB" '! readelf -d /usr/local/lib/*/libmeniscus.so.0 | grep NEEDED | grep -vE "lib(fmt|tbb|stdc\+\+|m|gcc_s|c)\.so|ld-linux"'
 check "Python with numpy" $install python3-numpy
 check "Python computes, meshes and draws" python3 compute.py
@@ -114,5 +114,9 @@ check "a C program is compiled" 'cc meniscus/exporters/bindings/c/example/areas.
 check "it says what Python says" './areas <atoms.xyzr | grep -F "$(cat measures)"'
 check "Python says what this build cannot" python3 missing.py
 check "C says what this build cannot" 'cc read.c -lmeniscus -o read && ./read | grep "^2 molecule.pdb: this build reads no molecule files"'
+check "an archive" 'cmake -DBUILD_SHARED_LIBS=OFF build && cmake --build build && cmake --install build --prefix /opt/archive &&
+  ls /opt/archive/lib/*/libmeniscus.a && ! ls /opt/archive/lib/*/*.so*'
+check "a C program that needs no libmeniscus" 'cmake -G Ninja -S meniscus/exporters/bindings/c/example -B of_archive -DCMAKE_PREFIX_PATH=/opt/archive &&
+  cmake --build of_archive && ! readelf -d of_archive/areas | grep libmeniscus && of_archive/areas <atoms.xyzr | grep -F "$(cat measures)"'
 echo "cases $cases failures $failures"
 ((failures == 0))

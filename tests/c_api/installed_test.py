@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """installed_test.py BUILD EXAMPLE PROGRAM DOCUMENT: the library as it is installed, used outside of the tree by a C program,
 whose numbers are the program's, and by the document's C++ program, whose numbers are as it says; both through pkg-config and
-through CMake."""
+through CMake, with the shared library and with the archive."""
 import json
 import math
 import os
@@ -47,40 +47,73 @@ add_executable(balls balls.cpp)
 target_link_libraries(balls PRIVATE Meniscus::cpp)
 """
 
+
+def needs_library(executable):
+    return "libmeniscus" in run("readelf", "-d", executable)
+
+
+def say_what_the_loader_needs(prefix, work):
+    """Where the loader looks in the library's folder, but does not know of the library, it has to be told."""
+    folder = next(prefix.rglob("libmeniscus.so")).parent
+    lists, known = f"{folder}: (from its configuration)", f"libmeniscus.so.0 (libc6,x86-64) => {folder}/libmeniscus.so.0"
+    for searched, cache, said in ((lists, "", True), (lists, known, False), ("/usr/lib: (from <builtin>)", "", False)):
+        loader = work / "ldconfig"
+        loader.write_text(f"#!/bin/sh\n[ \"$1\" = -p ] && echo ' {cache}' || echo '{searched}'\n")
+        loader.chmod(0o755)
+        text = run("cmake", "--install", build, "--prefix", prefix, "--component", "libmeniscus",
+                   env=dict(os.environ, PATH=f"{work}:{os.environ['PATH']}"))
+        assert ("run ldconfig" in text) == said, (searched, cache, text)
+
+
 with tempfile.TemporaryDirectory() as folder:
     prefix, work = pathlib.Path(folder, "prefix"), pathlib.Path(folder, "work")
     work.mkdir()
-    for component in ("libmeniscus", "libmeniscus-dev"):
+    for component in ("libmeniscus", "libmeniscus-dev", "libmeniscus-static"):
         run("cmake", "--install", build, "--prefix", prefix, "--component", component)
+    say_what_the_loader_needs(prefix, work)
     installed = sorted(str(p.relative_to(prefix)) for p in prefix.rglob("*") if not p.is_dir())
     libraries = next(prefix.rglob("libmeniscus.so")).parent
-    environment = dict(os.environ, PKG_CONFIG_PATH=str(libraries / "pkgconfig"), LD_LIBRARY_PATH=str(libraries))
-
-    flags = run("pkg-config", "--cflags", "--libs", "meniscus", env=environment).split()
-    run("cc", "-std=c99", "-Wall", "-Wextra", "-pedantic", "-Werror", f"{example}/areas.c", *flags, "-o",
-        work / "by_pkgconfig")
-    run("cmake", "-S", example, "-B", work / "build", f"-DCMAKE_PREFIX_PATH={prefix}")
-    run("cmake", "--build", work / "build")
-
-    (work / "atoms.xyzr").write_text(ATOMS)
-    told = json.loads(subprocess.run([program, "surface", "-q", "--device", "cpu", "--json", work / "atoms.xyzr"],
-                                     check=True, capture_output=True, text=True).stdout)
-    expected = [told["area"], told["volume"]]
-    for executable in (work / "by_pkgconfig", work / "build" / "areas"):
-        found = measures(executable, environment)
-        assert found == expected, f"{executable.name}: {found}, the program says {expected}"
-    bad = subprocess.run(work / "by_pkgconfig", input="0 0 0 -1\n", text=True, capture_output=True, env=environment)
-    assert bad.returncode == 3 and "radius of atom 0 is -1" in bad.stderr, bad
-
+    os.environ["PKG_CONFIG_PATH"] = str(libraries / "pkgconfig")
+    loader = dict(os.environ, LD_LIBRARY_PATH=str(libraries))
     text, told = document_program()
     (work / "cpp").mkdir()
     (work / "cpp/balls.cpp").write_text(text)
     (work / "cpp/CMakeLists.txt").write_text(CPP_PROJECT)
-    run("c++", "-std=c++20", "-Wall", "-Wextra", "-pedantic", "-Werror", work / "cpp/balls.cpp", *flags, "-o",
-        work / "balls_by_pkgconfig")
-    run("cmake", "-S", work / "cpp", "-B", work / "cpp/build", f"-DCMAKE_PREFIX_PATH={prefix}")
-    run("cmake", "--build", work / "cpp/build")
-    for executable in (work / "balls_by_pkgconfig", work / "cpp/build/balls"):
-        found = [float(word) for word in run(executable, env=environment).split()]
-        assert agree(found, told), f"{executable.name}: {found}, the document says {told}"
+
+    def by_pkg_config(kind, *options):
+        flags = run("pkg-config", *options, "--cflags", "--libs", "meniscus").split()
+        run("cc", "-std=c99", "-Wall", "-Wextra", "-pedantic", "-Werror", f"{example}/areas.c", *flags, "-o", work / f"areas_{kind}")
+        run("c++", "-std=c++20", "-Wall", "-Wextra", "-pedantic", "-Werror", work / "cpp/balls.cpp", *flags, "-o", work / f"balls_{kind}")
+        return work / f"areas_{kind}", work / f"balls_{kind}"
+
+    def by_cmake(kind, *options):
+        for source, name in ((example, "areas"), (work / "cpp", "balls")):
+            run("cmake", "-S", source, "-B", work / f"{name}_{kind}_build", f"-DCMAKE_PREFIX_PATH={prefix}", *options)
+            run("cmake", "--build", work / f"{name}_{kind}_build")
+        return work / f"areas_{kind}_build/areas", work / f"balls_{kind}_build/balls"
+
+    shared = [by_pkg_config("shared"), by_cmake("shared")]
+    static = [by_cmake("static", "-DMeniscus_USE_STATIC_LIBS=ON")]
+    for file in [*libraries.glob("libmeniscus.so*"), *libraries.glob("cmake/Meniscus/MeniscusShared*")]:
+        file.rename(work / file.name)  # as if it had not been installed
+    static += [by_pkg_config("static", "--static"), by_cmake("archive_alone")]
+    (libraries / "cmake/Meniscus/MeniscusStatic.cmake").unlink()
+    nothing = subprocess.run(["cmake", "-S", example, "-B", work / "nothing", f"-DCMAKE_PREFIX_PATH={prefix}"], text=True,
+                             capture_output=True)
+    assert nothing.returncode and "libmeniscus.a is not installed" in nothing.stderr, nothing
+    for file in work.glob("libmeniscus.so*"):
+        file.rename(libraries / file.name)
+
+    (work / "atoms.xyzr").write_text(ATOMS)
+    report = json.loads(run(program, "surface", "-q", "--device", "cpu", "--json", work / "atoms.xyzr"))
+    expected = [report["area"], report["volume"]]
+    for pairs, environment in ((shared, loader), (static, None)):
+        for areas, balls in pairs:
+            assert needs_library(areas) == needs_library(balls) == (pairs is shared), areas
+            found = measures(areas, environment)
+            assert found == expected, f"{areas}: {found}, the program says {expected}"
+            found = [float(word) for word in run(balls, env=environment).split()]
+            assert agree(found, told), f"{balls}: {found}, the document says {told}"
+    bad = subprocess.run(shared[0][0], input="0 0 0 -1\n", text=True, capture_output=True, env=loader)
+    assert bad.returncode == 3 and "radius of atom 0 is -1" in bad.stderr, bad
     print("\n".join(installed))

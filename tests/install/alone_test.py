@@ -69,6 +69,15 @@ class Alone(unittest.TestCase):
         libraries = {pathlib.Path(word).name.split(".")[0] for word in linked.split() if ".so" in word or word.startswith("-l")}
         self.assertLessEqual(libraries, {"libtbb", "libfmt", "-ldl", "-lpthread"}, linked)
 
+    def test_is_shared_or_an_archive(self):
+        for option, made, not_made in (("ON", r"libmeniscus\.so", r"libmeniscus\.a"), ("OFF", r"libmeniscus\.a", r"libmeniscus\.so")):
+            run = configure(self.folder, "-DMENISCUS_APP=OFF", f"-DBUILD_SHARED_LIBS={option}")
+            self.assertEqual(run.returncode, 0, run.stderr)
+            ninja = (pathlib.Path(self.folder) / "build.ninja").read_text()
+            by_default = re.search(r"^build exporters/bindings/c/all: phony (.*)$", ninja, re.M)[1]
+            self.assertRegex(by_default, made)
+            self.assertNotRegex(by_default, not_made)
+
     def test_takes_what_is_there(self):
         run = configure(self.folder, "-DMENISCUS_APP=OFF", "-DMENISCUS_GL=OFF", "-DCMAKE_DISABLE_FIND_PACKAGE_ZLIB=ON")
         self.assertEqual(run.returncode, 0, run.stderr)

@@ -398,26 +398,35 @@ class Threads(unittest.TestCase):
 class Pictures(unittest.TestCase):
     def test_render_and_png(self):
         s = meniscus.surface([[0, 0, 0]], 2.0)
+        self.render_and_png(s, "cpu")
+        try:
+            s.render(size="8x8", device="software")
+        except meniscus.GpuError as error:  # of a wheel
+            self.assertIn("made without epoxy", str(error))
+        else:
+            self.render_and_png(s, "software")
+
+    def render_and_png(self, s, device):
         camera = s.camera(1.0, "orthographic")
         camera.height = 8.0
-        picture = s.render(size="100x100", preset="classic", camera=camera, colors=(1, 0, 0), device="software")
+        picture = s.render(size="100x100", preset="classic", camera=camera, colors=(1, 0, 0), device=device)
         pixels = picture.pixels
         self.assertEqual(pixels.shape, (100, 100, 4))
         self.assertIs(np.asarray(picture), pixels)
         self.assertAlmostEqual(pixels[..., 3].sum() / 255, math.pi * 25**2, delta=20)
         self.assertLess(pixels[50, 50, 1], 30)  # but for the highlight
-        opaque = s.render(width=100, height=100, camera=camera, colors=[[0, 1, 0]], background="#0000ff", device="software")
+        opaque = s.render(width=100, height=100, camera=camera, colors=[[0, 1, 0]], background="#0000ff", device=device)
         self.assertEqual(opaque.pixels[0, 0].tolist(), [0, 0, 255, 255])
         file = picture.png()
         self.assertTrue(file.startswith(b"\x89PNG\r\n\x1a\n"))
         rows = np.frombuffer(zlib.decompress(file[file.index(b"IDAT") + 4:-16]), np.uint8).reshape(100, 401)
         np.testing.assert_array_equal(rows[:, 1:].reshape(100, 100, 4), pixels)
         with self.assertRaisesRegex(meniscus.InputError, "colors has the shape"):
-            s.render(size="10x10", colors=np.zeros((2, 3)), device="software")
+            s.render(size="10x10", colors=np.zeros((2, 3)), device=device)
         for name, value, said in (("samples", 0, "samples: '0' is not a whole number from 1 to 1024"),
                                   ("sample", 1, "did you mean samples"), ("view", "top", "view: a picture of a surface")):
             with self.assertRaisesRegex(meniscus.UsageError, said):
-                s.render(device="cpu", **{name: value})
+                s.render(device=device, **{name: value})
 
     def test_scenes_hold_values_by_name_and_key(self):
         scene = meniscus.Scene(pathlib.Path("a.pdb"), depth_cue=0.5, silhouettes="7pt", keep_water=True,

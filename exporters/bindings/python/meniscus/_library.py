@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-import ctypes.util
 import numbers
 import operator
 import os
@@ -275,28 +274,27 @@ _RELEASES = ("computer_release", "structure_release", "surface_release", "pocket
              "renderer_release", "scene_release")
 
 
-def _candidates() -> list[str]:
-    """Where the library may be, best first: what MENISCUS_LIBRARY names, and nothing else then; beside this file; where
-    the system has it."""
+def _place() -> str:
+    """Of the library: what MENISCUS_LIBRARY names, the file beside this one, or what the system has."""
     named = os.environ.get("MENISCUS_LIBRARY")
     if named:
-        return [named]
+        return named
     own = {"win32": "meniscus.dll", "darwin": "libmeniscus.dylib"}.get(sys.platform, "libmeniscus.so")
     beside = pathlib.Path(__file__).with_name(own)
-    found = [str(beside)] if beside.exists() else []
-    system = ctypes.util.find_library("meniscus")
-    return found + [name for name in (system, "libmeniscus.so.0") if name]
+    if beside.exists():
+        return str(beside)
+    if sys.platform == "linux":
+        return "libmeniscus.so.0"
+    import ctypes.util  # which takes its time
+    return ctypes.util.find_library("meniscus") or own
 
 
 def _open() -> tuple[ctypes.CDLL, str]:
-    reasons = []
-    for name in _candidates():
-        try:
-            return ctypes.CDLL(name), name
-        except OSError as error:
-            reasons.append(why_not_loaded(name, error))
-    raise ImportError("libmeniscus cannot be loaded (" + "; ".join(reasons) +
-                      "); install it, or set MENISCUS_LIBRARY to its file")
+    place = _place()
+    try:
+        return ctypes.CDLL(place), place
+    except OSError as error:
+        raise ImportError("libmeniscus cannot be loaded: " + why_not_loaded(place, error)) from None
 
 
 class _Library:
