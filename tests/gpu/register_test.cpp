@@ -198,7 +198,8 @@ std::uint64_t most_registers(std::string_view path) {
                                                         {"gpu_shaders/primitives/toroidal.comp", 168},
                                                         {"gpu_shaders/primitives/concave.comp", 104},
                                                         {"gpu_shaders/ray_cast/ray_cast.comp", 104},
-                                                        {"gpu_shaders/reduced_surface/circles.comp", 136}};
+                                                        {"gpu_shaders/reduced_surface/circles.comp", 136},
+                                                        {"gpu_shaders/test_support/contour.comp", 136}};
   const auto found = kMore.find(path);
   return found == kMore.end() ? 80 : found->second;
 }
