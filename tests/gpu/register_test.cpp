@@ -194,12 +194,10 @@ ShaderSource without_proof_of_work(const EmbeddedShader& shader, const ShaderDef
 /// Of one invocation, out of 256: with more of them fewer groups run at once and memory is waited for. Most kernels do
 /// with a third; those that cut circles or patches in double precision hold two of them at once.
 std::uint64_t most_registers(std::string_view path) {
-  const std::map<std::string_view, std::uint64_t> kMore{{"gpu_shaders/primitives/spurious_arcs.comp", 136},
-                                                        {"gpu_shaders/primitives/toroidal.comp", 168},
-                                                        {"gpu_shaders/primitives/concave.comp", 104},
-                                                        {"gpu_shaders/ray_cast/ray_cast.comp", 104},
-                                                        {"gpu_shaders/reduced_surface/circles.comp", 136},
-                                                        {"gpu_shaders/test_support/contour.comp", 136}};
+  const std::map<std::string_view, std::uint64_t> kMore{
+      {"gpu_shaders/primitives/spurious_arcs.comp", 136}, {"gpu_shaders/primitives/toroidal.comp", 168},
+      {"gpu_shaders/primitives/concave.comp", 104},       {"gpu_shaders/ray_cast/ray_cast.comp", 104},
+      {"gpu_shaders/reduced_surface/circles.comp", 136},  {"gpu_shaders/test_support/contour.comp", 136}};
   const auto found = kMore.find(path);
   return found == kMore.end() ? 80 : found->second;
 }
