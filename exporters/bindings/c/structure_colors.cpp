@@ -13,6 +13,7 @@
 #include "exporters/bindings/c/guard.h"
 
 namespace meniscus::c_api {
+
 std::vector<glm::vec3> structure_colors(const Structure& structure, std::string_view scheme) {
   using By = ColorScheme::By;
   constexpr std::array kOfMore{By::kind, By::component, By::buried, By::rmsf, By::file};
