@@ -5,7 +5,7 @@
 // Common subset of GLSL and C++, below circle.glsl. What is left of the circle are variables: globals of a kernel, members
 // of a struct in C++, which has this file as its body (core/reduced_surface/contour/contour.h). The includer defines kUnitRoundoff and
 //   ExposedArc get_arc(uint n)            one of a list, and
-//   bool set_arc(uint n, ExposedArc arc)  puts it there, behind the last one too; false if there is no room
+//   bool set_arc(uint n, ExposedArc arc)  stores one there, or after the last; false if there is no room
 
 Circle contour_circle;
 real contour_weight;  // of the circle's first ball

@@ -55,7 +55,8 @@ entry_point() {
 pictures() { [[ $(head -q -c 4 "$work"/films/film/images/frame_*.png | tr -d '\211') == PNGPNGPNG ]]; }
 
 check "a base of nothing but Debian" base
-check "the image" buildah build -q --build-arg BASE=localhost/bare -f scripts/packaging/Dockerfile -t node "$packages"
+check "the image" buildah build -q --build-arg BASE=localhost/bare -f scripts/packaging/Dockerfile \
+  --ignorefile scripts/packaging/Dockerfile.dockerignore -t node "$packages"
 check "its size" buildah images --format '{{.Size}}' node
 check "it runs the program, as nobody" entry_point
 node=$(buildah from node)
