@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # clang-tidy with the checks of .clang-tidy; warnings are errors. Without options the folders that write files
 # and compute the surface, without the static analyzer, which takes as long as all the rest; --all takes all of our
-# code and all checks; or name files. The last line says how many files were checked and how many failed.
+# code and all checks; or name files. What was sound and has not changed is not checked again. The last line says how many
+# files there are and how many failed.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 command -v clang-tidy-14 >/dev/null || { echo "clang-tidy is missing: apt-get install clang-tidy-14" >&2; exit 1; }
@@ -21,8 +22,7 @@ build=build/lint
 cmake --preset asan -B "$build" -DMENISCUS_PRECOMPILED=OFF -DMENISCUS_UNITY=OFF >/dev/null
 
 printf '%s\0' "${files[@]}" |
-  xargs -0 -P "${MENISCUS_JOBS:-$(nproc)}" -n 1 bash -c \
-    'clang-tidy-14 -p "$1" --quiet --warnings-as-errors="*" "${@:2}" 2>/dev/null || echo "FAILED ${*: -1}"' - "$build" "${checks[@]}" |
+  xargs -0 -P "${MENISCUS_JOBS:-$(nproc)}" -I FILE /usr/bin/python3 scripts/lint_file.py "$build" FILE "${checks[@]}" |
   tee "$build/clang-tidy.log"
 failures=$(grep -c '^FAILED ' "$build/clang-tidy.log" || true)
 echo "cases ${#files[@]} failures $failures"

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Installs what the tests need, checks the code's form, builds everything and runs the tests: all of them as
-# released, and the unit, property and trajectory tests with asserts, warnings as errors, AddressSanitizer and UBSan. At the end it
-# names what could not run; with CI=true a skip that scripts/expected_skips.txt does not name is a failure.
+# Installs what the tests need, checks the code's form, builds everything and runs the tests: as released all but those
+# labelled "long" (scripts/prove.sh runs these), and the unit, property and trajectory tests with asserts, warnings as
+# errors, AddressSanitizer and UBSan. At the end it names what could not run; with CI=true a skip that
+# scripts/expected_skips.txt does not name is a failure.
 # Safe to run again; options go to ctest (-R NAME, -L LABEL).
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -30,7 +31,7 @@ step "4/7 tests, and beside them the build with asserts and sanitizers, where wa
 cmake --preset asan >/dev/null
 nice -n 19 cmake --build --preset asan >"$results/sanitized_build.log" 2>&1 &
 sanitized_build=$!
-ctest --test-dir "$build" --output-on-failure --timeout 600 -j "$(nproc)" --output-junit "$results/release.xml" \
+ctest --test-dir "$build" -LE long --output-on-failure --timeout 600 -j "$(nproc)" --output-junit "$results/release.xml" \
   --test-output-size-passed 16384 "$@" || failed+=("tests")
 
 step "5/7 the rest of that build"

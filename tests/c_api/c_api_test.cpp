@@ -28,8 +28,8 @@ TEST(CApi, GivesTheNumbersOfTheProgramToTheLastDigit) {
   std::string lines;
   for (const Ball& b : balls) lines += fmt::format("{} {} {} {}\n", b.center.x, b.center.y, b.center.z, b.radius);
   const TemporaryFolder folder;
-  const ProgramResult program =
-      run_program(MENISCUS_PROGRAM, {"surface", "-q", "--device", "cpu", "--json", folder.file("t.xyzr", lines)});
+  const ProgramResult program = run_program(
+      test::meniscus_program(), {"surface", "-q", "--device", "cpu", "--json", folder.file("t.xyzr", lines)});
   ASSERT_EQ(program.exit_code, 0) << program.err;
   const auto json = nlohmann::json::parse(program.out);
 

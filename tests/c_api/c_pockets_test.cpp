@@ -48,8 +48,8 @@ TEST(CPockets, AreThoseOfTheProgramToTheLastDigit) {
   for (const Ball& b : balls) lines += fmt::format("{} {} {} {}\n", b.center.x, b.center.y, b.center.z, b.radius);
   const TemporaryFolder folder;
   const ProgramResult program =
-      run_program(MENISCUS_PROGRAM, {"pockets", "-q", "--device", "cpu", "--ligand", "none", "--large-probe", "3.5",
-                                     "--min-volume", "60", "--json", folder.file("t.xyzr", lines)});
+      run_program(test::meniscus_program(), {"pockets", "-q", "--device", "cpu", "--ligand", "none", "--large-probe",
+                                             "3.5", "--min-volume", "60", "--json", folder.file("t.xyzr", lines)});
   ASSERT_EQ(program.exit_code, 0) << program.err;
   const auto told = nlohmann::json::parse(program.out).at("pockets");
   ASSERT_GT(told.size(), 3u);

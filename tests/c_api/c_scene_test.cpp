@@ -182,7 +182,7 @@ TEST(CApiScenes, HaveThePicturesOfTheProgram) {
     ASSERT_EQ(meniscus_scene_set(scene.get(), "background", background), MENISCUS_OK) << said();
     std::ofstream(file) << json_of(scene, folder.path().c_str());
     const ProgramResult made = run_program(
-        MENISCUS_PROGRAM, {"render", "--scene", file, "-o", picture, "--force", "--device", "cpu", "--quiet"});
+        test::meniscus_program(), {"render", "--scene", file, "-o", picture, "--force", "--device", "cpu", "--quiet"});
     ASSERT_EQ(made.exit_code, 0) << made.err;
     const std::vector<std::uint8_t> ours = drawn(scene);
     const std::string again = folder.file("ours.rgba", {reinterpret_cast<const char*>(ours.data()), ours.size()});

@@ -25,7 +25,7 @@ constexpr const char* kUbiquitin = "/usr/share/freesasa/test-data/1ubq.pdb";
 
 ProgramResult surface(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {"surface", "-q", "--device", "cpu"});
-  return test::run_program(MENISCUS_PROGRAM, arguments);
+  return test::run_program(test::meniscus_program(), arguments);
 }
 
 json surface_json(std::vector<std::string> arguments) {

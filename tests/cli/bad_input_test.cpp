@@ -188,7 +188,7 @@ TEST_P(BadInput, IsOneLineAndTheExitCode) {
   const BadFile& bad = GetParam();
   const TemporaryFolder folder;
   const std::string path = folder.file(bad.name, bad.content);
-  const test::ProgramResult result = test::run_program(MENISCUS_PROGRAM, {"surface", path, "--json"});
+  const test::ProgramResult result = test::run_program(test::meniscus_program(), {"surface", path, "--json"});
   EXPECT_EQ(result.exit_code, bad.exit_code) << result.err;
   EXPECT_EQ(result.out, "");
   EXPECT_TRUE(result.err.starts_with("meniscus: error: " + path)) << result.err;
@@ -205,7 +205,7 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, BadInput, testing::ValuesIn(bad_files()), []
 });
 
 void expect_refused(const std::string& path, const char* message) {
-  const test::ProgramResult result = test::run_program(MENISCUS_PROGRAM, {"surface", path}, 20);
+  const test::ProgramResult result = test::run_program(test::meniscus_program(), {"surface", path}, 20);
   EXPECT_EQ(result.exit_code, kInput) << path << result.err;
   EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
 }
@@ -228,7 +228,7 @@ TEST(BadPath, OddNamesWork) {
   const TemporaryFolder folder;
   for (const char* name : {"with space.pdb", "quo'te\".pdb", "new\nline.pdb", "%04d.pdb", "-dash.pdb", "ümlaut.pdb"}) {
     const std::string path = folder.file(name, PdbLine{}.text());
-    const test::ProgramResult result = test::run_program(MENISCUS_PROGRAM, {"surface", path});
+    const test::ProgramResult result = test::run_program(test::meniscus_program(), {"surface", path});
     EXPECT_EQ(result.exit_code, 0) << name << result.err;
   }
 }

@@ -27,7 +27,9 @@ std::string molecule(const char* chain = "C") {
 
 class ColorCommand : public ::testing::Test {
  protected:
-  ProgramResult meniscus(std::vector<std::string> arguments) { return test::run_program(MENISCUS_PROGRAM, arguments); }
+  ProgramResult meniscus(std::vector<std::string> arguments) {
+    return test::run_program(test::meniscus_program(), arguments);
+  }
   ProgramResult render(const std::string& name, std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(),
                      {"render", file_, "-o", path(name), "--size", "300x200", "-q", "--force", "--no-provenance"});

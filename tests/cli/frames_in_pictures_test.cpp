@@ -242,7 +242,7 @@ TEST_F(FramesInPictures, ACurveGoesAlong) {
 
 TEST_F(FramesInPictures, FilmWithoutFfmpegSaysSo) {
   const ProgramResult result =
-      run_program("/usr/bin/env", {"PATH=/nowhere", MENISCUS_PROGRAM, "render", file_, "-q", "--size", "64x48",
+      run_program("/usr/bin/env", {"PATH=/nowhere", meniscus_program(), "render", file_, "-q", "--size", "64x48",
                                    "--frames", "all", "-o", folder_.path().string() + "/a.mp4"});
   EXPECT_EQ(result.exit_code, 6);
   EXPECT_NE(result.err.find("need the program ffmpeg"), std::string::npos) << result.err;

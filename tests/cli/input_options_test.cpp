@@ -22,7 +22,7 @@ constexpr const char* kUbiquitin = "/usr/share/freesasa/test-data/1ubq.pdb";
 constexpr const char* kNmrEntry = "/usr/share/freesasa/test-data/1d3z.pdb";
 
 ProgramResult run_shell(const std::string& command) {
-  return run_program("/bin/sh", {"-c", command + " | " MENISCUS_PROGRAM " surface - --device cpu"});
+  return run_program("/bin/sh", {"-c", command + " | " + test::meniscus_program() + " surface - --device cpu"});
 }
 
 std::size_t lines_of(const std::string& text) {
@@ -47,14 +47,15 @@ TEST(StandardInput, ErrorsNameIt) {
 }
 
 TEST(Model, IsChosenByItsPlace) {
-  const ProgramResult second = run_program(MENISCUS_PROGRAM, {"surface", kNmrEntry, "--model", "2", "--device", "cpu"});
+  const ProgramResult second =
+      run_program(test::meniscus_program(), {"surface", kNmrEntry, "--model", "2", "--device", "cpu"});
   EXPECT_NE(second.err.find("12,310 atoms read; 11,079 of other models left out; 1,231 used"), std::string::npos);
-  const ProgramResult none = run_program(MENISCUS_PROGRAM, {"surface", kNmrEntry, "--model", "11"});
+  const ProgramResult none = run_program(test::meniscus_program(), {"surface", kNmrEntry, "--model", "11"});
   EXPECT_EQ(none.exit_code, 3);
   EXPECT_EQ(none.err, fmt::format("meniscus: error: {}: has no model 11: it holds 10 models; choose --model 1 to 10\n",
                                   kNmrEntry));
   for (const char* wrong : {"0", "-1", "1.5", "some", "99999999999"}) {
-    const ProgramResult result = run_program(MENISCUS_PROGRAM, {"surface", kNmrEntry, "--model", wrong});
+    const ProgramResult result = run_program(test::meniscus_program(), {"surface", kNmrEntry, "--model", wrong});
     EXPECT_EQ(result.exit_code, 2) << wrong;
     EXPECT_EQ(lines_of(result.err), 1u);
   }
@@ -64,7 +65,7 @@ TEST(Model, AllAreOneMolecule) {
   const TemporaryFolder folder;
   const std::string path = folder.file("a.xyz", "1\n\nC 0 0 0\n1\n\nC 50 0 0\n");
   const ProgramResult result =
-      run_program(MENISCUS_PROGRAM, {"surface", path, "--model", "all", "--json", "--device", "cpu"});
+      run_program(test::meniscus_program(), {"surface", path, "--model", "all", "--json", "--device", "cpu"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.err.find("2 atoms read; none left out; 2 used"), std::string::npos) << result.err;
 }
@@ -74,7 +75,7 @@ TEST(Altloc, TakesARuleOrALetter) {
   const PdbLine a{.altloc = 'A', .occupancy = "  0.40"}, b{.altloc = 'B', .x = "   5.000", .occupancy = "  0.60"};
   const std::string path = folder.file("a.pdb", a.text() + b.text());
   const auto run = [&](const std::string& choice) {
-    return run_program(MENISCUS_PROGRAM, {"surface", path, "--altloc", choice, "--device", "cpu"});
+    return run_program(test::meniscus_program(), {"surface", path, "--altloc", choice, "--device", "cpu"});
   };
   for (const char* choice : {"best", "first", "A", "B"}) {
     EXPECT_NE(run(choice).err.find("1 of other alternate locations left out; 1 used"), std::string::npos) << choice;
@@ -95,7 +96,7 @@ TEST(Warnings, AreSummedUpListedOrLeftAway) {
   const std::string path = folder.file("a.pdb", text);
   const auto run = [&](std::vector<std::string> more) {
     more.insert(more.begin(), {"surface", path, "--device", "cpu"});
-    return run_program(MENISCUS_PROGRAM, more).err;
+    return run_program(test::meniscus_program(), more).err;
   };
   const std::string summary = run({});
   EXPECT_EQ(lines_of(summary), 3u) << summary;
@@ -111,9 +112,9 @@ TEST(Warnings, AreSummedUpListedOrLeftAway) {
 }
 
 TEST(Formats, AreListedWithTheirMetadata) {
-  const ProgramResult table = run_program(MENISCUS_PROGRAM, {"formats"});
+  const ProgramResult table = run_program(test::meniscus_program(), {"formats"});
   ASSERT_EQ(table.exit_code, 0);
-  const ProgramResult json = run_program(MENISCUS_PROGRAM, {"formats", "--json"});
+  const ProgramResult json = run_program(test::meniscus_program(), {"formats", "--json"});
   const nlohmann::json formats = nlohmann::json::parse(json.out);
   std::map<std::string, int> kinds;
   for (const nlohmann::json& format : formats) {

@@ -47,7 +47,7 @@ class NamedFiles : public ::testing::Test {
  protected:
   ProgramResult meniscus(Words words, const Words& more = {}) {
     words.insert(words.end(), more.begin(), more.end());
-    return run_program(MENISCUS_PROGRAM, words);
+    return run_program(meniscus_program(), words);
   }
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
 

@@ -24,12 +24,12 @@ constexpr const char* kAntibody = "/usr/share/freesasa/test-data/1a0q.pdb";
 
 ProgramResult pockets(Words words) {
   words.insert(words.begin(), "pockets");
-  return run_program(MENISCUS_PROGRAM, words);
+  return run_program(meniscus_program(), words);
 }
 
 ProgramResult render(Words words) {
   words.insert(words.begin(), "render");
-  return run_program(MENISCUS_PROGRAM, words);
+  return run_program(meniscus_program(), words);
 }
 
 /// A wall of carbon atoms around the z axis, 20 Å long; with `lid` closed below.

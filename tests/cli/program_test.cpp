@@ -20,7 +20,7 @@ constexpr const char* kToxin = "/usr/share/pymol/data/demo/1tii.pdb";
 constexpr const char* kUbiquitin = "/usr/share/freesasa/test-data/1ubq.pdb";
 
 ProgramResult meniscus_says(const std::vector<std::string>& arguments) {
-  return test::run_program(MENISCUS_PROGRAM, arguments);
+  return test::run_program(test::meniscus_program(), arguments);
 }
 
 json surface_json(const std::vector<std::string>& arguments) {
@@ -58,7 +58,7 @@ TEST(Help, VersionIsOneLine) {
 
 // It and the libraries it brings take a quarter of a second: they come with the first picture (core/image).
 TEST(Start, OpenImageIOIsNotLoadedForNothing) {
-  const ProgramResult linked = test::run_program("/usr/bin/ldd", {MENISCUS_PROGRAM});
+  const ProgramResult linked = test::run_program("/usr/bin/ldd", {test::meniscus_program()});
   ASSERT_EQ(linked.exit_code, 0) << linked.err;
   EXPECT_NE(linked.out.find("libstdc++"), std::string::npos) << linked.out;
   EXPECT_EQ(linked.out.find("OpenImageIO"), std::string::npos) << linked.out;
@@ -141,7 +141,7 @@ TEST(Surface, NumbersOfTheToxinAreTheIndependentOnes) {
 
 // Five spheres through one point: without the growth they have no surface, and whoever quotes its area must know of it.
 TEST(Surface, SaysByHowMuchRadiiGrew) {
-  const std::vector<std::string> tied{MENISCUS_TEST_DATA "/../corpus/one-point-4239.xyzr", "--probe", "0.5"};
+  const std::vector<std::string> tied{test::test_file("corpus/one-point-4239.xyzr"), "--probe", "0.5"};
   for (const std::string device : {"cpu", "software"}) {
     const json certificate = surface_json({tied[0], tied[1], tied[2], "--device", device})["certificate"];
     EXPECT_EQ(certificate["closed"], true);
@@ -299,13 +299,13 @@ TEST(Device, ARequiredGpuIsAGpuOrExitFour) {
 }
 
 TEST(Signals, TerminateEndsTheProgramAsUsual) {
-  const std::string command = std::string(MENISCUS_PROGRAM) + " bench -q --runs 1000000 " + kUbiquitin +
+  const std::string command = test::meniscus_program() + " bench -q --runs 1000000 " + kUbiquitin +
                               " & pid=$!; sleep 0.3; kill -TERM $pid; wait $pid";
   EXPECT_EQ(test::run_program("/bin/sh", {"-c", command}).exit_code, 128 + 15);
 }
 
 TEST(Output, AFullStandardOutputIsAnError) {
-  const std::string command = std::string(MENISCUS_PROGRAM) + " surface -q " + kUbiquitin + " > /dev/full";
+  const std::string command = test::meniscus_program() + " surface -q " + kUbiquitin + " > /dev/full";
   const ProgramResult result = test::run_program("/bin/sh", {"-c", command});
   EXPECT_EQ(result.exit_code, 6);
   EXPECT_NE(result.err.find("standard output: cannot be written"), std::string::npos) << result.err;

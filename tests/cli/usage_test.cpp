@@ -14,7 +14,9 @@ using test::TemporaryFolder;
 
 class Words : public ::testing::Test {
  protected:
-  ProgramResult says(const std::vector<std::string>& words) { return test::run_program(MENISCUS_PROGRAM, words); }
+  ProgramResult says(const std::vector<std::string>& words) {
+    return test::run_program(test::meniscus_program(), words);
+  }
   std::string fault(std::vector<std::string> options) {
     options.insert(options.begin(), {"render", molecule_, "-o", (folder_.path() / "a.png").string()});
     const ProgramResult result = says(options);

@@ -35,6 +35,6 @@ std::string walk(int frames, int bad_frame) {
   return text + "END\n";
 }
 
-ProgramResult meniscus(const std::vector<std::string>& arguments) { return run_program(MENISCUS_PROGRAM, arguments); }
+ProgramResult meniscus(const std::vector<std::string>& arguments) { return run_program(meniscus_program(), arguments); }
 
 }  // namespace meniscus::test

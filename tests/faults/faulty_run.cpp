@@ -79,7 +79,7 @@ FaultyRun FaultBench::run(const Fault& fault) const {
                                  "FAULT_FOLDER=" + folder,
                                  "FAULT_LIBRARY=" + fault.library,
                                  "FAULT_TALLY=" + tally,
-                                 MENISCUS_PROGRAM};
+                                 meniscus_program()};
   for (const std::string& word : command_.arguments)
     words.push_back(replaced(replaced(word, "{in}", in), "{out}", out));
   FaultyRun run;

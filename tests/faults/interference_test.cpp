@@ -35,11 +35,12 @@ std::vector<std::string> ply_command(const fs::path& output) {
 
 TEST(TwoWriters, OneHasTheNameAndTheOtherSaysSo) {
   const TemporaryFolder folder;
-  ASSERT_EQ(run_program(MENISCUS_PROGRAM, ply_command(folder.path() / "sound.ply")).exit_code, 0);
+  ASSERT_EQ(run_program(test::meniscus_program(), ply_command(folder.path() / "sound.ply")).exit_code, 0);
   const std::string sound = read_bytes(folder.path() / "sound.ply");
   for (int round = 0; round < 4; ++round) {
     const fs::path output = folder.path() / fmt::format("{}.ply", round);
-    RunningProgram one(MENISCUS_PROGRAM, ply_command(output)), other(MENISCUS_PROGRAM, ply_command(output));
+    RunningProgram one(test::meniscus_program(), ply_command(output)),
+        other(test::meniscus_program(), ply_command(output));
     const int codes = one.finish().exit_code + other.finish().exit_code;
     EXPECT_EQ(codes, 0 + 6);
     EXPECT_EQ(read_bytes(output), sound);
@@ -51,9 +52,9 @@ TEST(TwoWriters, BothMayReplaceAndTheFileIsWhole) {
   const TemporaryFolder folder;
   std::vector<std::string> command = ply_command(folder.path() / "a.ply");
   command.emplace_back("--force");
-  ASSERT_EQ(run_program(MENISCUS_PROGRAM, command).exit_code, 0);
+  ASSERT_EQ(run_program(test::meniscus_program(), command).exit_code, 0);
   const std::string sound = read_bytes(folder.path() / "a.ply");
-  RunningProgram one(MENISCUS_PROGRAM, command), other(MENISCUS_PROGRAM, command);
+  RunningProgram one(test::meniscus_program(), command), other(test::meniscus_program(), command);
   EXPECT_EQ(one.finish().exit_code + other.finish().exit_code, 0);
   EXPECT_EQ(read_bytes(folder.path() / "a.ply"), sound);
   EXPECT_EQ(folder.entries(), Names{"a.ply"});
@@ -63,14 +64,14 @@ TEST(TwoWriters, BothMayReplaceAndTheFileIsWhole) {
 TEST(Killed, AtAnyMomentItLeavesNoHalfFile) {
   const TemporaryFolder folder;
   const auto begin = std::chrono::steady_clock::now();
-  ASSERT_EQ(run_program(MENISCUS_PROGRAM, ply_command(folder.path() / "sound.ply")).exit_code, 0);
+  ASSERT_EQ(run_program(test::meniscus_program(), ply_command(folder.path() / "sound.ply")).exit_code, 0);
   const auto whole = std::chrono::steady_clock::now() - begin;
   const std::string sound = read_bytes(folder.path() / "sound.ply");
   constexpr int kMoments = 12;
   for (int moment = 0; moment < kMoments; ++moment) {
     const fs::path output = folder.path() / fmt::format("{}.ply", moment);
     {
-      const RunningProgram running(MENISCUS_PROGRAM, ply_command(output));
+      const RunningProgram running(test::meniscus_program(), ply_command(output));
       std::this_thread::sleep_for(whole * (moment + 1) / kMoments);
     }  // its end kills
     if (fs::exists(output)) {
@@ -95,7 +96,7 @@ TEST(ForbiddenFolder, IsAnErrorBeforeTheWorkBegins) {
           {"render", kUbiquitin, "-q", "-o", folder / "a.png"},
           {"render", kUbiquitin, "-q", "--frames", "all", "-o", folder / "a.mp4"},
           {"surface", kUbiquitin, "-q", "--device", "cpu", "--csv", folder / "a.csv"}}) {
-      const ProgramResult result = run_program(MENISCUS_PROGRAM, command);
+      const ProgramResult result = run_program(test::meniscus_program(), command);
       EXPECT_EQ(result.exit_code, 6) << command[0] << " " << command[1] << folder << result.err;
       EXPECT_EQ(result.err.find("meniscus: error: "), 0u) << result.err;
     }
@@ -112,7 +113,7 @@ std::string parting(int frames) {
 
 /// Runs over the frames of a file that `change` changes as soon as the first is done.
 ProgramResult run_while(const std::string& file, const std::function<void()>& change) {
-  RunningProgram running(MENISCUS_PROGRAM,
+  RunningProgram running(test::meniscus_program(),
                          {"surface", file, "--frames", "all", "--json", "-q", "--device", "cpu", "--threads", "1"});
   const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(30);
   while (running.out().empty() && std::chrono::steady_clock::now() < limit)

@@ -23,7 +23,7 @@ constexpr int kBytesOfABlock = 512;  // of the shell's ulimit -f
 
 /// In a shell: `before` may set limits, `after` redirects.
 ProgramResult in_shell(const std::string& before, const std::string& arguments, const std::string& after = "") {
-  return test::run_program("/bin/sh", {"-c", before + "\n" + MENISCUS_PROGRAM " " + arguments + " " + after});
+  return test::run_program("/bin/sh", {"-c", before + "\n" + test::meniscus_program() + " " + arguments + " " + after});
 }
 
 bool is_one_line(const std::string& err) {

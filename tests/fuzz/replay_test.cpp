@@ -10,6 +10,7 @@
 #include "app/farm/bundle.h"
 #include "app/farm/read_bundle.h"
 #include "tests/fuzz/target.h"
+#include "tests/support/run_program.h"
 
 namespace meniscus::fuzz {
 namespace {
@@ -24,7 +25,7 @@ std::string content_of(const fs::path& path) {
 /// How many files of this folder, made for the target, it was given.
 std::size_t replay(const Target& target, const char* folder) {
   std::size_t count = 0;
-  const fs::path inputs = fs::path(MENISCUS_FUZZ_INPUTS) / folder / target.name;
+  const fs::path inputs = fs::path(test::test_file("fuzz")) / folder / target.name;
   if (!fs::exists(inputs)) return 0;
   for (const fs::directory_entry& entry : fs::directory_iterator(inputs)) {
     SCOPED_TRACE(entry.path().string());
@@ -48,7 +49,8 @@ INSTANTIATE_TEST_SUITE_P(Targets, FuzzReplay, testing::ValuesIn(targets().begin(
 /// A key that bundles came to need would leave all that is read behind it to nobody.
 TEST(FuzzInputs, SeedsOfBundlesAreBundles) {
   const ScratchFile scratch("bundle.json");
-  for (const fs::directory_entry& seed : fs::directory_iterator(fs::path(MENISCUS_FUZZ_INPUTS) / "seeds" / "bundle")) {
+  for (const fs::directory_entry& seed :
+       fs::directory_iterator(fs::path(test::test_file("fuzz")) / "seeds" / "bundle")) {
     scratch.write(content_of(seed.path()));
     EXPECT_NO_THROW(farm::read_bundle(scratch.folder())) << seed.path();
   }
@@ -57,7 +59,7 @@ TEST(FuzzInputs, SeedsOfBundlesAreBundles) {
 /// A folder that belongs to no target is replayed by nobody.
 TEST(FuzzInputs, BelongToTargets) {
   for (const char* folder : {"seeds", "crashes"}) {
-    for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(MENISCUS_FUZZ_INPUTS) / folder)) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(test::test_file("fuzz")) / folder)) {
       if (!entry.is_directory()) continue;
       EXPECT_NE(std::ranges::find(targets(), entry.path().filename().string(),
                                   [](const Target& target) { return std::string(target.name); }),

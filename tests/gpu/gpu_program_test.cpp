@@ -17,7 +17,7 @@ constexpr const char* kLavapipe = "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json";
 
 /// The program with more in its environment.
 test::ProgramResult run_with(std::vector<std::string> environment, const std::vector<std::string>& arguments) {
-  environment.emplace_back(MENISCUS_PROGRAM);
+  environment.emplace_back(test::meniscus_program());
   environment.insert(environment.end(), arguments.begin(), arguments.end());
   return test::run_program("/usr/bin/env", environment, 200);
 }
@@ -94,14 +94,14 @@ TEST_F(StoppingGpu, WithoutMemoryIsAnotherError) {
 TEST_F(StoppingGpu, FarmLeavesTheFrameUndone) {
   const std::string bundle = path("bundle");
   const auto made =
-      test::run_program(MENISCUS_PROGRAM, {"farm", "bundle", bundle, "--chunk-frames", "2", "--", "render", run_,
-                                           "--frames", "all", "--size", "64x48", "--device", "software"});
+      test::run_program(test::meniscus_program(), {"farm", "bundle", bundle, "--chunk-frames", "2", "--", "render",
+                                                   run_, "--frames", "all", "--size", "64x48", "--device", "software"});
   ASSERT_EQ(made.exit_code, 0) << made.err;
   const auto worked = with_fault("drop_from 4", {"work", bundle});
   EXPECT_EQ(worked.exit_code, 4) << worked.err;
   EXPECT_FALSE(std::filesystem::exists(bundle + "/images/frame_00000.png"));
   EXPECT_FALSE(std::filesystem::exists(bundle + "/state/render/frame_00000.json")) << "a frame to be made elsewhere";
-  EXPECT_EQ(test::run_program(MENISCUS_PROGRAM, {"work", bundle}).exit_code, 0);
+  EXPECT_EQ(test::run_program(test::meniscus_program(), {"work", bundle}).exit_code, 0);
   EXPECT_TRUE(std::filesystem::exists(bundle + "/images/frame_00000.png"));
 }
 

@@ -12,6 +12,7 @@
 #include "core/render/renderer.h"
 #include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
+#include "tests/support/run_program.h"
 #include "core/color/coloring.h"
 
 namespace meniscus {
@@ -44,7 +45,7 @@ Framebuffer render(const testing::Balls& balls, bool by_kind, Projection project
 }
 
 void expect_golden(const std::string& name, const Framebuffer& picture) {
-  const std::string golden = std::string(MENISCUS_TEST_DATA) + "/golden/" + name + ".png";
+  const std::string golden = test::test_file("data/golden/" + name + ".png");
   if (std::getenv("MENISCUS_UPDATE_GOLDEN")) {
     write_image(golden, picture, {std::nullopt, Existing::replace});
     GTEST_SKIP() << "wrote " << golden;

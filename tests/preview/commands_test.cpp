@@ -59,7 +59,7 @@ TEST(PreviewCommands, MakeAnotherStateAndLeaveTheOneTheyGet) {
 }
 
 TEST(PreviewCommands, AreInTheirTableOfCommands) {
-  const std::string page = read_bytes(MENISCUS_TEST_DATA "/../../app/preview/commands.md");
+  const std::string page = read_bytes(test_file("../app/preview/commands.md"));
   std::string words;
   try {
     row_of(CommandReader(Json{{"command", "fly"}}));

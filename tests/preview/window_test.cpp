@@ -30,7 +30,7 @@ using Json = nlohmann::json;
 
 constexpr glm::ivec2 kScreen{1280, 800};
 constexpr glm::ivec2 kPicture{980, 800};  // what the panel leaves of a window as large as the screen
-const std::string kProgram = MENISCUS_PROGRAM;
+const std::string kProgram = meniscus_program();
 const std::vector<std::string> kMolecule{"preview", "/usr/share/pymol/data/demo/1tii.pdb", "--select", "chain D",
                                          "--quiet"};
 
@@ -51,8 +51,7 @@ bool happens(const std::function<bool()>& condition, int seconds = 60) {
 
 /// The recorded session and an order to quit, as a file.
 std::string session_file(const TemporaryFolder& folder) {
-  return folder.file("session.jsonl",
-                     read_bytes(MENISCUS_TEST_DATA "/preview_session.jsonl") + "{\"command\":\"quit\"}\n");
+  return folder.file("session.jsonl", read_bytes(test_file("data/preview_session.jsonl")) + "{\"command\":\"quit\"}\n");
 }
 
 ScreenPicture read_png(const std::string& path) {

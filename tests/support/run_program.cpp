@@ -50,6 +50,10 @@ int wait_for(pid_t child, int limit_seconds) {
 
 }  // namespace
 
+std::string meniscus_program() { return MENISCUS_PROGRAM; }
+
+std::string test_file(const std::string& name) { return MENISCUS_TESTS_FOLDER "/" + name; }
+
 ProgramResult run_program(const std::string& program, const std::vector<std::string>& arguments, int limit_seconds) {
   return RunningProgram(program, arguments).finish(limit_seconds);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the program under test as a user would, and keeps what it said.
+// Runs the program under test as a user would, and keeps what it said. Where the build and the tests lie is known here
+// alone: what is compiled of the other tests serves every checkout.
 #pragma once
 
 #include <filesystem>
@@ -10,6 +11,11 @@
 #include <sys/types.h>
 
 namespace meniscus::test {
+
+/// The program under test; empty where it is not built.
+std::string meniscus_program();
+/// A file of the folder tests.
+std::string test_file(const std::string& name);
 
 struct ProgramResult {
   int exit_code = -1;  ///< 128 + signal if a signal ended it; 124 if it ran past the time limit

@@ -176,7 +176,7 @@ TEST(Tpr, IsRefusedWithTheCommandThatConvertsIt) {
   const std::string start = "\0\0\0\x1f\0\0\0\x1eVERSION 2022.5-Debian_2022.5_2\0\0\0\0\0\4\0\0\0\x7f"s;
   const std::string path = folder.file("run.tpr", start + std::string(100, '\0'));
   expect_words(refusal([&] { open_trajectory(path); }), "gmx editconf -f run.tpr -conect -o run.pdb");
-  const test::ProgramResult result = test::run_program(MENISCUS_PROGRAM, {"surface", path});
+  const test::ProgramResult result = test::run_program(test::meniscus_program(), {"surface", path});
   EXPECT_EQ(result.exit_code, 3);
   expect_words(result.err, "is a run input file of GROMACS (TPR)");
 }

@@ -54,9 +54,9 @@ std::map<std::string, std::vector<float>> render(const Balls& balls, const Camer
   const test::TemporaryFolder folder;
   const std::string mns = (folder.path() / "molecule.mns").string(), exr = (folder.path() / "passes.exr").string();
   const auto exported = test::run_program(
-      MENISCUS_PROGRAM, {"export", "blender", folder.file("molecule.xyzr", xyzr(balls)), "-o", mns, "--device", "cpu",
-                         "--camera", folder.file("camera.json", camera_json(camera)), "--size",
-                         fmt::format("{}x{}", kWidth, kHeight), "--tolerance", fmt::format("{}", kTolerance)});
+      test::meniscus_program(), {"export", "blender", folder.file("molecule.xyzr", xyzr(balls)), "-o", mns, "--device",
+                                 "cpu", "--camera", folder.file("camera.json", camera_json(camera)), "--size",
+                                 fmt::format("{}x{}", kWidth, kHeight), "--tolerance", fmt::format("{}", kTolerance)});
   EXPECT_EQ(exported.exit_code, 0) << exported.err;
   const auto rendered = test::run_program(BLENDER_PROGRAM,
                                           {"-b", "--factory-startup", "--python-exit-code", "3", "--python",

@@ -34,9 +34,9 @@ TEST(PovrayCommand, TextOfAMoleculeNeverReachesTheScene) {
       "#fopen.cif", mmcif("'\"} #fopen F \"x\" write //'", "'*/ #include \"/etc/passwd\"'", "'} #error \"y\" {'"));
   for (const std::string color : {"element", "chain", "residue", "atom"}) {
     for (const auto& [file, scene] : {std::pair(plain, "a"), std::pair(hostile, "b")}) {
-      const test::ProgramResult run =
-          test::run_program(MENISCUS_PROGRAM, {"export", "povray", file, "--device", "cpu", "--color", color, "--force",
-                                               "--sticks", "all", "-o", (folder.path() / scene).string()});
+      const test::ProgramResult run = test::run_program(
+          test::meniscus_program(), {"export", "povray", file, "--device", "cpu", "--color", color, "--force",
+                                     "--sticks", "all", "-o", (folder.path() / scene).string()});
       ASSERT_EQ(run.exit_code, 0) << run.err;
     }
     const std::string comment = color == "element" ? "  // element C" : color == "chain" ? "  // chain A" : "";
@@ -70,7 +70,7 @@ TEST(PovrayCommand, CommentsNameKindsAndAtomsThatAreHarmless) {
     std::vector<std::string> arguments{
         "export", "povray", file, "--device", "cpu", "-o", (folder.path() / name).string()};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    const test::ProgramResult run = test::run_program(MENISCUS_PROGRAM, arguments);
+    const test::ProgramResult run = test::run_program(test::meniscus_program(), arguments);
     EXPECT_EQ(run.exit_code, 0) << run.err;
     return test::read_bytes(folder.path() / name / "surface_geometry.inc");
   };
@@ -95,7 +95,7 @@ TEST(PovrayCommand, KeepsWhatExistsAndRefusesNonsense) {
   const auto run = [&](const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"export", "povray", molecule, "--device", "cpu", "-o", scene.string()};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return test::run_program(MENISCUS_PROGRAM, arguments);
+    return test::run_program(test::meniscus_program(), arguments);
   };
   const test::ProgramResult first = run({});
   ASSERT_EQ(first.exit_code, 0) << first.err;

@@ -39,7 +39,7 @@ TEST_P(SameCamera, PositionsAndNormalsAgree) {
   const std::string picture = (folder.path() / "cast.exr").string(), camera = (folder.path() / "camera.json").string(),
                     scene = (folder.path() / "scene").string(), file = "/usr/share/pymol/data/demo/1tii.pdb";
   const auto program = [](const std::vector<std::string>& arguments) {
-    const test::ProgramResult run = test::run_program(MENISCUS_PROGRAM, arguments, 120);
+    const test::ProgramResult run = test::run_program(test::meniscus_program(), arguments, 120);
     ASSERT_EQ(run.exit_code, 0) << run.err;
   };
   program({"render", file, "--size", "400x300", "--samples", "1", "--aovs", "-o", picture, "--projection", GetParam(),

@@ -30,7 +30,7 @@ Words operator+(Words first, const Words& second) {
 class PovraySequence : public ::testing::Test {
  protected:
   test::ProgramResult meniscus(const Words& command, const Words& options) const {
-    return test::run_program(MENISCUS_PROGRAM, command + kMolecule + options);
+    return test::run_program(test::meniscus_program(), command + kMolecule + options);
   }
   std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
   test::ProgramResult export_run(const std::string& name, const Words& options) const {
