@@ -15,7 +15,8 @@ constexpr auto kTable = of_commands(
     std::to_array<Property>({
         flag("legend.shown", "--legend",
              "Explain the colours at the right (of tall pictures: below); the molecule is framed beside the legend")
-            .in(kLegend, kShared | live),
+            .in(kLegend, kShared | live)
+            .in_short_help(),
         new_file("legend.file", "--legend-file", "FILE", "Write the legend as a picture of its own")
             .in(kLegend, in_scene)
             .of(for_render),
@@ -31,16 +32,20 @@ constexpr auto kTable = of_commands(
             .initially("auto")
             .in(kLegend, kShared | live | rare),
 
-        text("annotations.panel", "--panel", "TEXT", "Letter of the panel, at the top left").in(kLabels, kShared),
+        text("annotations.panel", "--panel", "TEXT", "Letter of the panel, at the top left")
+            .in(kLabels, kShared)
+            .in_short_help(),
         text("annotations.scale_bar", "--scale-bar", "Å",
              "Scale bar of this length in Å at the bottom left, or of a round length (auto); with a perspective camera "
              "it is true at the camera's target")
             .proposes("auto")
             .initially("auto")
-            .in(kLabels, kShared | value_optional),
+            .in(kLabels, kShared | value_optional)
+            .in_short_help(),
         text("annotations.labels", "--label", "EXPR=TEXT",
              "Write TEXT beside the middle of these atoms, with a line to it, in front of everything. Repeatable")
-            .in(kLabels, kShared | repeatable),
+            .in(kLabels, kShared | repeatable)
+            .in_short_help(),
         flag("annotations.time_stamp", "--time-stamp",
              "Write the time of each frame in ns at the top right, or its number where there are no times")
             .in(kLabels, kShared)

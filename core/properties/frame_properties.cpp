@@ -17,7 +17,8 @@ constexpr auto kTable = of_commands(
         file("frames.trajectory", "--trajectory", "PATH",
              "Coordinates of the atoms of FILE, frame by frame (meniscus formats lists the formats). Repeatable: one "
              "after the other. Without it the models of FILE are the frames")
-            .in(kFrames, kShared | repeatable),
+            .in(kFrames, kShared | repeatable)
+            .in_short_help(),
         text("frames.trajectory_atoms", "--trajectory-atoms", "EXPR",
              "The atoms of FILE that the trajectory has, such as 'not water'; all others are left out first")
             .in(kFrames, kShared),
@@ -26,7 +27,8 @@ constexpr auto kTable = of_commands(
             .in(kFrames, kShared),
         text("frames.frames", "--frames", "LIST",
              "Frames of the run: all, or a list such as 0-99:10,250,last; frames count from 0, -10- are the last ten")
-            .in(kFrames, kShared),
+            .in(kFrames, kShared)
+            .in_short_help(),
         count("frames.stride", "--stride", "N", "Use every Nth of them")
             .from(1, kUnlimited)
             .initially("1")
@@ -57,7 +59,8 @@ constexpr auto kTable = of_commands(
             .in(kMotion, kShared | value_optional),
         text("frames.superpose", "--superpose", "EXPR",
              "Rotate and move each frame so that these atoms fit the reference frame best")
-            .in(kMotion, kShared),
+            .in(kMotion, kShared)
+            .in_short_help(),
         text("frames.center", "--center", "EXPR", "Move each frame so that the centre of these atoms stays in place")
             .in(kMotion, kShared),
         text("frames.reference", "--reference", "N", "Reference frame of --superpose and --center: a number, or last")

@@ -21,7 +21,8 @@ constexpr auto kTable = of_commands(
              "changes only their lightness")
             .one_of("publication|cover|flat|soft|classic")
             .initially("publication")
-            .in(kLight, kLook),
+            .in(kLight, kLook)
+            .in_short_help(),
         text("look.light", "--light", "X,Y,Z", "Direction towards the lamp: right, up, towards the viewer")
             .initially("-0.45,0.65,0.75")
             .in(kLight, kLook),
@@ -49,7 +50,8 @@ constexpr auto kTable = of_commands(
                "Strength of the shade in pockets and clefts, 0 (none) to 1; only what the picture shows casts shade")
             .from(0, 1)
             .slider("Shade", 1)
-            .in(kLight, kLook),
+            .in(kLight, kLook)
+            .in_short_help(),
         number("look.ambient_occlusion_radius", "--ambient-occlusion-radius", "Å",
                "Farthest distance that shade is cast, in Å")
             .from(0.1, 1000)
@@ -58,7 +60,8 @@ constexpr auto kTable = of_commands(
              "Width of black lines around what stands in front and between chains: pixels, 0.5pt or 0.2mm; 0: no lines")
             .from(0, 16)
             .slider("Lines", 6)
-            .in(kLines, kLook),
+            .in(kLines, kLook)
+            .in_short_help(),
         text("look.outer_lines", "--outer-lines", "WIDTH", "Width of the outline of the whole")
             .from(0, 16)
             .initially("--silhouettes")

@@ -14,6 +14,7 @@ constexpr auto kTable = std::to_array<Property>({
     number("mesh.tolerance", "--tolerance", "Å", "Largest distance of the mesh from the surface, in Å")
         .from(1e-5, 1)
         .in(kMesh, in_scene | in_bundle)
+        .in_short_help()
         .of(kForMeshes),
     number("mesh.tolerance_pixels", "--tolerance-pixels", "PIXELS", "The same in pixels of the picture, such as 0.25")
         .from(1e-3, 100)
@@ -24,6 +25,7 @@ constexpr auto kTable = std::to_array<Property>({
            "Instead of a tolerance: vertices per Å², from one triangle an atom (0.02) up; triangles are even")
         .from(0.005, 1000)
         .in(kMesh, in_scene)
+        .in_short_help()
         .of(for_mesh)
         .excludes("mesh.tolerance|mesh.tolerance_pixels"),
     flag("mesh.even", "--even", "Make nearly equilateral triangles, which cross the borders of patches")
@@ -31,6 +33,7 @@ constexpr auto kTable = std::to_array<Property>({
         .of(for_mesh),
     text("mesh.format", "--format", "WORD", "Format, where the file's ending does not tell")
         .in(kMesh, in_scene)
+        .in_short_help()
         .of(for_mesh),
     text("mesh.attributes", "--attributes", "NAMES",
          "Numbers of vertices in PLY, VTP and GLB, separated by commas; docs/meshes.md lists them")
@@ -57,12 +60,14 @@ constexpr auto kTable = std::to_array<Property>({
 
     new_file("output.file", "-o,--output", "PATH", "Output to write")
         .in(kOutput, in_scene)
+        .in_short_help()
         .of(for_render | kForExports | for_mesh | for_atoms),
-    flag("output.force", "--force", "Replace what exists at the output path").in(kOutput).of(kForRuns),
+    flag("output.force", "--force", "Replace what exists at the output path").in(kOutput).in_short_help().of(kForRuns),
     file("scene.read", "--scene", "FILE",
          "Take these options from a scene file, or from a picture that meniscus made; options given here count "
          "before those of the scene")
         .in(kScene)
+        .in_short_help()
         .of(kForRuns),
     flag("scene.trust", "--trust-scene",
          "Let the scene name files anywhere, to read and to write; for scenes of your own")
@@ -75,6 +80,7 @@ constexpr auto kTable = std::to_array<Property>({
         .of(kForRuns),
     new_file("scene.save", "--save-scene", "FILE", "Write these options as a scene file")
         .in(kScene)
+        .in_short_help()
         .of(for_render | kForExports | for_mesh),
 });
 

@@ -25,7 +25,8 @@ constexpr auto kTable = of_commands(
             .in(kInput, kShared),
         text("molecule.select", "--select", "EXPR",
              "Use only these atoms, as in 'chain A and resid 10-50'; see meniscus help selections")
-            .in(kInput, kShared),
+            .in(kInput, kShared)
+            .in_short_help(),
         flag("molecule.keep_water", "--keep-water", "Use water molecules too").in(kInput, kShared),
         flag("molecule.keep_ions", "--keep-ions", "Use free ions too: lone metal and halogen atoms")
             .in(kInput, kShared),
@@ -41,6 +42,7 @@ constexpr auto kTable = of_commands(
             .in(kInput, in_bundle),
         flag("molecule.quiet", "-q,--quiet", "Print errors only: no notes on standard error")
             .in(kInput, in_bundle)
+            .in_short_help()
             .of(kForMolecules | for_bench),
 
         word("molecule.hydrogens", "--hydrogens", "WORD",
@@ -64,7 +66,8 @@ constexpr auto kTable = of_commands(
 
         text("molecule.assembly", "--assembly", "ID",
              "Build this biological assembly (REMARK 350 or mmCIF); list: print the assemblies of the file and stop")
-            .in(kAssembly, kShared),
+            .in(kAssembly, kShared)
+            .in_short_help(),
         word("molecule.instances", "--instances", "WORD",
              "Compute one copy and draw it many times. exact: refuse where a probe can touch two copies at once; "
              "separate: each copy has a surface of its own, as if alone")

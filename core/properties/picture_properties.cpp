@@ -16,7 +16,8 @@ constexpr auto kTable = of_commands(
         camera("camera.from", "--camera", "FILE",
                "Camera as JSON, in a file or typed here; or PyMOL's get_view or ChimeraX's view matrix")
             .initially("shows everything")
-            .in(kCamera, kShared | live),
+            .in(kCamera, kShared | live)
+            .in_short_help(),
         word("camera.projection", "--projection", "WORD",
              "Projection of the default camera: perspective or orthographic")
             .one_of("perspective|orthographic")
@@ -29,14 +30,17 @@ constexpr auto kTable = of_commands(
              "with that axis upright. A minus sign in front turns to the opposite side")
             .initially("front")
             .in(kCamera, kShared | live)
+            .in_short_help()
             .excludes("camera.from"),
         text("camera.turn", "--turn", "AXISANGLE",
              "Turn the molecule about an axis of the picture, in degrees: y90, x-30, z45 (x points right, y up, z to "
              "the viewer). Repeatable, in this order")
-            .in(kCamera, kShared | live | repeatable),
+            .in(kCamera, kShared | live | repeatable)
+            .in_short_help(),
         text("camera.zoom_to", "--zoom-to", "EXPR", "Fill the picture with these atoms")
             .initially("all that --show leaves")
-            .in(kCamera, kShared | live),
+            .in(kCamera, kShared | live)
+            .in_short_help(),
         file("camera.path", "--camera-path", "FILE", "Key frames of a moving camera as JSON: frame, camera")
             .in(kCamera, kShared)
             .of(kForFigures & ~for_preview)
@@ -44,6 +48,7 @@ constexpr auto kTable = of_commands(
         number("camera.turntable", "--turntable", "TURNS",
                "Turns of the camera around the molecule's middle over the run; negative: the other way round")
             .in(kCamera, kShared)
+            .in_short_help()
             .of(kForFigures & ~for_preview),
         text("camera.follow", "--follow", "EXPR", "Move the camera with the middle of these atoms")
             .in(kCamera, kShared)
@@ -55,9 +60,11 @@ constexpr auto kTable = of_commands(
         text("image.size", "--size", "WxH", "Size in pixels")
             .initially("1280x960")
             .in(kPicture, kShared | live)
+            .in_short_help()
             .of(kForFigures | for_mesh | for_bench),
         text("image.width", "--width", "LENGTH", "Width of the picture: 85mm, 8.5cm, 3.5in, 1000px; the height follows")
             .in(kPicture, kShared | live)
+            .in_short_help()
             .excludes("image.size"),
         text("image.height", "--height", "LENGTH",
              "Height of the picture in the same units; the width follows unless it is given")
@@ -71,11 +78,13 @@ constexpr auto kTable = of_commands(
             .from(1, 1024)
             .initially("9")
             .in(kPicture, kShared | live)
+            .in_short_help()
             .of(for_render | for_preview),
         text("image.background", "--background", "COLOR", "transparent, white, black or #rrggbb")
             .proposes("transparent|white|black")
             .initially("transparent")
             .in(kPicture, kShared | live)
+            .in_short_help()
             .of(for_render | for_preview),
         flag("image.aovs", "--aovs", "Add Z, N.xyz, P.xyz, atom, kind and component of each pixel's centre to an .exr")
             .in(kPicture, kShared)

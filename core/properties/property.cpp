@@ -40,4 +40,15 @@ std::string help_of(const Property& property) {
                                   : fmt::format("{} [{}]", property.help, property.initial);
 }
 
+std::string first_clause(std::string_view help) {
+  std::string_view initial;
+  if (const std::size_t bracket = help.rfind(" ["); help.ends_with(']') && bracket != help.npos) {
+    initial = help.substr(bracket);
+    help.remove_suffix(initial.size());
+  }
+  std::size_t end = help.size();
+  for (const std::string_view mark : {": ", "; ", ". "}) end = std::min(end, help.find(mark));
+  return fmt::format("{}{}", help.substr(0, end), initial);
+}
+
 }  // namespace meniscus

@@ -77,6 +77,7 @@ struct Property {
   unsigned commands = 0;               ///< those that have the option; 0: one that adds it by itself
   std::string_view excluded{};         ///< keys that are not given beside it: "image.size|camera.from"
   std::string_view needed{};           ///< a key without which it means nothing
+  bool common = false;                 ///< --help shows its option even where a command has very many
 
   constexpr Property from(double least, double most) const {
     Property changed = *this;
@@ -121,6 +122,12 @@ struct Property {
     Property changed = *this;
     changed.heading = title;
     changed.traits = all_traits;
+    return changed;
+  }
+
+  constexpr Property in_short_help() const {
+    Property changed = *this;
+    changed.common = true;
     return changed;
   }
 
@@ -188,7 +195,10 @@ std::vector<std::string> words_of(const Property& property);
 /// Any such list.
 std::vector<std::string> parted(std::string_view list);
 
-/// The help with the default behind it, in brackets.
+/// The help, and then the default in brackets.
 std::string help_of(const Property& property);
+
+/// Such a text up to the first colon, semicolon or full stop, and then its brackets: one line of the short help.
+std::string first_clause(std::string_view help);
 
 }  // namespace meniscus

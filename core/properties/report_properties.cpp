@@ -10,15 +10,18 @@ namespace {
 constexpr std::string_view kOutput = "Output", kSession = "Session";
 
 constexpr auto kTable = std::to_array<Property>({
-    flag("report.json", "--json", "Print one JSON object instead of a table").in(kOutput),
+    flag("report.json", "--json", "Print one JSON object instead of a table").in(kOutput).in_short_help(),
     new_file("report.csv_atoms", "--csv", "FILE",
              "Write areas of atoms, a row each; -: to standard output, and nothing else there")
-        .in(kOutput),
+        .in(kOutput)
+        .in_short_help(),
     new_file("report.csv_residues", "--csv-residues", "FILE", "Write areas of residues, a row each; - as above")
-        .in(kOutput),
+        .in(kOutput)
+        .in_short_help(),
     new_file("report.csv_series", "--csv-series", "FILE",
              "Write areas, volume and cavities of a run, a row a frame; - as above")
-        .in(kOutput),
+        .in(kOutput)
+        .in_short_help(),
     new_file("report.csv_cavities", "--csv-cavities", "FILE",
              "Write the cavities of each frame of a run, a row each: number, birth and end, volume, area, place, "
              "residues around; - as above")
@@ -34,11 +37,13 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kOutput),
     new_file("report.csv_pockets", "--csv", "FILE",
              "Write pockets, a row each; -: to standard output, and nothing else there")
-        .in(kOutput),
+        .in(kOutput)
+        .in_short_help(),
     new_file("report.pocket_mesh", "--mesh", "FILE",
              "Write the pockets as closed meshes, each in its colour: PLY, OBJ, GLB, 3MF, STL, OFF or VTP by the "
              "file's ending; of a run with # for the number")
-        .in(kOutput),
+        .in(kOutput)
+        .in_short_help(),
     new_file(
         "report.pocket_figure", "--figure", "FILE",
         "Write a scene for render, export and preview: atoms around pockets in colours, ligands as sticks; likewise")
@@ -46,7 +51,8 @@ constexpr auto kTable = std::to_array<Property>({
 
     text("preview.serve", "--serve", "[PORT]",
          "Open no window; serve a page for browsers on 127.0.0.1, at this port or at any free one")
-        .in(kSession, live | value_optional),
+        .in(kSession, live | value_optional)
+        .in_short_help(),
     file("preview.commands", "--commands", "FILE", "Run these commands first, one JSON object a line")
         .in(kSession, live),
     new_file("preview.record", "--record", "FILE", "Write every command to this file, for --commands")

@@ -24,6 +24,7 @@ constexpr auto kTable = of_commands(
             "Open the contact of two groups like a book, both sides facing the viewer, coloured by buried area: chains "
             "(A:B, A,C:B) or EXPR:EXPR")
             .in(kSurface, kSeen)
+            .in_short_help()
             .of((kForFigures & ~for_preview) | for_mesh),
         word("surface.kind", "--surface", "KIND",
              "ses: solvent-excluded; sas: solvent-accessible; vdw: van der Waals, without a probe")
@@ -35,22 +36,26 @@ constexpr auto kTable = of_commands(
             .from(0, 1000)
             .initially("1.4")
             .in(kSurface, kShared | live | of_surfaces)
+            .in_short_help()
             .of(kForRuns | for_bench),
         text("surface.show", "--show", "EXPR",
              "Compute the surface of all atoms used, but draw and export only the part of these")
             .in(kSurface, kShared | live | of_surfaces)
+            .in_short_help()
             .of(kForFigures | for_mesh | for_pockets),
         text("surface.by", "--by", "WORD",
              "Several objects: chain, model, class (polymer, ligand, ...) or residue: each a surface of its own, as if "
              "it were alone; component: each closed part of the one surface")
             .proposes("chain|model|class|residue|component")
             .in(kSurface, kSeen)
+            .in_short_help()
             .of(kForParts),
         word("surface.cavities", "--cavities", "WORD",
              "keep them; drop: only what can be reached from outside; only: cavities and what lies in them")
             .one_of("keep|drop|only")
             .initially("keep")
             .in(kSurface, kSeen)
+            .in_short_help()
             .of(kForParts),
         text("surface.device", "--device", "DEVICE",
              "auto (a GPU if there is one, else cpu), gpu, gpu:N (or UUID, PCI address), software (OpenGL without a "
@@ -58,6 +63,7 @@ constexpr auto kTable = of_commands(
             .proposes("auto|gpu|software|cpu")
             .initially("auto")
             .in(kDevice)
+            .in_short_help()
             .of(kForRuns | for_bench),
         flag("surface.require_gpu", "--require-gpu",
              "Fail (exit code 4) where there is no hardware GPU, instead of using the CPU or software OpenGL")
@@ -79,11 +85,13 @@ constexpr auto kTable = of_commands(
              "some atoms, as in 'ligand=orange'. Repeatable; the last counts")
             .initially("element")
             .in(kColour, kSeen | live | repeatable | of_objects)
+            .in_short_help()
             .of(kForColours),
         file("surface.color_by_file", "--color-by-file", "NUMBERS",
              "Colour by numbers from a file: one for each atom of FILE or each atom used; lines of chain, residue and "
              "number; or a CSV table, such as meniscus surface --csv-residues writes. nan, ? or - mean missing")
             .in(kColour, kSeen | live)
+            .in_short_help()
             .of(kForColours),
         text("surface.color_column", "--color-column", "NAME", "Column of that table")
             .in(kColour, kSeen | live)
@@ -93,6 +101,7 @@ constexpr auto kTable = of_commands(
              "Colour each point of the surface by a volume map, such as a potential from APBS: OpenDX (.dx), Gaussian "
              "cube, CCP4/MRC; needs --color-range. Its --map is red-white-blue unless you choose another")
             .in(kColour, kSeen)
+            .in_short_help()
             .of(kForColours)
             .excludes("surface.color_by_file"),
         number("surface.map_offset", "--map-offset", "Å",
@@ -108,6 +117,7 @@ constexpr auto kTable = of_commands(
              "categorical (each number has its own colour)")
             .initially("viridis")
             .in(kColour, kSeen | live | of_objects)
+            .in_short_help()
             .of(kForColours),
         file("surface.map_file", "--map-file", "FILE",
              "A colour map of your own: lines with a colour, or a position and a colour; or a JSON list of them")
@@ -118,6 +128,7 @@ constexpr auto kTable = of_commands(
              "0, hydrophobicity has -4.5:4.5)")
             .initially("auto")
             .in(kColour, kSeen | live | of_objects)
+            .in_short_help()
             .of(kForColours),
         text("surface.missing_color", "--missing-color", "COLOR",
              "Colour of atoms without a number, and of points outside the volume map")
@@ -133,14 +144,16 @@ constexpr auto kTable = of_commands(
         text("surface.opacity", "--opacity", "EXPR=N",
              "Opacity from 0 (hidden) to 1: EXPR=0.4 for some atoms, or a number alone for all. Repeatable; the last "
              "counts")
-            .in(kFigure, kSeen | live | repeatable | of_objects),
+            .in(kFigure, kSeen | live | repeatable | of_objects)
+            .in_short_help(),
         flag("surface.film_opacity", "--film-opacity",
              "Make transparent surfaces denser where the line of sight grazes them, like a thin film")
             .in(kFigure, kSeen | live | of_surfaces),
         text("surface.clip", "--clip", "PLANE",
              "Keep the part of the surface where this holds, with exact caps: x<20, 1,1,0>35 (a direction), or "
              "depth>0.5 along the line of sight (0 nearest, 1 farthest). Repeatable; all apply")
-            .in(kFigure, kSeen | live | repeatable | of_surfaces),
+            .in(kFigure, kSeen | live | repeatable | of_surfaces)
+            .in_short_help(),
         text("surface.cap_color", "--cap-color", "COLOR",
              "Colour of caps: atom (that of the nearest atom) or a colour (red, #rrggbb)")
             .initially("atom")
@@ -153,16 +166,20 @@ constexpr auto kTable = of_commands(
         text("figure.sticks", "--sticks", "EXPR",
              "Draw the bonds of these atoms as sticks. Repeatable; may name atoms outside --select")
             .in(kBeside, in_bundle | live | repeatable)
+            .in_short_help()
             .of(kForFigures | for_mesh),
         text("figure.balls", "--balls", "EXPR", "Draw these atoms as balls and sticks")
             .in(kBeside, in_bundle | live | repeatable)
+            .in_short_help()
             .of(kForFigures | for_mesh),
         text("figure.spheres", "--spheres", "EXPR", "Draw these atoms as spheres of their van der Waals radii")
             .in(kBeside, in_bundle | live | repeatable)
+            .in_short_help()
             .of(kForFigures | for_mesh),
         text("figure.tube", "--tube", "EXPR",
              "Draw the backbone of these atoms as a tube, helices as ribbons, strands as arrows")
             .in(kBeside, in_bundle | live | repeatable)
+            .in_short_help()
             .of(kForFigures | for_mesh),
         number("shapes.stick_radius", "--stick-radius", "Å", "Radius of sticks in Å")
             .from(0.001, 10)
@@ -199,6 +216,7 @@ constexpr auto kTable = of_commands(
             .from(0, 1e9)
             .initially("30: a molecule of water")
             .in(kSurface)
+            .in_short_help()
             .of(for_pockets),
         number("pockets.mouth_tolerance", "--mouth-tolerance", "Å",
                "Farthest that a mouth may lie outside its place, in Å; less takes longer")
@@ -210,6 +228,7 @@ constexpr auto kTable = of_commands(
              "Atoms that are taken out first, and whose places are reported; none: leave them in")
             .initially("ligand")
             .in(kSurface)
+            .in_short_help()
             .of(for_pockets),
     }));
 

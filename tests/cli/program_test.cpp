@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/version.h"
 #include "tests/support/run_program.h"
 
 namespace meniscus {
