@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <iterator>
 #include <iostream>
 #include <span>
 #include <sstream>
@@ -41,13 +42,34 @@ constexpr const char* kExitCodesInShort = R"(Exit codes:
 
 constexpr std::size_t kHelpWidth = 100;
 
-/// Headings of the help: what most people need first, what few need last.
-constexpr auto kHeadings =
-    std::to_array<std::string_view>({"Output",    "Picture", "Mesh",     "Figure", "Beside the surface",
-                                     "Colour",    "Light",   "Lines",    "Camera", "Legend",
-                                     "Labels",    "Session", "Scene",    "Input",  "Surface",
-                                     "Computing", "Radii",   "Assembly", "Frames", "Alignment of frames",
-                                     "Film",      "Options"});
+/// A heading of the help, and the broader one that it is part of in the short help.
+struct Heading {
+  std::string_view full, broad;
+};
+
+/// What most people need first, what few need last.
+constexpr Heading kHeadings[] = {{"Output", "Output"},
+                                 {"Picture", "Output"},
+                                 {"Mesh", "Output"},
+                                 {"Figure", "Figure"},
+                                 {"Beside the surface", "Figure"},
+                                 {"Colour", "Colour and light"},
+                                 {"Light", "Colour and light"},
+                                 {"Lines", "Colour and light"},
+                                 {"Camera", "Camera"},
+                                 {"Legend", "Legend and labels"},
+                                 {"Labels", "Legend and labels"},
+                                 {"Session", "Session"},
+                                 {"Scene", "Scene"},
+                                 {"Input", "Input"},
+                                 {"Surface", "Surface"},
+                                 {"Computing", "Surface"},
+                                 {"Radii", "Input"},
+                                 {"Assembly", "Input"},
+                                 {"Frames", "Frames"},
+                                 {"Alignment of frames", "Frames"},
+                                 {"Film", "Frames"},
+                                 {"Options", "Options"}};
 
 /// A command with more options shows the common ones, a line each, unless it is asked for all of them.
 constexpr std::size_t kFullHelp = 30;
@@ -71,22 +93,24 @@ class ManualFormatter : public CLI::Formatter {
   }
 
   std::string ordered_groups(const CLI::App* app) const {
-    std::vector<std::string> headings = app->get_groups();
-    std::ranges::stable_sort(headings, {},
-                             [](const std::string& heading) { return std::ranges::find(kHeadings, heading); });
+    std::vector<std::string> headings;
+    for (const std::string& group : app->get_groups())
+      if (const std::string heading = heading_of(group); !heading.empty() && !std::ranges::count(headings, heading))
+        headings.push_back(heading);
+    std::ranges::stable_sort(headings, {}, [&](const std::string& heading) { return place_of(heading); });
     std::string text;
     for (const std::string& heading : headings) {
       const std::vector<const CLI::Option*> options = app->get_options([&](const CLI::Option* option) {
-        return option->get_group() == heading && option->nonpositional() && (!short_ || is_common(*option));
+        return heading_of(option->get_group()) == heading && option->nonpositional() && (!short_ || is_common(*option));
       });
-      if (!heading.empty() && !options.empty()) text += make_group(heading, false, options);
+      if (!options.empty()) text += make_group(heading, false, options);
     }
     return text;
   }
 
   std::string make_option_desc(const CLI::Option* option) const override {
     const std::string& words = option->get_description();
-    return wrapped(short_ ? first_clause(words) : words, kHelpWidth - column_width_);
+    return wrapped(short_ && option->nonpositional() ? first_clause(words) : words, kHelpWidth - column_width_);
   }
 
   /// CLI11 counts bytes; a unit such as Å has fewer letters than bytes.
@@ -114,6 +138,16 @@ class ManualFormatter : public CLI::Formatter {
 
  private:
   mutable bool short_ = false;  ///< what is being made; CLI11 asks for each part by itself
+
+  /// Of a group of options; empty where it is hidden.
+  std::string heading_of(const std::string& group) const {
+    const auto known = std::ranges::find(kHeadings, group, &Heading::full);
+    return short_ && known != std::end(kHeadings) ? std::string(known->broad) : group;
+  }
+
+  std::ptrdiff_t place_of(const std::string& heading) const {
+    return std::ranges::find(kHeadings, heading, short_ ? &Heading::broad : &Heading::full) - std::begin(kHeadings);
+  }
 
   static bool is_common(const CLI::Option& option) {
     const std::string name = option.get_name();

@@ -46,8 +46,13 @@ std::string first_clause(std::string_view help) {
     initial = help.substr(bracket);
     help.remove_suffix(initial.size());
   }
-  std::size_t end = help.size();
-  for (const std::string_view mark : {": ", "; ", ". "}) end = std::min(end, help.find(mark));
+  std::size_t end = 0;
+  for (int depth = 0; end < help.size(); ++end) {
+    if (help[end] == '(') ++depth;
+    if (help[end] == ')') --depth;
+    const std::string_view rest = help.substr(end);
+    if (depth == 0 && (rest.starts_with(": ") || rest.starts_with("; ") || rest.starts_with(". "))) break;
+  }
   return fmt::format("{}{}", help.substr(0, end), initial);
 }
 

@@ -198,7 +198,8 @@ std::vector<std::string> parted(std::string_view list);
 /// The help, and then the default in brackets.
 std::string help_of(const Property& property);
 
-/// Such a text up to the first colon, semicolon or full stop, and then its brackets: one line of the short help.
+/// Such a text up to the first colon, semicolon or full stop outside of parentheses, and then its brackets: a
+/// line of the short help.
 std::string first_clause(std::string_view help);
 
 }  // namespace meniscus

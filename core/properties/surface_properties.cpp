@@ -55,7 +55,6 @@ constexpr auto kTable = of_commands(
             .one_of("keep|drop|only")
             .initially("keep")
             .in(kSurface, kSeen)
-            .in_short_help()
             .of(kForParts),
         text("surface.device", "--device", "DEVICE",
              "auto (a GPU if there is one, else cpu), gpu, gpu:N (or UUID, PCI address), software (OpenGL without a "
