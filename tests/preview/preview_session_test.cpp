@@ -146,7 +146,8 @@ TEST_P(PreviewSessionTest, DraftsAreHalfTheSize) {
   EXPECT_GT(apply(R"({"command":"stats"})")["fps"], 0.0);
 }
 
-// Five spheres through one point; with a probe of 0.5 Å only grown radii tell them apart.
+// Five spheres through one point; with a probe of 0.5 Å only grown radii tell them apart. The arcs of a view close
+// without that.
 TEST_P(PreviewSessionTest, StatsTellByHowMuchRadiiGrew) {
   session_->render(Quality::full);
   EXPECT_EQ(apply(R"({"command":"stats"})")["radii_grown_by"], 0.0);
@@ -157,7 +158,7 @@ TEST_P(PreviewSessionTest, StatsTellByHowMuchRadiiGrew) {
   expect_ok(R"({"command":"probe","radius":0.5})");
   session_->render(Quality::full);
   const double grown_by = apply(R"({"command":"stats"})")["radii_grown_by"];
-  EXPECT_GT(grown_by, 0.0);
+  EXPECT_EQ(grown_by > 0.0, std::string(GetParam()) == "cpu");
   EXPECT_LT(grown_by, 1e-5);
 }
 
