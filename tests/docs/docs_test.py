@@ -34,7 +34,7 @@ class Documents(unittest.TestCase):
         self.assertGreater(checked, 40)
 
     def test_theorems_that_are_cited_are_there(self):
-        theory = (ROOT / "docs/theory.md").read_text()
+        theory = (ROOT / "docs/explanation/theory.md").read_text()
         parts = {}
         for number, body in re.findall(r"^## Theorem (\d+):.*?\n(.*?)(?=^## |\Z)", theory, re.M | re.S):
             parts[number] = set(re.findall(r"^(\d+)\. ", body, re.M))
@@ -61,7 +61,7 @@ class Documents(unittest.TestCase):
                 if isinstance(node, ast.ClassDef):
                     places[path.name, node.name] = [item.name for item in node.body
                                                     if isinstance(item, ast.FunctionDef) and item.name.startswith("test_")]
-        text = (ROOT / "docs/msms.md").read_text()
+        text = (ROOT / "docs/reference/msms-contract.md").read_text()
         (contract,) = re.findall(r"^## What is promised$(.*?)(?=^## )", text, re.M | re.S)
         rows = [line.strip("|").replace(r"\|", "/").split("|") for line in contract.splitlines() if line.startswith("|")][2:]
         self.assertGreater(len(rows), 25)

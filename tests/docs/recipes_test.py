@@ -52,7 +52,7 @@ NEEDS = {
 
 def printed_commands():
     """(document, words) of each command of ours in a block of code, and of the table of figures."""
-    for page in [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]:
+    for page in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]:
         text = page.read_text()
         for block in re.findall(r"^```\n(.*?)^```", text, re.M | re.S):
             for line in block.splitlines():
