@@ -62,7 +62,7 @@ class Documents(unittest.TestCase):
                     places[path.name, node.name] = [item.name for item in node.body
                                                     if isinstance(item, ast.FunctionDef) and item.name.startswith("test_")]
         text = (ROOT / "docs/reference/msms-contract.md").read_text()
-        (contract,) = re.findall(r"^## What is promised$(.*?)(?=^## )", text, re.M | re.S)
+        (contract,) = re.findall(r"^## Promises$(.*?)(?=^## )", text, re.M | re.S)
         rows = [line.strip("|").replace(r"\|", "/").split("|") for line in contract.splitlines() if line.startswith("|")][2:]
         self.assertGreater(len(rows), 25)
         for row in rows:

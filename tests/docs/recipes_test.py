@@ -40,7 +40,7 @@ for path in set(INPUTS.values()):
 
 # Languages of blocks that are not commands of the shell, and what reads or runs these.
 LANGUAGES = {
-    "python": "tests/python/document_test.py", "cpp": "tests/c_api/document_test.py", "json": "data", "text": "output",
+    "python": "tests/python/document_test.py", "py": "tests/python/adapters_test.py", "cpp": "tests/c_api/installed_test.py", "json": "data", "text": "output",
     "pymol": "tests/export/pymol", "chimerax": "tests/export/chimerax", "cmake": "tests/c_api",
     **dict.fromkeys(("condor", "ini", "nextflow", "sh", "snakemake", "yaml"), "tests/farm/schedulers_test.py"),
 }
