@@ -2,8 +2,8 @@
 # manual.sh [--look] [FOLDER]: builds the manual as a static site in FOLDER (build/manual/site), from docs/, the pages of the
 # exporters and what the program tells of its options. A dead link fails. Nothing in the site is fetched from elsewhere.
 #
-# MENISCUS names the program (build/release/meniscus, else build/test/meniscus); MkDocs Material comes from PyPI. With --look
-# Chromium opens six pages in two widths: axe-core, of npm, must find no violation; pictures are in build/manual/look.
+# MENISCUS names the program (build/release/meniscus, else build/test/meniscus). MkDocs Material comes from PyPI, and so does
+# axe-core. With --look Chromium opens six pages in two widths: axe-core must find no violation. Pictures: build/manual/look.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 look=
@@ -14,11 +14,15 @@ work=$PWD/build/manual
 site=$(realpath -m "${1:-$work/site}")
 
 mkdir -p "$work"
-[[ -x $work/venv/bin/mkdocs ]] || { python3 -m venv "$work/venv" && "$work/venv/bin/pip" install --quiet mkdocs-material==9.8.2; }
+[[ -x $work/venv/bin/mkdocs ]] || {
+  python3 -m venv "$work/venv"
+  "$work/venv/bin/pip" install --quiet mkdocs-material==9.8.2
+  "$work/venv/bin/pip" install --quiet --no-deps axe-playwright-python==0.1.8  # holds axe-core 4.12
+}
 python3 scripts/manual.py "$program" "$work"
 NO_MKDOCS_2_WARNING=1 "$work/venv/bin/mkdocs" build --quiet --strict --config-file "$work/mkdocs.yml" --site-dir "$site"
 echo "the manual is in $site/index.html"
 [[ $look ]] || exit 0
 
-[[ -f $work/node_modules/axe-core/axe.min.js ]] || npm install --silent --no-fund --prefix "$work" axe-core@4.11.0 >/dev/null
-/usr/bin/python3 -B tests/docs/look_at_manual.py "$site" "$work/node_modules/axe-core/axe.min.js" "$work/look"
+axe=$(echo "$work"/venv/lib/python3*/site-packages/axe_playwright_python/axe.min.js)
+/usr/bin/python3 -B tests/docs/look_at_manual.py "$site" "$axe" "$work/look"

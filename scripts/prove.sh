@@ -62,6 +62,7 @@ rows=(
   "packages|the Debian packages in a bare Debian 12: installed, used, taken away|bash scripts/packaging/try_package.sh"
   "targets|the library for Linux, Windows and macOS, and the same results of all that run here|bash scripts/targets.sh"
   "alone|the library alone, built and used in a bare Debian 12 with its three dependencies|bash scripts/packaging/try_library.sh"
+  "manual|the manual as a site: dead links, search, and axe-core in Chromium at two widths|bash scripts/manual.sh --look"
   "image|the image of a farm node, built and at work on a film|bash scripts/packaging/try_image.sh"
   "option|an option is added in three files, and works through every door|bash scripts/add_option.sh"
   "includes|every file without precompiled headers|bash scripts/includes.sh"

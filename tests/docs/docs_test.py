@@ -33,6 +33,18 @@ class Documents(unittest.TestCase):
                 self.assertTrue((document.parent / target).exists(), f"{document.relative_to(ROOT)} links to {target}")
         self.assertGreater(checked, 40)
 
+    def test_the_front_page_of_the_manual_leads_to_every_page(self):
+        index = ROOT / "docs/index.md"
+        linked = set(re.findall(r"\]\(([^)#]+\.md)", index.read_text()))
+        pages = {str(path.relative_to(ROOT / "docs")) for path in (ROOT / "docs").glob("*/*.md")} - {"gallery/README.md"}
+        self.assertGreater(len(pages), 40)
+        self.assertEqual(pages - linked, set())
+
+    def test_pages_of_the_manual_are_found_by_one_word(self):
+        """`meniscus help NAME` takes the stem of a page."""
+        stems = [path.stem for path in (ROOT / "docs").glob("*/*.md")]
+        self.assertEqual(sorted(set(stems)), sorted(stems))
+
     def test_theorems_that_are_cited_are_there(self):
         theory = (ROOT / "docs/explanation/theory.md").read_text()
         parts = {}
