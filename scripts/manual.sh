@@ -14,10 +14,11 @@ work=$PWD/build/manual
 site=$(realpath -m "${1:-$work/site}")
 
 mkdir -p "$work"
-[[ -x $work/venv/bin/mkdocs ]] || {
-  python3 -m venv "$work/venv"
+[[ -f $work/venv/complete ]] || {
+  python3 -m venv --clear "$work/venv"
   "$work/venv/bin/pip" install --quiet mkdocs-material==9.8.2
   "$work/venv/bin/pip" install --quiet --no-deps axe-playwright-python==0.1.8  # holds axe-core 4.12
+  touch "$work/venv/complete"
 }
 python3 scripts/manual.py "$program" "$work"
 NO_MKDOCS_2_WARNING=1 "$work/venv/bin/mkdocs" build --quiet --strict --config-file "$work/mkdocs.yml" --site-dir "$site"
