@@ -80,11 +80,15 @@ def with_links_of_the_site(source, text):
         if "://" in target or target.startswith("#"):
             return found.group(0)
         name, _, anchor = target.partition("#")
-        place = site_place((source.parent / name).resolve())
+        path = (source.parent / name).resolve()
+        if not path.exists():
+            sys.exit(f"{source.relative_to(ROOT)}: {target} leads nowhere")
+        place = site_place(path)
         if place is None:
             return words
         return f"{picture}[{words}]({os.path.relpath(place, here)}{'#' + anchor if anchor else ''})"
 
+    text = re.sub(r"`[^`\n]*`", lambda code: code.group(0).replace(r"\|", "|"), text)  # as MkDocs has bars in code of tables
     return re.sub(r"(!?)\[([^\]]*)\]\(([^)\s]+)\)", link, text)
 
 
@@ -103,13 +107,13 @@ def page_of_command(program, command):
         rows = re.findall(r"^  (\S.*?)(?:  +|\n +)(\S.*(?:\n {6,}\S.*)*)", body, re.M)
         page += f"\n## {title}\n| option | meaning |\n|---|---|\n"
         for names, meaning in rows:
-            page += f"| `{names.replace('|', chr(92) + '|')}` | {in_cell(' '.join(meaning.split()))} |\n"
+            page += f"| `{names}` | {in_cell(' '.join(meaning.split()))} |\n"
     return page
 
 
 def page_of_scene_keys(program):
     schema = json.loads(subprocess.run([program, "help", "--scene-schema"], check=True, capture_output=True, text=True).stdout)
-    page = "# Keys of scenes\n\nWhat a [scene](../how-to/scenes.md) may hold, as `meniscus help --scene-schema` says.\n"
+    page = "# Keys of scenes\n\nWhat a [scene](../../how-to/scenes.md) may hold, as `meniscus help --scene-schema` says.\n"
     for section, value in schema["properties"].items():
         keys = value.get("properties") or value.get("items", {}).get("properties")
         if keys:

@@ -21,7 +21,9 @@ mkdir -p "$work"
   touch "$work/venv/complete"
 }
 python3 scripts/manual.py "$program" "$work"
-NO_MKDOCS_2_WARNING=1 "$work/venv/bin/mkdocs" build --quiet --strict --config-file "$work/mkdocs.yml" --site-dir "$site"
+# Not --quiet: it would hide warnings from --strict, too.
+NO_MKDOCS_2_WARNING=1 "$work/venv/bin/mkdocs" build --strict --config-file "$work/mkdocs.yml" --site-dir "$site" >"$work/log" 2>&1 ||
+  { cat "$work/log" >&2; exit 1; }
 echo "the manual is in $site/index.html"
 [[ $look ]] || exit 0
 

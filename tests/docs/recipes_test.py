@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""recipes_test.py PROGRAM [PAGE...]: every command of README, of the manual in docs/ and of the exporters' pages is run, or NOT_RUN says why it is not.
+"""recipes_test.py PROGRAM [PAGE...]: every command of README, of the manual in docs/ and of the exporters' pages is run, or
+NOT_RUN says why it is not.
 
 A line of a block of code without a language is a command of the shell. Each page has its own folder with the molecules that
 it names: those of Debian, and stand-ins with the same parts for others. smaller_command.py makes pictures and runs small;
 everything else is as it is written. A command ends well and warns of nothing, and its picture comes again from its scene.
+gallery_test.py runs the commands of docs/gallery.
 """
 
 import concurrent.futures
@@ -20,7 +22,7 @@ import unittest
 PROGRAM = os.path.abspath(sys.argv[1])
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGES = [pathlib.Path(page).resolve() for page in sys.argv[1:] if page.endswith(".md")] or [
-         ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")),
+         ROOT / "README.md", *sorted(path for path in (ROOT / "docs").rglob("*.md") if path.parent.name != "gallery"),
          *(ROOT / "exporters" / name / "README.md" for name in ("povray", "blender", "path_tracers"))]
 
 TOXIN = pathlib.Path("/usr/share/pymol/data/demo/1tii.pdb")
