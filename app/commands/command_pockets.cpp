@@ -86,7 +86,8 @@ void add_pockets(CLI::App& command) {
       "an exact surface, and volume, areas and borders are in closed form. A volume is too large by at most the area "
       "of\n"
       "the mouths times --mouth-tolerance (`less up to`). Without a mouth it is a cavity, with two or more a tunnel.\n"
-      "Ranked by volume. Over frames a pocket keeps its number while probes at rest in it overlap. docs/pockets.md.");
+      "Ranked by volume. Over frames a pocket keeps its number while probes at rest in it overlap. "
+      "docs/how-to/pockets.md.");
   auto declared = std::make_shared<DeclaredCommand<PocketsCommand>>(command, for_pockets);
   PocketsCommand& state = declared->state;
   PropertyOptions options(command);

@@ -36,7 +36,7 @@ constexpr auto kTable = std::to_array<Property>({
         .in_short_help()
         .of(for_mesh),
     text("mesh.attributes", "--attributes", "NAMES",
-         "Numbers of vertices in PLY, VTP and GLB, separated by commas; docs/meshes.md lists them")
+         "Numbers of vertices in PLY, VTP and GLB, separated by commas; docs/reference/mesh-attributes.md lists them")
         .initially("usual")
         .in(kMesh, in_scene | in_bundle)
         .of(for_mesh | for_blender),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The files on the page of schedulers, docs/schedulers.md, and the commands of each task, taken from them as the queue would."""
+"""The files on the page of schedulers, docs/reference/schedulers.md, and the commands of each task, taken from them as the queue would."""
 
 import json
 import pathlib
@@ -7,7 +7,7 @@ import re
 
 import yaml
 
-PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs" / "schedulers.md"
+PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs" / "reference" / "schedulers.md"
 TASKS = 10
 BUNDLE = "/mnt/film"
 

@@ -291,7 +291,7 @@ class SceneValues(SurfaceValues, total=False):
     even: bool
     #: WORD: Format, where the file's ending does not tell
     format: Text
-    #: NAMES: Numbers of vertices in PLY, VTP and GLB, separated by commas; docs/meshes.md lists them [usual]
+    #: NAMES: Numbers of vertices in PLY, VTP and GLB, separated by commas; docs/reference/mesh-attributes.md lists them [usual]
     attributes: Text
     #: UNIT: Unit of the file: angstrom or nanometer [angstrom]
     unit: Literal["angstrom", "nanometer"]

@@ -157,7 +157,8 @@ typedef struct meniscus_atoms {
 
 /* ---- Surfaces ------------------------------------------------------------------------------------------------ */
 
-/* A closed surface with its certificate: every border has two faces, areas and volumes are proved (see docs/theory.md).
+/* A closed surface with its certificate: every border has two faces, areas and volumes are proved (see
+ * docs/explanation/theory.md).
  */
 typedef struct meniscus_surface meniscus_surface;
 
@@ -469,7 +470,7 @@ typedef struct meniscus_pocket_options {
 MENISCUS_API meniscus_status meniscus_default_pocket_options(meniscus_pocket_options* options);
 
 /* Pockets, tunnels and cavities of a molecule: the connected parts of what its probe can fill of the solid that a large
- * probe rolls over (docs/pockets.md). Volumes and areas are in closed form, without a grid. */
+ * probe rolls over (docs/how-to/pockets.md). Volumes and areas are in closed form, without a grid. */
 typedef struct meniscus_pockets meniscus_pockets;
 
 /* Those between the atoms of a surface of MENISCUS_SES, with its probe, above 0; on the CPU, wherever that was
