@@ -9,6 +9,7 @@ source scripts/packages.sh
 program=build/release/meniscus
 data=
 names=()
+failed=()
 while (($#)); do
   case $1 in
     --program) program=$2; shift 2 ;;
@@ -88,7 +89,8 @@ figure() {
   (cd "$work" && PATH=$work/bin:/usr/bin:/bin bash -euo pipefail -c "$lines") >"$work/$name.log" 2>&1 || {
     tail -n 5 "$work/$name.log" >&2
     echo "$name failed; its whole log: $work/$name.log" >&2
-    return 1
+    failed+=("$name")
+    return
   }
   picture "$work/$name.png" "docs/gallery/$name.jpg" 900 200000
   for scene in $(grep -oE '\(('"$name"'|'"$name"'_[a-z0-9]+)\.json\)' "$page" | tr -d '()' | sort -u); do
@@ -131,3 +133,4 @@ for name in "${names[@]}"; do
        figure "$name" ;;
   esac
 done
+((${#failed[@]} == 0)) || { echo "failed: ${failed[*]}" >&2; exit 1; }

@@ -25,9 +25,8 @@ def main():
     motion = mode[int(number) - 1].getArray().reshape(-1, 3)
     motion *= REACH / np.sqrt((motion**2).sum(axis=1).mean())
     rest = atoms.getCoords()
-    models = prody.AtomGroup(atoms)
-    models.setCoords(np.array([rest + motion * np.cos(np.pi * k / (MODELS - 1)) for k in range(MODELS)]))
-    prody.writePDB(target, models)
+    atoms.setCoords(np.array([rest + motion * np.cos(np.pi * k / (MODELS - 1)) for k in range(MODELS)]))
+    prody.writePDB(target, atoms)
 
 
 if __name__ == "__main__":
