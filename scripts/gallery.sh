@@ -98,21 +98,18 @@ figure() {
   done
 }
 
+# Parts of four pictures that are there, side by side.
 strip() {
-  local name
-  for name in chains cut film_00005 blender; do
-    [[ -f $work/$name.png ]] || { echo "strip: make ${name%_*} first" >&2; return 1; }
-  done
-  /usr/bin/python3 - "$work" <<'EOF'
+  /usr/bin/python3 - docs/gallery "$work/strip.png" <<'EOF'
 import sys
 from PIL import Image
-strip = Image.new("RGB", (1600, 330), "white")
-for place, name in enumerate(("chains", "cut", "film_00005", "blender")):
-    image = Image.open(f"{sys.argv[1]}/{name}.png").convert("RGBA")
-    image = Image.alpha_composite(Image.new("RGBA", image.size, "white"), image).convert("RGB")
-    image.thumbnail((390, 330), Image.LANCZOS)
-    strip.paste(image, (400 * place + (400 - image.width) // 2, (330 - image.height) // 2))
-strip.save(f"{sys.argv[1]}/strip.png")
+PARTS = {"potential": (0, 60, 690, 615), "cut": (20, 30, 780, 640), "film": (602, 243, 898, 479), "blender": (95, 0, 805, 675)}
+strip = Image.new("RGB", (1600, 322), "white")
+for place, (name, part) in enumerate(PARTS.items()):
+    image = Image.open(f"{sys.argv[1]}/{name}.jpg").crop(part)
+    image.thumbnail((390, 322), Image.LANCZOS)
+    strip.paste(image, (400 * place + (400 - image.width) // 2, (strip.height - image.height) // 2))
+strip.save(sys.argv[2])
 EOF
   picture "$work/strip.png" docs/strip.jpg 1600 300000
 }

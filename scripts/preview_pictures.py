@@ -21,7 +21,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests/preview"))
 from browser import Browser, Preview  # noqa: E402
 
-SIZE = (1280, 800)
+WINDOW = (1200, 675)  # the picture of chains.json and the panel
+BROWSER = (1280, 800)
 PATIENCE = 600  # seconds
 
 
@@ -53,7 +54,7 @@ def shoot_window(program, scene, target):
     with tempfile.TemporaryDirectory() as folder:
         state = pathlib.Path(folder) / "state.json"
         ends = os.pipe()
-        server = subprocess.Popen(["Xvfb", "-displayfd", str(ends[1]), "-screen", "0", f"{SIZE[0]}x{SIZE[1]}x24", "-fbdir", folder,
+        server = subprocess.Popen(["Xvfb", "-displayfd", str(ends[1]), "-screen", "0", f"{WINDOW[0]}x{WINDOW[1]}x24", "-fbdir", folder,
                                    "-nolisten", "tcp", "-noreset"], pass_fds=[ends[1]], stderr=subprocess.DEVNULL)
         os.close(ends[1])
         display = ":" + os.fdopen(ends[0]).readline().strip()
@@ -73,7 +74,7 @@ def shoot_window(program, scene, target):
 
 async def shoot_page(program, scene, target):
     with tempfile.TemporaryDirectory() as folder, Preview(program, "--scene", scene, "--output-dir", folder) as preview:
-        async with Browser(shutil.which("chromium"), SIZE) as page:
+        async with Browser(shutil.which("chromium"), BROWSER) as page:
             await page.send("Page.navigate", url=preview.url)
             await page.at_rest(PATIENCE)
             await page.mouse("mouseMoved", 480, 330)
