@@ -23,7 +23,7 @@ from browser import Browser, Preview  # noqa: E402
 
 WINDOW = (1200, 675)  # the picture of chains.json and the panel
 BROWSER = (1280, 800)
-PATIENCE = 600  # seconds
+PATIENCE = 150  # seconds
 
 
 def until(holds):
@@ -77,9 +77,10 @@ async def shoot_page(program, scene, target):
         async with Browser(shutil.which("chromium"), BROWSER) as page:
             await page.send("Page.navigate", url=preview.url)
             await page.at_rest(PATIENCE)
-            await page.mouse("mouseMoved", 480, 330)
-            await page.until("!document.getElementById('tip').hidden", PATIENCE)
+            await page.evaluate("document.getElementById('figure').scrollIntoView()")
+            await asyncio.sleep(3)  # for the panel's chips
             await page.at_rest(PATIENCE)
+            await page.evaluate("document.getElementById('speed').hidden = true")  # this machine's
             await page.screenshot(target)
 
 

