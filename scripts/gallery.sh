@@ -53,7 +53,7 @@ find_input() {
   for path in /usr/share/pymol/data/{demo,tut}/"$1" /usr/share/freesasa/test-data/"$1" $tests/{pdb,mmcif_}"$1"; do
     [[ -f $path ]] && { echo "$path"; return; }
   done
-  [[ $data ]] && find -L "$data" -maxdepth 1 -iname "$1" | head -n 1
+  if [[ $data ]]; then find -L "$data" -maxdepth 1 -iname "$1" | head -n 1; fi
 }
 
 # picture PNG JPG WIDTH LIMIT: on white, no wider than WIDTH pixels, as good as fits in LIMIT bytes.
@@ -94,7 +94,7 @@ figure() {
   }
   picture "$work/$name.png" "docs/gallery/$name.jpg" 900 200000
   for scene in $(grep -oE '\(('"$name"'|'"$name"'_[a-z0-9]+)\.json\)' "$page" | tr -d '()' | sort -u); do
-    [[ -f $work/$scene ]] && cp "$work/$scene" docs/gallery/
+    if [[ -f $work/$scene ]]; then cp "$work/$scene" docs/gallery/; fi
   done
 }
 
