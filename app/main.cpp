@@ -121,7 +121,7 @@ bool is_command(std::string_view word) {
   std::vector<std::string_view> names;
   for (const Command& command : commands()) names.emplace_back(command.name);
   const std::string_view nearest = nearest_word(word, names);
-  throw UsageError(fmt::format("{} is no command{}; there are {}; see meniscus --help", in_quotes(word),
+  throw UsageError(fmt::format("{} is not a command{}; the commands are {}; see meniscus --help", in_quotes(word),
                                nearest.empty() ? "" : fmt::format(" (did you mean {}?) and no file", nearest),
                                fmt::join(names, ", ")));
 }
@@ -154,12 +154,11 @@ void run(int argc, char** argv) {
   program.get_formatter()->label("Positionals", "Arguments");
   program.get_formatter()->label("SUBCOMMAND", "COMMAND");
   bool verbose = false;
-  program.add_flag("--verbose", verbose,
-                   "With --version: also compiler, libraries and GL driver, for reports of faults");
+  program.add_flag("--verbose", verbose, "With --version: also compiler, libraries and GL driver, for bug reports");
   program.set_version_flag(
       "--version", [&verbose] { return verbose ? version_report() : version_line(); }, "Show version and commit");
   program.set_help_flag("-h,--help", "Show this help");
-  program.set_help_all_flag("--help-all", "Show it with the options that few need");
+  program.set_help_all_flag("--help-all", "Show this help with all options");
   program.require_subcommand(1);
   let_the_last_count(program);
   program.footer(kExamples);

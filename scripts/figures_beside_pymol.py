@@ -61,7 +61,7 @@ FIGURES = (
      "cmd.load({molecule!r}, 'm'); cmd.hide(); cmd.show('surface'); cmd.load('pot.dx', 'pot'); "
      "cmd.ramp_new('ramp', 'pot', [-3, 0, 3], ['red', 'white', 'blue']); cmd.set('surface_color', 'ramp', 'm'); "
      "cmd.disable('ramp'); look(camera)",
-     "colours at pixels, in PyMOL at vertices; PyMOL's ramp is no legend with a scale and unit in the picture"),
+     "colours at pixels, in PyMOL at vertices; PyMOL's ramp is not a legend with a scale and unit in the picture"),
     ("a pocket and its ligand", "1ake.cif",
      "--select 'polymer and chain A' --sticks 'ligand and chain A' --color lightgrey --color 'ligand=element' "
      "--zoom-to 'within 5 of (ligand and chain A)' --clip 'depth>0.55' --background white",

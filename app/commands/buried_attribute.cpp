@@ -14,7 +14,7 @@ std::vector<double> buried_by_chains(const MoleculeRequest& molecule, const Stru
   const auto wanted = std::ranges::find(names, "buried_area");
   if (wanted == names.end()) return {};
   if (!structure.instances.empty()) {
-    if (!all) throw RequestError("areas buried between copies need copies made of atoms; leave --instances away");
+    if (!all) throw RequestError("areas buried between copies need copies made of atoms; leave --instances out");
     names.erase(wanted);
     return {};
   }

@@ -106,7 +106,7 @@ constexpr Topic kTopics[] = {
     {"assemblies", "biological assemblies, and copies drawn as instances", assembly_page},
     {"frames", "trajectories, films, and the cameras that move through them", frames_page},
     {"scenes", "scene files, and the option that each of their keys is", scenes_page},
-    {"exit-codes", "what the program returns, and what is left behind", exit_page},
+    {"exit-codes", "exit codes, and which files exist after an error", exit_page},
 };
 
 void list_topics(const CLI::App& program) {
@@ -132,7 +132,7 @@ void show(const CLI::App& program, const std::string& name) {
       return;
     }
   }
-  throw UsageError(fmt::format("{} is no topic; there are {} and the commands", in_quotes(name), names));
+  throw UsageError(fmt::format("{} is not a topic; choose one of {}, or a command", in_quotes(name), names));
 }
 
 /// A page of section 1 for every command, and of section 7 for every topic.
@@ -165,7 +165,7 @@ void add_help(CLI::App& command) {
            "  meniscus help --man man            a manual page of every command and topic, into the folder man");
   auto topic = std::make_shared<std::string>(), folder = std::make_shared<std::string>();
   auto schema = std::make_shared<bool>(false);
-  command.add_option("TOPIC", *topic, "The page; none: what pages there are")
+  command.add_option("TOPIC", *topic, "Page to show; without it, the list of pages")
       ->check(proposes(page_names(*command.get_parent())))
       ->type_name("");
   PropertyOptions options(command);

@@ -64,7 +64,7 @@ Shown read_run(PreviewCommand& command) {
     return {std::move(scene), read_and_tell(reading), {}, {}};
   }
   if (scene.molecule.division.instances != InstanceMode::none)
-    throw UsageError("--instances: copies in the preview stand still; leave it away, or the frames");
+    throw UsageError("--instances: copies in the preview stand still; leave it out, or the frames");
   MoleculeRequest molecule = scene.molecule;
   settle_selections(molecule, scene.frames, {.figure = &scene.figure, .view = &scene.picture});
   const auto frames = std::make_shared<FrameRun>(molecule, scene.frames);
@@ -87,7 +87,7 @@ Shown read_run(PreviewCommand& command) {
 
 Shown read_inputs(PreviewCommand& command) {
   if (!std::filesystem::is_directory(command.output_folder))
-    throw OutputError(command.output_folder, "--output-dir is no folder");
+    throw OutputError(command.output_folder, "--output-dir is not a folder");
   const std::optional<Camera> camera = given_camera(command.scene.picture);
   Shown shown = read_run(command);
   shown.camera = camera;
@@ -226,12 +226,12 @@ void add_preview(CLI::App& command) {
            "  meniscus preview 1tii.pdb --serve 8080 --color chain\n"
            "  meniscus preview 1tii.pdb --color chain --tube polymer --opacity 0.3 --preset publication\n"
            "  meniscus preview --scene fig.json                   the figure that a scene file says\n"
-           "  meniscus preview 1tii.pdb --record session.jsonl    what is done, for --commands\n"
+           "  meniscus preview 1tii.pdb --record session.jsonl    what you do, for --commands\n"
            "  meniscus preview adk.psf --trajectory adk.dcd --superpose 'name CA'   blank plays it",
            "Each model of FILE is a frame, or each frame of --trajectory. A window needs a display with OpenGL 4.5 "
-           "through EGL; without one the\n"
-           "exit code is 4. The page is served on 127.0.0.1 only, to whoever has the address with its token; to\n"
-           "look from another machine, use the ssh line that is printed. SIGINT and SIGTERM end both.");
+           "through\nEGL; without one the exit code is 4. The page is served on 127.0.0.1 only and opens only with the "
+           "token in its\naddress. To open it on another machine, use the ssh line that is printed. SIGINT and SIGTERM "
+           "end both.");
   auto declared = std::make_shared<DeclaredPreview>(command, for_preview);
   add_preview_options(command, *declared);
   command.callback([declared] {

@@ -44,8 +44,8 @@ void export_atoms(const SceneCommand& asked) {
     run = std::make_unique<FrameRun>(command.scene.molecule, command.scene.frames);
     if (run->atoms_change())
       throw UsageError(
-          "export atoms: the file has the same atoms in all frames, but --select means others in each; add "
-          "--select-once for those of the first");
+          "export atoms: the file has the same atoms in all frames, but --select chooses anew in each; add "
+          "--select-once to keep those of the first");
   }
   Molecule molecule = first_molecule(command, run.get());
   blender::AtomFrames frames;
@@ -69,12 +69,13 @@ void export_atoms(const SceneCommand& asked) {
 }  // namespace
 
 void add_export_atoms(CLI::App& command) {
-  describe(command,
-           "  meniscus export atoms 1tii.pdb -o 1tii.atoms\n"
-           "  meniscus export atoms adk.psf --trajectory adk.dcd --frames all --select protein -o adk.atoms",
-           "For programs that compute surfaces themselves, by libmeniscus: the panel of the Blender add-on is one. The "
-           "file\n"
-           "is described in exporters/blender/FORMAT.md; radii and colours are those of the first frame of a run.");
+  describe(
+      command,
+      "  meniscus export atoms 1tii.pdb -o 1tii.atoms\n"
+      "  meniscus export atoms adk.psf --trajectory adk.dcd --frames all --select protein -o adk.atoms",
+      "For programs that compute surfaces themselves with libmeniscus, such as the panel of the Blender add-on. The "
+      "file\n"
+      "is described in exporters/blender/FORMAT.md; radii and colours are those of the first frame of a run.");
   auto declared = std::make_shared<DeclaredCommand<>>(command, for_atoms);
   declared->options.describe_output("File to write");
   command.callback([declared] {

@@ -72,7 +72,7 @@ std::vector<blender::MeshedObject> cut_objects(const SceneCommand& command, Mole
                        command.scene.figure.thickens,
                        std::move(made.cap_plane)});
   }
-  if (!any) throw RequestError("nothing of the surface is shown, so there is no mesh to write");
+  if (!any) throw RequestError("no part of the surface is shown, so there is no mesh to write");
   return objects;
 }
 
@@ -258,11 +258,11 @@ void add_export_blender(CLI::App& command) {
       "--size 1920x1080\n"
       "  meniscus export blender adk.psf --trajectory adk.dcd --frames all -o adk   a file a frame, and a manifest");
   auto declared = std::make_shared<DeclaredCommand<>>(command, for_blender);
-  declared->options.describe_output(".mns file to write; of a run, the folder");
+  declared->options.describe_output(".mns file to write; for frames, a folder");
   declared->options.option("mesh.attributes")
       ->description(
-          "Numbers of the surface, separated by commas: usual (exact curvature, areas of atoms and patches), "
-          "all, none, or names as of export mesh [usual]");
+          "Numbers of the surface, separated by commas: usual (exact curvature, areas of atoms and patches), all, "
+          "none, or the names of export mesh [usual]");
   declared->options.option("frames.fps")->description("Frames per second of a run [25]");
   command.callback([declared] {
     declared->options.take();

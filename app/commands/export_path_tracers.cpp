@@ -104,13 +104,12 @@ std::string render_command(const PathTracerCommand& command, bool of_a_run) {
 void check(const PathTracerCommand& command) {
   const auto is_film = [](const FigureObjectRequest& object) { return object.thickens; };
   if (command.scene.figure.thickens || std::ranges::any_of(command.scene.figure.objects, is_film))
-    throw UsageError(
-        "--film-opacity: opacity by the angle of the view is nothing that path tracers know; leave it away");
+    throw UsageError("--film-opacity: path tracers do not support opacity by viewing angle; leave it out");
   const auto hatched = [](const FigureObjectRequest& object) { return object.cap.hatching > 0.0; };
   if (command.scene.figure.cap.hatching > 0.0 || std::ranges::any_of(command.scene.figure.objects, hatched))
-    throw UsageError("--cap-hatching: caps in these scenes are plain; leave it away, or use render or export povray");
+    throw UsageError("--cap-hatching: caps in these scenes are plain; leave it out, or use render or export povray");
   if (command.renderer == path_tracers::Renderer::pbrt && command.scene.molecule.color.by == ColorScheme::By::volume)
-    throw UsageError("--color-map-file: meshes of pbrt have no colours of their vertices; use export mitsuba");
+    throw UsageError("--color-map-file: meshes of pbrt have no vertex colours; use export mitsuba");
   check_caps_of_map(command.scene, "these scenes have no values of the map on caps");
   check_saved_camera(command);
 }
@@ -149,7 +148,7 @@ void run(const PathTracerCommand& command) {
 void declare(CLI::App& command, path_tracers::Renderer renderer) {
   auto declared = std::make_shared<DeclaredCommand<PathTracerCommand>>(command, for_path_tracers);
   declared->state.renderer = renderer;
-  declared->options.describe_output("Folder to write; made when missing");
+  declared->options.describe_output("Folder to write; created if missing");
   const Property& material = property_of("path_tracers.material");
   declared->options.option("look.material")->description(help_of(material))->check(proposes(words_of(material)));
   command.callback([declared] {

@@ -18,7 +18,7 @@ std::uint16_t parse_port(const std::string& text) {
   std::uint16_t port = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
   if (error != std::errc() || end != text.data() + text.size())
-    throw CLI::ValidationError("--serve", in_quotes(text) + " is no port, 0 to 65535; put FILE before --serve");
+    throw CLI::ValidationError("--serve", in_quotes(text) + " is not a port from 0 to 65535; put FILE before --serve");
   return port;
 }
 

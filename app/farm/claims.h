@@ -30,7 +30,7 @@ namespace meniscus::farm {
 /// appear whole and are the same whoever made them.
 class Claims {
  public:
-  /// Begins to show that this worker lives. Throws OutputError if that cannot be written.
+  /// Begins to show that this worker is running. Throws OutputError if that cannot be written.
   explicit Claims(std::filesystem::path folder, double lease = kDefaultLease);
   /// Gives all back.
   ~Claims();

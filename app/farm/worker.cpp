@@ -183,7 +183,7 @@ class Worker {
     }
     const std::string fault = record ? records_.fault(*record) : std::string("it is not made yet");
     if (fault.empty()) return 0;
-    why = fmt::format("step {}: {}; do that step first", before, fault);
+    why = fmt::format("step {}: {}; run that step first", before, fault);
     return kExitInput;
   }
 

@@ -70,7 +70,7 @@ std::uint32_t ChosenSurface::component_touching(const std::vector<std::uint32_t>
   if (!known || (!cavity && !outer))
     throw InputError(
         spheres.rows.file, 0,
-        fmt::format("find_first_rs_face: no place of the probe touches the spheres {} of -one_cavity; they "
+        fmt::format("find_first_rs_face: no position of the probe touches the spheres {} of -one_cavity; they "
                     "are numbered from 0 to {}",
                     fmt::join(numbers, ", "), spheres.rows.count - 1));
   return cavity ? *cavity : *outer;

@@ -31,7 +31,7 @@ LocalSocket listening_on(std::uint16_t port) {
   std::optional<LocalSocket> listener = LocalSocket::listening_on(port);
   if (!listener)
     throw UsageError(
-        fmt::format("-socketPort {}: the port cannot be had: {}; try another", port, LocalSocket::last_error()));
+        fmt::format("-socketPort {}: the port is not available: {}; try another", port, LocalSocket::last_error()));
   return std::move(*listener);
 }
 
@@ -49,7 +49,7 @@ void receive(const LocalSocket& client, std::span<T, kExtent> values) {
   while (!bytes.empty()) {
     const std::ptrdiff_t got = client.receive(bytes);
     if (got == 0) throw InputError(kClient, 0, "closed the connection before it had sent all");
-    if (got < 0) throw InputError(kClient, 0, fmt::format("sends nothing more: {}", LocalSocket::last_error()));
+    if (got < 0) throw InputError(kClient, 0, fmt::format("stopped sending: {}", LocalSocket::last_error()));
     bytes = bytes.subspan(static_cast<std::size_t>(got));
   }
 }
@@ -57,7 +57,7 @@ void receive(const LocalSocket& client, std::span<T, kExtent> values) {
 void send(const LocalSocket& client, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const std::ptrdiff_t sent = client.send(bytes);
-    if (sent <= 0) throw OutputError(kClient, fmt::format("takes nothing more: {}", LocalSocket::last_error()));
+    if (sent <= 0) throw OutputError(kClient, fmt::format("stopped receiving: {}", LocalSocket::last_error()));
     bytes = bytes.subspan(static_cast<std::size_t>(sent));
   }
 }

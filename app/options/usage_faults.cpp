@@ -113,7 +113,7 @@ std::string unknown_option_fault(const CLI::App& program, std::span<const char* 
       return fmt::format("{} is one argument too many for {}", in_quotes(word), command_path(command));
     return fmt::format("{} has no option {}{}", command_path(command), in_quotes(name), meant_option(command, name));
   }
-  return "there are words too many";
+  return "there are too many words";
 }
 
 }  // namespace meniscus

@@ -43,7 +43,7 @@ ExportTarget target_of(const CommandReader& command, const std::filesystem::path
   ExportTarget target{export_path(folder, command.text("path")),
                       command.flag_or(false, "force") ? Existing::replace : Existing::refuse};
   if (target.existing == Existing::refuse && std::filesystem::exists(target.path))
-    throw RequestError(target.path.string() + " exists already; let it be replaced, or give another name");
+    throw RequestError(target.path.string() + " exists already; allow replacing it, or give another name");
   return target;
 }
 

@@ -25,8 +25,8 @@ constexpr KeyHelp kHelp[] = {
     {"right drag, middle drag, shift + left drag", "move"},
     {"wheel", "zoom at the cursor"},
     {"+  -", "zoom"},
-    {"click", "tell about the atom"},
-    {"double click", "centre what is there"},
+    {"click", "show the atom's data"},
+    {"double click", "centre on this point"},
     {"r", "the first view"},
     {"z  y", "undo, redo"},
     {"o", "orthographic / perspective"},
@@ -37,11 +37,11 @@ constexpr KeyHelp kHelp[] = {
     {"l", "lines"},
     {"g", "legend"},
     {"space", "play / pause"},
-    {",  .", "frame before / after"},
+    {",  .", "previous / next frame"},
     {"e", "export this view"},
     {"p", "panel"},
     {"h", "this help"},
-    {"q  Esc", "leave the window"},
+    {"q  Esc", "close the window"},
 };
 
 Json turned(double dx, double dy) { return {{"command", "orbit"}, {"dx", kTurn * dx}, {"dy", kTurn * dy}}; }

@@ -99,7 +99,7 @@ std::shared_ptr<const BesideSurface> beside_of(const Structure& marked, const Pr
 std::size_t count_of(const std::vector<bool>& shown, const PreviewFigure& figure, const ShownMolecule& molecule) {
   const auto count = static_cast<std::size_t>(std::ranges::count(shown, true));
   if (count > 0) return count;
-  throw RequestError(fmt::format("of the surface of {} nothing would be left; {}", in_quotes(figure.show->text()),
+  throw RequestError(fmt::format("nothing would be left of the surface of {}; {}", in_quotes(figure.show->text()),
                                  figure.show->why_none(molecule.atoms_in_view())));
 }
 
@@ -158,7 +158,7 @@ ShownMolecule::Made ShownMolecule::made(const PreviewFigure& figure, Renewal ren
   Made made{{}, marked_, beside_};
   if (renewal < Renewal::legend) return made;
   if (!structure_.instances.empty() && !(figure.figure.plain() && figure.color.opacities.empty()))
-    throw RequestError("copies of one surface (--instances) are shown whole and opaque; leave --instances away");
+    throw RequestError("copies of one surface (--instances) are shown whole and opaque; leave --instances out");
   require_colors_shared(structure_, figure.color);
   if (renewal >= Renewal::colors) made.coloring = color_atoms(structure_, figure.color);
   if (renewal >= Renewal::shapes) {
@@ -168,7 +168,7 @@ ShownMolecule::Made ShownMolecule::made(const PreviewFigure& figure, Renewal ren
         throw RequestError("this molecule cannot be read again, so nothing can be drawn beside its surface");
       made.marked = std::make_shared<const Structure>(read_shown_(figure.figure, frame));
       if (made.marked->atoms.size() != atoms().size())
-        throw InputError(structure_.file, 0, "has other atoms than when the preview began; begin it anew");
+        throw InputError(structure_.file, 0, "has other atoms than when the preview began; start the preview again");
     }
   }
   if (!made.marked)

@@ -92,7 +92,7 @@ BOOL WINAPI take_event(DWORD event) {
 void await_stop(void (*stopped)(int signal)) {
   when_stopped = stopped;
   if (!::SetConsoleCtrlHandler(take_event, TRUE))
-    throw CapacityError("the system does not tell of Ctrl-C: error " + std::to_string(::GetLastError()));
+    throw CapacityError("the system cannot report Ctrl-C: error " + std::to_string(::GetLastError()));
 }
 
 ProcessorTime processor_time() {

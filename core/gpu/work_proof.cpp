@@ -59,9 +59,8 @@ void WorkProof::verify(std::span<const Piece> pieces) {
     if (groups.started != groups.finished) {
       require_living_context();
       throw GpuError(
-          fmt::format("the GPU left work undone without saying so: of {} groups of its kernels {} came to their end; "
-                      "nothing that it "
-                      "computed is used; run again, or on another --device",
+          fmt::format("the GPU dropped work without reporting an error: of {} kernel groups {} finished; its results "
+                      "are discarded; run again, or choose another --device",
                       groups.started, groups.finished));
     }
   }

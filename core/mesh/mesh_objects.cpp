@@ -42,7 +42,7 @@ std::vector<TriangleMesh> mesh_objects(std::span<const SurfaceObject> objects, d
     meshes.push_back(shown_part(tessellate(object.surface, {tolerance, true}), object.coloring));
     any = any || !meshes.back().triangles.empty();
   }
-  if (!any && !may_be_empty) throw RequestError("nothing of the surface is shown, so there is no mesh to write");
+  if (!any && !may_be_empty) throw RequestError("no part of the surface is shown, so there is no mesh to write");
   return meshes;
 }
 

@@ -33,7 +33,7 @@ class CameraCourse {
     count_ = static_cast<double>(run.numbers().size());
     if (motion.turns != 0.0 && run.numbers().size() == 1)
       throw RequestError(
-          "--turntable: the camera turns from frame to frame, and this run has one frame; --repeat N shows a frame N "
+          "--turntable: the camera turns from frame to frame, but this run has one frame; add --repeat N to show it N "
           "times");
     if (!motion.follow) return;
     followed_ = followed_of(frames.first());

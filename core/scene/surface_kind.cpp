@@ -18,7 +18,7 @@ std::vector<Ball> grown(std::span<const Ball> balls, double growth) {
 
 void require_probe_of_kind(const SurfaceRequest& request) {
   if (request.kind == SurfaceKind::vdw && request.probe_named)
-    throw RequestError("--probe: the van der Waals surface has no probe; leave --probe or --surface vdw away");
+    throw RequestError("--probe: the van der Waals surface has no probe; leave --probe or --surface vdw out");
 }
 
 }  // namespace meniscus

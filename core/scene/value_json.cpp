@@ -21,7 +21,7 @@ std::string text_of(const Json& value) {
 }
 
 std::string path_of(const Json& value) {
-  if (!value.is_string() || value.get<std::string>().empty()) throw RequestError("is no path");
+  if (!value.is_string() || value.get<std::string>().empty()) throw RequestError("is not a path");
   return value.get<std::string>();
 }
 

@@ -93,7 +93,7 @@ ViewAim::ViewAim(const ViewRequest& request, const std::optional<Selection>& sho
   symmetry_ = symmetry_axis(copy_motions(structure));
   if (!symmetry_)
     throw RequestError(
-        "--view symmetry: there is no axis: build an assembly whose copies are turned (--assembly), or name another "
+        "--view symmetry: there is no axis: build an assembly whose copies are turned (--assembly), or choose another "
         "side");
 }
 

@@ -7,8 +7,7 @@ namespace meniscus {
 namespace {
 
 [[noreturn]] void refuse(const char* what) {
-  throw RequestError(
-      fmt::format("this build has no {}, for it was made without gemmi, nlohmann_json or FreeType", what));
+  throw RequestError(fmt::format("this build has no {}: it was made without gemmi, nlohmann_json or FreeType", what));
 }
 
 }  // namespace

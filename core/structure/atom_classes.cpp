@@ -150,7 +150,7 @@ class Classifier {
 
   void run(std::vector<Warning>& warnings) {
     for (std::size_t r = 0; r + 1 < begins_.size(); ++r) classify(r);
-    impossible_.warn(warnings, "an element that its residue cannot hold; its name was believed instead");
+    impossible_.warn(warnings, "an element that its residue cannot have; the atom's name was used instead");
   }
 
  private:

@@ -41,7 +41,7 @@ void warn_of_coincident_atoms(Structure& structure) {
   }
   if (cases.empty()) return;
   std::string sentence =
-      fmt::format("{} {} at exactly the place of another; the surface is as if they were one (first: {})",
+      fmt::format("{} {} at exactly the position of another; the surface treats them as one (first: {})",
                   with_thousands(cases.size()), cases.size() == 1 ? "atom lies" : "atoms lie", cases.front());
   structure.report.warnings.emplace_back(std::move(sentence), std::move(cases));
 }

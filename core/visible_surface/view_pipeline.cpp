@@ -234,8 +234,7 @@ void ViewPipeline::make_primitives(const PictureFrame& frame, StageClock& clock)
   scene_.rows.clear();
   append_all({&scene_.primitives, &scene_.rows}, scene_.counters, primitive_counts_, run);
   if (primitive_counts_[2] != 0)
-    throw CapacityError(
-        "some patch is cut by more others than this driver's kernels can go through; use a smaller probe");
+    throw CapacityError("a patch is cut by more others than this driver's kernels can process; use a smaller probe");
   stats_.primitives = scene_.primitives.count();
 }
 

@@ -41,7 +41,7 @@ VolumeGrid read_volume(const std::string& path) {
   const TextFile file = text_of_bytes(path, std::move(bytes));
   if (is_dx(file)) return read_dx(file);
   if (may_be_cube(file)) return read_cube(file);
-  throw InputError(path, 0, "is none of the volume maps that are read: OpenDX, Gaussian cube, CCP4/MRC");
+  throw InputError(path, 0, "is not one of the volume maps that are read: OpenDX, Gaussian cube, CCP4/MRC");
 }
 
 }  // namespace meniscus

@@ -37,7 +37,7 @@ TEST(Select, MistakesArePointedAt) {
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_EQ(result.out, "");
   EXPECT_EQ(result.err,
-            "meniscus: error: --select: 'foo' is no residue number; they look like 52, -3, 52A, 5-10\n"
+            "meniscus: error: --select: 'foo' is not a residue number; write one such as 52, -3, 52A or 5-10\n"
             "  chain A and resid foo\n"
             "                    ^\n");
   EXPECT_NE(says({"surface", kToxin, "--context", "chian A"}).err.find("did you mean 'chain'?"), std::string::npos);
@@ -175,7 +175,7 @@ TEST(Instances, ShareTheirColours) {
   const ProgramResult result = says({"render", apart, "--assembly", "1", "--instances", "exact", "--color", "copy",
                                      "-o", (folder.path() / "a.png").string()});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_NE(result.err.find("leave --instances away"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("leave --instances out"), std::string::npos) << result.err;
 }
 
 TEST(HelpPages, AreThereAndNamed) {

@@ -56,9 +56,9 @@ TEST_F(Words, UnknownOptionsAreNamedInTheirOrderWithTheOneThatWasMeant) {
 
 TEST_F(Words, UnknownCommandsAndMissingFilesAreToldApart) {
   EXPECT_EQ(says({"rendr", molecule_}).exit_code, 2);
-  EXPECT_NE(says({"rendr", molecule_}).err.find("'rendr' is no command (did you mean render?) and no file"),
+  EXPECT_NE(says({"rendr", molecule_}).err.find("'rendr' is not a command (did you mean render?) and no file"),
             std::string::npos);
-  EXPECT_NE(says({"nowhere.pdb"}).err.find("'nowhere.pdb' is no command; there are surface, pockets, render"),
+  EXPECT_NE(says({"nowhere.pdb"}).err.find("'nowhere.pdb' is not a command; there are surface, pockets, render"),
             std::string::npos);
 }
 
@@ -166,7 +166,7 @@ TEST_F(Words, SizesMayBeLengths) {
   EXPECT_EQ(header({"--width", "1in", "--dpi", "72"}), (Numbers{72, 54, 2835}));
   EXPECT_EQ(header({"--dpi", "72", "--height", "2.54cm"}), (Numbers{96, 72, 2835}));
   EXPECT_EQ(header({"--width", "64px", "--height", "64"}), (Numbers{64, 64}));
-  EXPECT_NE(fault({"--width", "9ft"}).find("'9ft' is no length, such as 85mm"), std::string::npos);
+  EXPECT_NE(fault({"--width", "9ft"}).find("'9ft' is not a length, such as 85mm"), std::string::npos);
   EXPECT_NE(fault({"--width", "0.01mm"}).find("makes 0 pixels"), std::string::npos);
   EXPECT_NE(fault({"--width", "9in", "--size", "3x3"}).find("excludes"), std::string::npos);
 }
@@ -187,8 +187,8 @@ TEST_F(Words, PicturesTellHowTheyWereMadeIfAsked) {
 }
 
 TEST_F(Words, SidesAndTurnsAreChecked) {
-  EXPECT_NE(fault({"--view", "up"}).find("'up' is none of front, back"), std::string::npos);
-  EXPECT_NE(fault({"--turn", "90"}).find("'90' is no axis of the picture"), std::string::npos);
+  EXPECT_NE(fault({"--view", "up"}).find("'up' is not one of front, back"), std::string::npos);
+  EXPECT_NE(fault({"--turn", "90"}).find("'90' is not an axis of the picture"), std::string::npos);
   EXPECT_NE(fault({"--view", "symmetry"}).find("there is no axis"), std::string::npos);
   EXPECT_EQ(fault({"--camera", "x.json", "--view", "x"}).find("internal"), std::string::npos);
 }

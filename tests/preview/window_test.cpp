@@ -407,7 +407,7 @@ TEST_F(WindowTest, EndsWithALineWhenTheDisplayGoesAway) {
   screen_.crash();
   const ProgramResult result = program_->finish(30);
   EXPECT_EQ(result.exit_code, 4);
-  EXPECT_EQ(result.err, "meniscus: error: the display went away; the preview ends\n");
+  EXPECT_EQ(result.err, "meniscus: error: the display disappeared; the preview ends\n");
 }
 
 TEST(Window, SaysThatThereIsNoDisplay) {

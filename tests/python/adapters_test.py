@@ -50,7 +50,7 @@ def one(xyz):
 
 
 def tried_with(name):
-    """Decorates a test of one package: if others are named it is none of this run's tests."""
+    """Decorates a test of one package: if others are named it is not one of this run's tests."""
     return lambda test: test if not NAMED or name in NAMED else None
 
 

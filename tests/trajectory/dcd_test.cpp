@@ -213,7 +213,7 @@ TEST(Dcd, NameAndContentMustAgree) {
             std::string::npos);
   EXPECT_NE(refusal([&] {
               open_trajectory(folder.file("a.bin", std::string(9, '\0')));
-            }).find("in no trajectory format that is read"),
+            }).find("in none of the trajectory formats that are read"),
             std::string::npos);
   EXPECT_NE(refusal([&] { open_trajectory("-"); }).find("cannot be a trajectory"), std::string::npos);
   EXPECT_NE(refusal([&] { open_bytes(folder, ""); }).find("is empty"), std::string::npos);

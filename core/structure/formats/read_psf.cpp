@@ -44,7 +44,7 @@ class PsfReader {
       if (static_cast<std::uint64_t>(count) > lines_.bytes_left() / 2) {
         throw InputError(
             file_.path, lines_.number(),
-            fmt::format("{} says {}, more than the {} bytes behind it can hold; is the file cut short?", name,
+            fmt::format("{} says {}, more than the {} bytes after it can hold; is the file cut short?", name,
                         with_thousands(static_cast<std::uint64_t>(count)), with_thousands(lines_.bytes_left())));
       }
       return static_cast<std::size_t>(count);
@@ -80,7 +80,7 @@ class PsfReader {
     if (fields.size() < 9) {
       throw InputError(
           file_.path, lines_.number(),
-          fmt::format("{} is no atom: number, segment, residue, residue name, name, type, charge, mass and "
+          fmt::format("{} is not an atom: number, segment, residue, residue name, name, type, charge, mass and "
                       "a flag; is the file cut short, or the number of atoms wrong?",
                       in_quotes(line)));
     }
@@ -116,7 +116,7 @@ class PsfReader {
     std::int64_t number = 0;
     if (!parse_whole_number(digits, number) || number < -99'999'999 || number > 99'999'999) {
       throw InputError(file_.path, lines_.number(),
-                       fmt::format("residue {} is no number; columns may have run together", in_quotes(field)));
+                       fmt::format("residue {} is not a number; columns may have run together", in_quotes(field)));
     }
     atom.residue_number = static_cast<std::int32_t>(number);
   }

@@ -71,7 +71,8 @@ std::vector<bool> selected_of(const Selection& selection, const std::vector<Atom
 std::vector<bool> evaluate(const Selection& selection, const std::vector<Atom>& atoms, const RadiiChoice& radii,
                            const std::string& path, Meaning meaning) {
   if (selection.uses_radius() && !radii.from_molecule_file()) {
-    throw InputError(path, 0, "has no radii to select by yet; they are given to atoms once these are selected");
+    throw InputError(path, 0,
+                     "has no radii yet: they are assigned after the selection, so 'radius' cannot be used in it");
   }
   std::vector<bool> selected = selected_of(selection, atoms, meaning);
   if (std::find(selected.begin(), selected.end(), true) == selected.end()) {
@@ -117,11 +118,11 @@ void mark_shown(std::vector<Atom>& atoms, std::span<const ShownAtoms> shown, con
                 const RadiiChoice& radii, const std::string& path, Meaning meaning) {
   if (shown.size() > kMostShown)
     throw CapacityError(
-        fmt::format("{} sets of atoms are to be shown beside the surface; the most is {}", shown.size(), kMostShown));
+        fmt::format("{} sets of atoms beside the surface are too many; the most is {}", shown.size(), kMostShown));
   for (std::size_t bit = 0; bit < shown.size(); ++bit) {
     const Selection& selection = shown[bit].atoms;
     if (selection.uses_radius() && !radii.from_molecule_file())
-      throw InputError(path, 0, fmt::format("has no radii yet for {} to select by", shown[bit].option));
+      throw InputError(path, 0, fmt::format("has no radii yet, so {} cannot select by them", shown[bit].option));
     const std::vector<bool> selected = selected_of(selection, atoms, meaning), named = selection.names(atoms);
     bool any = false;
     for (std::size_t n = 0; n < atoms.size(); ++n) {
@@ -205,7 +206,7 @@ std::vector<Bond> bonds_of_shown(const Structure& structure, std::span<const Bon
 void refuse_no_atoms(const Structure& structure) {
   if (!structure.atoms.empty()) return;
   throw InputError(structure.file, 0,
-                   fmt::format("leaves no atoms to make a surface of: {}; {} and {} use more",
+                   fmt::format("no atoms are left to make a surface of: {}; {} and {} use more",
                                structure.report.sentence(), option_name("keep-water"), option_name("keep-ions")));
 }
 
@@ -248,9 +249,9 @@ void keep_trajectory_atoms(FileContents& contents, const Selection& selection, c
   const auto refuse = [&](const std::string& what) {
     throw InputError(file.path, 0, fmt::format("--trajectory-atoms {}: {}", in_quotes(selection.text()), what));
   };
-  if (selection.uses_radius()) refuse("radii are given to atoms only once it is known which are there");
+  if (selection.uses_radius()) refuse("'radius' cannot be used here: radii are assigned later");
   if (contents.without_positions && selection.uses_positions())
-    refuse("this file has no positions to select by; name atoms, residues or classes");
+    refuse("this file has no positions; select by names, residues or classes");
   const std::vector<bool> is_kept = selection.evaluate(contents.atoms);
   constexpr std::uint32_t kGone = 0xffffffffu;
   std::vector<std::uint32_t> place(contents.atoms.size(), kGone);
@@ -277,7 +278,7 @@ void place_atoms(FileContents& contents, const ReadOptions& options, const TextF
         fmt::format("lists atoms without coordinates; add {} with a file that has them", option_name("trajectory")));
   if (options.positions.size() != contents.atoms.size()) {
     throw InputError(file.path, 0,
-                     fmt::format("lists {} atoms, a frame of the trajectory has {}: {}",
+                     fmt::format("lists {} atoms, but a frame of the trajectory has {}: {}",
                                  with_thousands(contents.atoms.size()), with_thousands(options.positions.size()),
                                  advice_on_count(contents.atoms, options.positions.size())));
   }
@@ -296,7 +297,7 @@ void use_assemblies(Structure& structure, const TextFile& file, const Reader& re
   if (options.assembly.empty()) return;
   if (!reader.assemblies) {
     throw InputError(structure.file, 0,
-                     fmt::format("is {}, which describes no assemblies; leave {} away", reader.metadata.name,
+                     fmt::format("is {}, which describes no assemblies; leave {} out", reader.metadata.name,
                                  option_name("assembly")));
   }
   const std::vector<Assembly> assemblies = reader.assemblies(file);

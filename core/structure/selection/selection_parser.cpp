@@ -138,15 +138,15 @@ class Parser {
         parse_same(keyword);
         break;
       case WordKind::operation:
-        fail_at(keyword.position, fmt::format("a set is missing before {}", in_quotes(keyword.text)));
+        fail_at(keyword.position, fmt::format("a selection is missing before {}", in_quotes(keyword.text)));
     }
   }
 
   [[noreturn]] void refuse_unknown() const {
-    if (token().kind == TokenKind::end) fail("a set is missing at the end");
-    if (token().kind != TokenKind::word) fail(fmt::format("a set is missing before {}", in_quotes(token().text)));
+    if (token().kind == TokenKind::end) fail("a selection is missing at the end");
+    if (token().kind != TokenKind::word) fail(fmt::format("a selection is missing before {}", in_quotes(token().text)));
     const std::string_view nearest = nearest_selection_word(token().text);
-    fail(fmt::format("{} is no word of selections{}", in_quotes(token().text),
+    fail(fmt::format("{} is not a selection keyword{}", in_quotes(token().text),
                      nearest.empty() ? std::string("; see meniscus help selections")
                                      : fmt::format("; did you mean '{}'?", nearest)));
   }
@@ -219,9 +219,9 @@ class Parser {
     const std::string what = lower(token().text);
     const bool chains = what == "chain" || what == "segid";
     if (token().kind != TokenKind::word || (!chains && what != "residue"))
-      fail("'residue as' or 'chain as' belongs here");
+      fail("'residue as' or 'chain as' is expected here");
     take();
-    if (token().kind != TokenKind::word || lower(token().text) != "as") fail("'as' belongs here");
+    if (token().kind != TokenKind::word || lower(token().text) != "as") fail("'as' is expected here");
     take();
     parse_operand(keyword);
     steps_.push_back(WholeStep{chains});
@@ -234,7 +234,8 @@ class Parser {
     const bool in_brackets = token().kind == TokenKind::open;
     parse_unary();
     if (!in_brackets && (at_and() || at_or())) {
-      fail_at(position, fmt::format("how much belongs to {}? Put brackets around it", in_quotes(keyword.text)));
+      fail_at(position, fmt::format("it is unclear where the selection of {} ends; put brackets around it",
+                                    in_quotes(keyword.text)));
     }
   }
 

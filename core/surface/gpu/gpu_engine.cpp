@@ -52,7 +52,7 @@ class GpuEngine final : public ReducedSurfaceEngine {
     rs.exact_within = decided_within(growth_as_roundoff(arcs_.weights()), stats().ties, protruding);
     // Some atom is exposed, whatever the atoms: with arcs, or as a whole.
     if (rs.arcs.empty() && rs.lone_atoms.empty())
-      throw GpuError("the GPU finds no surface at all, which cannot be; run again, or on another --device");
+      throw GpuError("the GPU found no surface, which is impossible; run again, or choose another --device");
     return rs;
   }
 

@@ -234,7 +234,8 @@ class ModelsInMemory final : public Trajectory {
     const Reader& reader = choose_reader(file);
     format_ = fmt::format("models of {}", reader.metadata.name);
     const FileContents contents = reader.read(file, ModelChoice{1, true});
-    if (contents.without_positions) throw InputError(path, 0, "lists atoms without coordinates: it is no trajectory");
+    if (contents.without_positions)
+      throw InputError(path, 0, "lists atoms without coordinates: it is not a trajectory");
     for (const Atom& atom : contents.atoms) {
       const auto model = static_cast<std::size_t>(atom.model);  // mmCIF may list models in turn
       if (frames_.size() < model) frames_.resize(model);

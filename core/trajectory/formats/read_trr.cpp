@@ -116,7 +116,7 @@ class Trr final : public Trajectory {
     file_.check_unchanged();
     if (!fault.empty()) {
       throw InputError(path_, 0,
-                       fmt::format("frame {} at byte {} {}; leave it out by --frames, or write the file anew", number,
+                       fmt::format("frame {} at byte {} {}; leave it out by --frames, or write the file again", number,
                                    with_thousands(offset), fault));
     }
     time_precision_ = header.doubles ? kDoublePrecision : kSinglePrecision;

@@ -63,7 +63,7 @@ void check_of_surface(const Scene& scene) {
              value_name(*property));
   const ColorScheme& color = scene.molecule.color;
   if ((scene.molecule.color_named && color.by != ColorScheme::By::fixed) || !color.rules.empty())
-    refuse(MENISCUS_USAGE, "color: a surface does not know what its atoms are; give one colour, or atom_colors");
+    refuse(MENISCUS_USAGE, "color: a bare surface does not know its atoms' elements; give one colour, or atom_colors");
 }
 
 Coloring coloring_for(const Scene& scene, const float* of_atoms, std::size_t atoms) {

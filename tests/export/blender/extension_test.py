@@ -95,8 +95,8 @@ class Extension(unittest.TestCase):
         self.refused(f"{bare}: it has no file LICENSE")
         with open(bare, "w", encoding="ascii") as file:
             file.write("none")
-        self.refused(f"{bare}: it is no wheel")
-        self.refused("amiga is none of linux-x64", "amiga")
+        self.refused(f"{bare}: it is not a wheel")
+        self.refused("amiga is not one of linux-x64", "amiga")
         self.wheels += "x"
         self.refused(f"{self.wheels}: No such file or directory")
 

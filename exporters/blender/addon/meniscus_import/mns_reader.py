@@ -176,9 +176,9 @@ def _read_header(path, data):
     try:
         header = json.loads(data[PROLOGUE:start].decode("utf-8"))
     except (ValueError, RecursionError) as error:
-        raise MnsError(f"{path}: the header is no JSON ({error})") from None
+        raise MnsError(f"{path}: the header is not JSON ({error})") from None
     if not isinstance(header, dict):
-        raise MnsError(f"{path}: the header is no JSON object")
+        raise MnsError(f"{path}: the header is not a JSON object")
     return header, start
 
 
@@ -283,7 +283,7 @@ def _check_caps(path, surface):
 
 
 def check_names(path, array, numbers, names):
-    """Raises MnsError if numbers, the array of this name, are no places in the list `names`."""
+    """Raises MnsError if numbers, the array of this name, are not places in the list `names`."""
     if not isinstance(names, list) or (len(numbers) and not 0 <= numbers.min() <= numbers.max() < len(names)):
         raise MnsError(f"{path}: array {array} points to no name")
 
