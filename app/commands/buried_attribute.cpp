@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chains are computed alone and together; the difference is what they bury.
+// Computes chains alone and together; the difference is the area that they bury.
 #include "app/commands/buried_attribute.h"
 
 #include <algorithm>

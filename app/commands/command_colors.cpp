@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus colors`: what surfaces can be coloured by, the maps for numbers, and where both come from.
+// `meniscus colors`: lists colour schemes and colour maps with their sources.
 #include <iostream>
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus completion SHELL`: the script by which a shell completes the command line.
+// `meniscus completion SHELL`: prints the script with which a shell completes the command line.
 #include <iostream>
 #include <memory>
 

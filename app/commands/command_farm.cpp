@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus farm`: bundles a framed command for any render farm, tells how far it is, verifies it and makes the film.
+// `meniscus farm`: bundles a command on frames for any render farm, shows its progress, verifies it and makes the film.
 #include <algorithm>
 #include <ctime>
 #include <iostream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus help TOPIC`: the pages that belong to no single command, and those of the commands.
+// `meniscus help TOPIC`: shows the pages of topics and of commands.
 #include <iostream>
 #include <memory>
 

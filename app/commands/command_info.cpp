@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus info`: what a file holds, and what of it a surface would use; frames and times of trajectories.
+// `meniscus info`: shows what a file contains and what a surface would use of it; frames and times of trajectories.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus pockets`: finds pockets, tunnels and cavities and prints their numbers; their solids as a mesh.
+// `meniscus pockets`: finds pockets, tunnels and cavities, prints their numbers, and writes their solids as a mesh.
 #include <algorithm>
 #include <memory>
 #include <string>

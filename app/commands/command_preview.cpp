@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus preview`: look at the surface while it changes.
+// `meniscus preview`: shows the surface in a window or a browser while it changes.
 #include <algorithm>
 #include <charconv>
 #include <csignal>

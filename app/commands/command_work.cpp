@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus work`: makes what is missing of a bundle, for a person or for any engine.
+// `meniscus work`: makes the missing frames of a bundle, for a person or for any engine.
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>

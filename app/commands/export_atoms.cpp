@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus export atoms`: the atoms that a surface is computed of, and where they stand in each frame, as arrays.
+// `meniscus export atoms`: writes the atoms of a surface, and their positions in each frame, as arrays.
 #include <filesystem>
 #include <iostream>
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus export blender`: mesh, analytic patches, atoms and camera as one .mns file.
+// `meniscus export blender`: writes mesh, analytic patches, atoms and camera as one .mns file.
 #include <algorithm>
 #include <filesystem>
 #include <iostream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus export mesh`: the closed mesh as a file of any format; `meniscus export ply` is what it began as.
+// `meniscus export mesh`: writes the closed mesh in any format; `meniscus export ply` is its older form.
 #include <algorithm>
 #include <filesystem>
 #include <iostream>

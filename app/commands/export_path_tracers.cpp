@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus export mitsuba` and `meniscus export pbrt`: a scene for renderers that follow paths of light, with meshes
-// as fine as the picture.
+// `meniscus export mitsuba` and `meniscus export pbrt`: write a scene for path tracers, with meshes as fine as the
+// picture needs.
 #include <algorithm>
 #include <iostream>
 #include <map>

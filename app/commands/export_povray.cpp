@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus export povray`: a folder with a POV-Ray scene of the analytic patches.
+// `meniscus export povray`: writes a folder with a POV-Ray scene of the analytic patches.
 #include <algorithm>
 #include <iostream>
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The figures that a command makes of a scene: one of a molecule, or one of each frame of a run.
+// The figures that a command makes from a scene: one of a molecule, or one of each frame of a run.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws frames from a turning camera, with a changing probe, with moving atoms, and prints what each took.
+// Times frames from a turning camera, with a changing probe, and with moving atoms.
 #include "app/commands/paper_bench.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Takes the options of a bundled command, without running it.
+// Parses the options of a bundled command, without running it.
 #include "app/commands/parse_bundled_command.h"
 
 #include <algorithm>

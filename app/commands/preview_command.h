@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the options of `meniscus preview` say, and scene files as it begins with them, saves and opens them.
+// The options of `meniscus preview`, and the scene files that it starts with, saves and opens.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the molecule of a preview again for a figure, aims cameras as render does, and opens scenes.
+// Reads a preview's molecule again for a figure, aims cameras as render does, and opens scenes.
 #include <algorithm>
 #include <filesystem>
 #include <numeric>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program that Blender runs to render frames, as this version of the add-on has it and no other.
+// The program that Blender runs to render frames: the driver of exactly this version of the add-on.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run of frames as a folder that any machine can work on: what bundle.json says.
+// A run of frames as a folder that any machine can work on: the content of bundle.json.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the POV-Ray scene of a bundle is such as this program writes: scenes are programs, which could read and write
-// files anywhere.
+// Checks that the POV-Ray scene of a bundle was written by this program: scenes are programs, which could read and
+// write files anywhere.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who makes which frame: claims in the bundle's folder, so that any number of workers on any machines share its work.
+// Claims on frames in the bundle's folder, so that any number of workers on any machines share its work.
 #pragma once
 
 #include <atomic>

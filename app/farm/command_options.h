@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The options that a bundled command may have: a list of those known to be harmless, with what their values are.
+// The options that a bundled command may have: a list of harmless ones, with the kinds of their values.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Slurm: an array of tasks for each step, behind all of the step before, however its tasks ended, and a job that
-// verifies.
+// Writes scripts for Slurm: an array of tasks for each step, after all of the step before, however its tasks ended, and
+// a job that verifies.
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Of all that a program says before it fails, the line that tells why.
+// Finds the line that gives the reason in the output of a failed program.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Looks with lstat, opens with O_NOFOLLOW.
+// Checks paths with lstat, and opens files with O_NOFOLLOW.
 #include "app/farm/inner_path.h"
 
 #include <algorithm>

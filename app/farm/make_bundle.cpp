@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Puts a bundle together beside its final name, tries one frame, and renames it.
+// Builds a bundle beside its final name, tries one frame, and renames it.
 #include "app/farm/make_bundle.h"
 
 #include <algorithm>

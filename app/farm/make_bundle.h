@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the folder of a bundle of a framed command.
+// Makes the folder of a bundle.
 #pragma once
 
 #include <filesystem>

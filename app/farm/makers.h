@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The programs that make the frames of a step, and what they tell about each frame.
+// The programs that make the frames of a step, and what they report about each frame.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Texts as one word of the languages that farms are described in.
+// Quotes texts as one word of the languages of job files.
 #pragma once
 
 #include <string>

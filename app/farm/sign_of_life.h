@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The file in state/workers/ by which a worker shows that it lives, and who it is.
+// The file in state/workers/ by which a worker shows that it is running, and who it is.
 #pragma once
 
 #include <filesystem>

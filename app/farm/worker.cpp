@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds what is missing, has it made, and keeps the records.
+// Finds missing frames, has them made, and keeps the records.
 #include "app/farm/worker.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Films made of pictures by ffmpeg, and whether such a file is whole.
+// Films that ffmpeg encodes from pictures, and whether such a file is complete.
 #pragma once
 
 #include <cstdint>

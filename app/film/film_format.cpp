@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A table of codecs. What they can do is that of ffmpeg's encoders of the same names, as Debian builds them.
+// The table of codecs, with the limits of ffmpeg's encoders of the same names, as Debian builds them. What they can do
+// is that of ffmpeg's encoders of the same names, as Debian builds them.
 #include "app/film/film_format.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A table of options in the order in which abbreviations are tried: the first that begins with the word is meant.
+// The table of options, in the order in which abbreviations are tried: the first that begins with the word is used.
 #include "app/msms/arguments.h"
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Component 0, all of them, or the one that touches some spheres.
+// Chooses component 0, all of them, or the one that touches some spheres.
 #include "app/msms/chosen_surface.h"
 
 #include <algorithm>

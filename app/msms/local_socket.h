@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A plain blocking socket on this machine alone: local_socket_posix.cpp (Linux, macOS) and local_socket_windows.cpp.
+// A blocking socket on this machine alone: implemented in local_socket_posix.cpp and local_socket_windows.cpp.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// There is one client, and whatever it has to wait for or we have has a limit.
+// Serves one client, with a limit on every wait and every size.
 #include "app/msms/serve.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One surface over a socket, as VMD asks MSMS for it.
+// Serves one surface over a socket, as VMD asks MSMS for it.
 #pragma once
 
 #include <cstdint>

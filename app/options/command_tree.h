@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every command takes, as plain data read from the declared options: what help, manual and completion tell.
+// The options of every command as plain data, read from their declarations, for help, manual pages and completion.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds options that change nothing for want of another one, by a table of what each needs.
+// Finds options that have no effect because another one is missing, by a table of what each needs.
 #include "app/options/idle_options.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Options that have nothing to work on: refused where the result would be taken for another one, else said.
+// Options without effect: refused where the result would be taken for another one, else reported.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Adds options to a command as the table of properties declares them; the caller says only where values go.
+// Adds options to a command as the table of properties declares them; the caller only binds their values.
 #pragma once
 
 #include <concepts>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Declares options by the table of properties, and sets the values of a scene from a scene file and from what was
-// typed.
+// Declares options by the table of properties, and sets the values of a scene from a scene file and from the command
+// line.
 #include "app/options/scene_options.h"
 
 #include <algorithm>

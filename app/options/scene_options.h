@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the words of a command line, and the scene file that they name, to one scene.
+// From a command line, and the scene file that it names, to one scene.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is said about options that were not understood.
+// Messages about options that were not understood.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads and writes commands, joins two that follow each other, and complains about values by key.
+// Reads and writes commands, joins two that follow each other; errors about values name the key.
 #include "app/preview/command_json.h"
 
 #include <algorithm>

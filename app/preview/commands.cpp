@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table, and the commands of the session itself: undo and redo, keys, the end.
+// The table of commands, and those of the session itself: undo and redo, keys, the end.
 #include "app/preview/commands.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Letters are taken as typed, great or small, so that they are where the user's keyboard has them.
+// The keys of a preview: letters are matched as typed, in either case, so that they follow the user's keyboard.
 #include "app/preview/key_table.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All that commands of a preview change, as it was before each step, and as a scene that `meniscus render` draws.
+// The state that commands of a preview change, with the steps before it, and as a scene that `meniscus render` draws.
 #pragma once
 
 #include <array>

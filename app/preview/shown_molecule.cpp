@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes anew what another state needs, and keeps the rest; draws the legend around a hole for the molecule.
+// Computes again what another state needs, and keeps the rest; draws the legend around a hole for the molecule.
 #include "app/preview/shown_molecule.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The molecule as a state of the preview shows it: the atoms of a frame, their colours, what stands beside them; and
-// the legend, laid out once for a size.
+// The molecule as a state of the preview shows it: the atoms of a frame, their colours, the shapes beside them; and the
+// legend, laid out once for a size.
 #pragma once
 
 #include <cstddef>

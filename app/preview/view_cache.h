@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a state to its picture: the last one is kept, surfaces while only looks change, and areas once they are known.
+// From a state to its picture: keeps the last picture, surfaces while only looks change, and areas once they are known.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exports a view on a thread of its own, which can be asked how far it is, and cancelled.
+// Exports a view on a thread of its own, which reports its progress and can be cancelled.
 #include "app/preview/view_export.h"
 
 #include <algorithm>

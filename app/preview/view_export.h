@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a session needs of the program around it, and "Export this view": as a picture, a scene, a file for Blender or a
-// camera.
+// "Export this view" as a picture, a scene, a file for Blender or a camera, and the callbacks that a session needs from
+// the program.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program's exit codes, and the error for options that make no sense together.
+// The program's exit codes, and the error for options that exclude each other.
 #pragma once
 
 #include <exception>

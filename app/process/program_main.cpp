@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The first and the last steps of a program, in their order; errors become a line for people and an exit code.
+// Runs the first and the last steps of a program in their order; errors become one line and an exit code.
 #include "app/process/program_main.h"
 
 #include <atomic>

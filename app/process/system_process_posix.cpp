@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Processes of Linux and macOS.
+// Implements system_process.h for Linux and macOS.
 #include <array>
 #include <atomic>
 #include <cerrno>

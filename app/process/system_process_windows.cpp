@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Processes of Windows.
+// Implements system_process.h for Windows.
 #include <array>
 #include <atomic>
 #include <csignal>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Manual pages in the macros of man(7), made of what the help tells.
+// Manual pages in the macros of man(7), made from the help.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lines for people: one a fact, none if quiet.
+// Prints notes for people: one line per fact, none if quiet.
 #include "app/reports/notes.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a command says on stderr while it works.
+// The notes that a command prints on standard error.
 #pragma once
 
 #include <optional>

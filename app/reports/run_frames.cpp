@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The loop over frames.
+// Runs the loop over frames.
 #include "app/reports/run_frames.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which program this is, and of what it is made: for reports of faults.
+// The version of this program and of its libraries, for bug reports.
 #pragma once
 
 #include <string>

@@ -88,4 +88,7 @@ class FileLines {
 /// The line without the CR of CR LF.
 std::string_view without_return(std::string_view line);
 
+/// "; 1ubq is a PDB code, not a file; download ..." for a word that looks like a code of the PDB, else empty.
+std::string advice_on_pdb_code(std::string_view word);
+
 }  // namespace meniscus

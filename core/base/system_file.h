@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What Meniscus asks an operating system about files: system_file_posix.cpp (Linux, macOS) and system_file_windows.cpp
-// answer.
+// Files as the operating system has them: system_file_posix.cpp (Linux, macOS) and system_file_windows.cpp implement
+// it.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads and writes cameras and their paths as JSON, with complaints that name the key.
+// Reads and writes cameras and their paths as JSON; errors name the key.
 #include "core/camera/camera_json.h"
 
 #include <algorithm>

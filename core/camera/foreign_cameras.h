@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cameras of other programs, and which of them a file holds.
+// Cameras of PyMOL and ChimeraX, and how a file's kind of camera is recognized.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From where and how large a molecule is wanted in a picture: sides by name, turns, a camera.
+// A request for a view: a side by name, turns, a zoom, or a camera.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds numbers, ranges and names of what a structure is coloured by.
+// Finds the numbers, ranges and class names by which a structure is coloured.
 #include "core/color/color_key.h"
 
 #include <algorithm>

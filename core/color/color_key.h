@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What colours mean: the scale of a scheme of numbers, the names of a scheme of classes, as legends and exporters take
-// it.
+// The meaning of colours: the scale of numbers or the list of classes of a scheme, for legends and
+// exporters.
 #pragma once
 
 #include <optional>

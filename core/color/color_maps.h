@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colour maps that people with any colour vision can put in order, the scales of numbers that lie on them, and volume
-// maps that colour points of a surface by such a scale.
+// Colour maps that people with any colour vision can order, scales that map numbers to them, and volume maps that
+// colour points of a surface by such a scale.
 #pragma once
 
 #include <array>

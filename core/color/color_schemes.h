@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// By what atoms are coloured: by what they are, by a number they have, or one colour for all.
+// Colour schemes: by a property of the atoms, by a number, or one colour for all.
 #pragma once
 
 #include <array>

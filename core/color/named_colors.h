@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colours of things that have names, and colours by their names: elements, residue types, classes, those of CSS.
+// Colours by name: of elements, residue types and classes, and those of CSS.
 #pragma once
 
 #include <array>

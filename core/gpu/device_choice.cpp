@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reading and writing the user's wish for a device, and matching it with those of the machine, without GL.
+// Parses and prints a user's choice of a device, and matches it with the devices of a machine, without GL.
 #include "core/gpu/device_choice.h"
 
 #include <algorithm>

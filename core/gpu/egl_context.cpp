@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// EGL device enumeration and context creation, as NVIDIA and Mesa both document it for machines without a display.
+// Lists EGL devices and creates contexts, as NVIDIA and Mesa both document it for machines without a display.
 #include "core/gpu/egl_context.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Program binaries (OpenGL 4.5, section 7.5) behind the text that they were made of, with a checksum.
+// Stores program binaries (OpenGL 4.5, section 7.5) after the text that they were compiled from, with a checksum.
 #include "core/gpu/kernel_files.h"
 
 #include <unistd.h>

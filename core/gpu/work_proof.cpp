@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An atomic counter, copies of indirect group counts, and their comparison with what the host started.
+// Counts finished groups with an atomic counter, and compares them with the groups that the host started.
 #include "core/gpu/work_proof.h"
 
 #include <algorithm>

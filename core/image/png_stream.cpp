@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One stream of libdeflate, which takes a third of the time of zlib; of large pictures parts by zlib.
+// Compresses a PNG stream with libdeflate, in a third of the time of zlib; large pictures in parts, with zlib.
 #include "core/image/png_stream.h"
 
 #include <algorithm>

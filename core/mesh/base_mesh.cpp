@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the meshes that even ones begin with, and contracts a fine one to few triangles.
+// Makes the base meshes of even ones, and contracts a fine mesh to few triangles.
 #include "core/mesh/base_mesh.h"
 
 #include <algorithm>

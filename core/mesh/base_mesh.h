@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The closed meshes that even ones begin with: something to be split and collapsed until it is even.
+// The closed meshes from which even ones are made by splitting and collapsing edges.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long the edges of an even mesh are to be, how near its triangles to the surface, and the numbers this depends on.
+// The wanted edge lengths of an even mesh, its distance from the surface, and the numbers that these depend on.
 #pragma once
 
 #include <array>

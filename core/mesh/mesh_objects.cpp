@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes meshes as fine as asked for, and guesses beforehand how many triangles they get.
+// Makes meshes of the requested fineness, and estimates beforehand how many triangles they have.
 #include "core/mesh/mesh_objects.h"
 
 #include <algorithm>

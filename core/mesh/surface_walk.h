@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a point near a surface to the point of the surface below it, from face to face without a search.
+// Projects a point near a surface onto it, walking from face to face without a search.
 #pragma once
 
 #include <cstdint>

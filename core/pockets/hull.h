@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The solid that a large probe rolls over, how deep a point lies in it, and places of that probe around a molecule.
+// The solid that a large probe rolls over: the depth of a point in it, and positions of that probe around a molecule.
 #pragma once
 
 #include <functional>

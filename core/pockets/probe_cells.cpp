@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Drops cubes whose every point is inside one grown ball, or too near to the large probe; far from all atoms many at
-// once.
+// Drops cubes that lie inside one grown ball or too near to the large probe; far from all atoms many at once.
 #include "core/pockets/probe_cells.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a user can choose, declared once: options, their help, scene keys, bundles and the preview follow from these
-// rows.
+// A property: one thing that a user can choose. Options, their help, scene keys, bundles and the preview follow from
+// it.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces and copies of them: as one surface, moved row by row, and whether they keep clear of each other.
+// Surfaces and their copies joined into one surface, row by row, and whether copies keep clear of each other.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Feet of perpendiculars on spheres, tori and circles, and which of them the surface has.
+// Finds feet of perpendiculars on spheres, tori and circles, and those that lie on the surface.
 #include "core/queries/distance.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A surface as a thing in a picture or an export: its name, its colours, and where its copies stand.
+// A surface as an object of a picture or an export: its name, its colours, and the positions of its copies.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Places texts and lines, and draws them as shares of pixels.
+// Places texts and lines, and blends them into pixels by the share that they cover.
 #include "core/render/annotation.h"
 
 #include <algorithm>

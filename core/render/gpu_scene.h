@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the ray caster reads, as it stands in GPU memory; host code or kernels make it.
+// The ray caster's data in GPU memory; host code or kernels make it.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where in the molecule the ray through a pixel's centre met something, and to which closed part of the surface it
-// belongs.
+// The point of the molecule that the ray through a pixel's centre meets, and the closed part of the surface it belongs
+// to.
 #pragma once
 
 #include <cstdint>

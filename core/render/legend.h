@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A legend beside the molecule: what its colours mean, as a bar with numbers or as named swatches.
+// A legend beside the molecule: a bar with numbers, or named swatches, that explain its colours.
 #pragma once
 
 #include <optional>

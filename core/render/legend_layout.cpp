@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the bar, the swatches and the text of a legend stand.
+// Places the bar, the swatches and the text of a legend.
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a picture looks, apart from what it shows: light, shade, lines and materials; looks by name, and parts asked for.
+// The look of a picture: light, shade, lines and materials; presets by name, and single values.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Packing patches and their bounds; every number is made in double and rounded once.
+// Packs patches and their bounds; every number is computed in double and rounded once.
 #include "core/render/ray_cast_scene.h"
 
 #include <algorithm>

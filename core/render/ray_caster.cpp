@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The host's side of ray casting a block: lists of tiles, a dispatch for each sample, and again for long lists.
+// The host's side of ray casting a block: lists for tiles, a dispatch for each sample, and further ones for long lists.
 #include "core/render/ray_caster.h"
 
 #include <string>

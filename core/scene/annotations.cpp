@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads labels and scale bars, and turns what is asked for into texts of a picture.
+// Reads labels and scale bars, and turns them into texts of a picture.
 #include "core/scene/annotations.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes selection and context together and finds the selection's atoms again.
+// Computes the selection and its context together, and finds the selection's atoms again.
 #include "core/scene/context_areas.h"
 
 #include <unordered_map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What becomes of the area of some atoms in the presence of others: how much of it is buried.
+// The area of some atoms in the presence of others: how much of it is buried.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Atoms that stand at several places (Instances), as a list of all of them or of those that matter for a camera.
+// Atoms that occur at several places (Instances), as a list of all of them or of those that matter for a camera.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Understands a comparison, and measures depths.
+// Parses cutting planes, and measures depths along the view.
 #include "core/scene/cut.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A molecule as a figure shows it: its surface, cut or seen through, and what stands beside it.
+// A molecule as a figure shows it: its surface, cut or transparent, and the shapes and objects beside it.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From request to prepared frames.
+// Turns a request into prepared frames.
 #include "core/scene/frame_run.h"
 
 #include <algorithm>

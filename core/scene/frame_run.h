@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run of frames of one molecule: atoms are chosen once, but anew in each frame where a selection asks for positions.
+// A run of frames of one molecule: atoms are chosen once, or anew in each frame where a selection depends on positions.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Marks atoms as hidden; renderers and exporters obey.
+// Marks atoms as hidden, for renderers and exporters.
 #include "core/scene/hidden_atoms.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Carries out what the common request say.
+// Reads a molecule, and computes its surfaces and colours as requested.
 #include "core/scene/molecule.h"
 
 #include <algorithm>

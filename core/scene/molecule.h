@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a file to a molecule with its surfaces and colours.
+// A molecule with its surfaces and colours, made from a file.
 #pragma once
 
 #include <memory>

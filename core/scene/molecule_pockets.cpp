@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parts a structure, and puts its numbers of atoms back.
+// Separates ligands from a structure, and maps the numbers of its atoms back.
 #include "core/scene/molecule_pockets.h"
 
 #include <utility>

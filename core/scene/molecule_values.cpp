@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Binds the values of the molecule, of runs of frames and of films, and completes those of a molecule that depend on
-// each other.
+// Binds the values of the molecule, of runs of frames and of films, and completes those that depend on each other.
 #include <array>
 #include <charconv>
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads and writes an object as a scene of its own: its keys are those of properties, and so are their values.
+// Reads and writes an object as a small scene: its keys and values are those of properties.
 #include "core/scene/object_json.h"
 
 #include <algorithm>

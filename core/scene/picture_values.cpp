@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Binds the values of the look, the camera, the picture, what is written into it, and of files.
+// Binds the values of the look, the camera, the picture, its annotations and its files.
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -76,10 +76,10 @@ void read_background(const Property&, Texts texts, Scene& scene) {
   const std::string& text = texts.back();
   color.reset();
   if (text == "transparent") return;
-  if (text == "white") color = glm::vec3(1.0f);
-  if (text == "black") color = glm::vec3(0.0f);
-  if (!color) color = parse_hex_color(text);
-  if (!color) throw RequestError(in_quotes(text) + " is not one of transparent, white, black, #rrggbb");
+  color = parse_color(text);
+  if (!color)
+    throw RequestError(in_quotes(text) +
+                       " is not a background: give transparent, a colour's name such as grey, or #rrggbb");
 }
 
 Written write_background(const Property&, const Scene& scene) {

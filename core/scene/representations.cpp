@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From marked atoms to shapes, and from the scheme of a surface to their colours.
+// Makes shapes of marked atoms, and colours them by the scheme of the surface.
 #include "core/scene/representations.h"
 
 #include <cmath>

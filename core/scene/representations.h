@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is drawn beside a surface: which atoms of the file as sticks, balls, spheres or a backbone, and their colours.
+// Shapes beside a surface: the atoms drawn as sticks, balls, spheres or a backbone, and their colours.
 #pragma once
 
 #include <optional>

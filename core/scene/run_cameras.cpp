@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Puts together the camera of each frame of a run.
+// Computes the camera of each frame of a run.
 #include "core/scene/run_cameras.h"
 
 #include <algorithm>

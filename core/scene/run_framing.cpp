@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Looks at a whole run before its first frame is made.
+// Reads a whole run before its first frame is made.
 #include "core/scene/run_framing.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lets scenes name the files that their user knows of.
+// Lets scenes name only files that their user knows of.
 #include "core/scene/scene_paths.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which files a scene may name: it may come from anybody.
+// Which files a scene may name, because it may come from anyone.
 #pragma once
 
 #include <string>

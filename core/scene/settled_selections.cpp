@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds all expressions, and asks the first frame what they mean.
+// Collects all selections, and evaluates them in the first frame.
 #include "core/scene/settled_selections.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes the surface of each group of atoms, and divides it into the parts that are wanted.
+// Computes the surface of each group of atoms, and divides it into the requested parts.
 #include "core/scene/surface_objects.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Words for kinds of surfaces, and the bounds of a probe.
+// Names the kinds of surfaces, and checks the radius of a probe.
 #include "core/scene/surface_request.h"
 
 #include <cstddef>

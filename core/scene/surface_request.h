@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which surface of some atoms is wanted, and what shall compute it.
+// A request for a surface: its kind, its probe, and the device that computes it.
 #pragma once
 
 #include <functional>

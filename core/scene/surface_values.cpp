@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Binds the values of the surface, of its colours and cuts, and of what stands beside it.
+// Binds the values of the surface, its colours and cuts, and the shapes beside it.
 #include <array>
 #include <optional>
 #include <utility>

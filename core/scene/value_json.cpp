@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Turns JSON values into texts and back, by the form that a property has in scene files.
+// Turns JSON values into texts and back, by the form of a property in scene files.
 #include "core/scene/value_json.h"
 
 #include <filesystem>

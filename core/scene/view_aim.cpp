@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Picks the balls that a camera is aimed at.
+// Chooses the balls that a camera is aimed at.
 #include "core/scene/view_aim.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Aims the camera of a picture at the atoms it is about.
+// Aims the camera of a picture at its atoms.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Atoms drawn as one view after another shows them, by whatever device: the pictures of a preview.
+// Draws atoms in one view after another, on any device: the pictures of a preview.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Motions, operator expressions, and the building of an assembly from its parts.
+// Parses operator expressions, multiplies motions, and builds an assembly from its parts.
 #include "core/structure/assembly.h"
 
 #include <algorithm>

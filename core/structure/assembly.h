@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Biological assemblies: which chains of an entry stand where, how often, and how a structure is built up of them.
+// Biological assemblies: which chains of an entry occur where and how often, and how a structure is built of them.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tells polymer, ligand, water and ion apart, and the elements that a file does not state, alike for every format.
+// Tells polymer, ligand, water and ion apart, and finds elements that a file does not state, alike for every format.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers that atoms can be coloured by, from a file of the user's own.
+// Numbers from a user's file, by which atoms can be coloured.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Looks for atoms at one place and for coordinates in other units, and sums up cases of one oddity.
+// Looks for coincident atoms and for coordinates in other units, and sums up warnings of one kind.
 #include "core/structure/plausibility.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A molecule as read from a file: its atoms, groups of these, and the account of what was read, left out and used.
+// A molecule as read from a file: its atoms, groups of them, and counts of what was read, left out and used.
 #pragma once
 
 #include <array>

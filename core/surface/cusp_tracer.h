@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The two questions about singularities that are worth many processors: who cuts whom, and which arcs remain.
+// The two questions about singularities that run in parallel: which probe cuts which, and which arcs remain.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The nearest points of two convex hulls of arcs, by support points (Gilbert, Johnson & Keerthi 1988), and the plane
-// half-way between them.
+// Finds the nearest points of two convex hulls of arcs by support points (Gilbert, Johnson & Keerthi 1988), and the
+// plane half-way between them.
 #include "core/surface/parting.h"
 
 #include <algorithm>

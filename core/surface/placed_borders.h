@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the vertices and borders of a surface lie, before anything is known of its faces.
+// The positions of the vertices and borders of a surface, before its faces are known.
 #pragma once
 
 #include <cstdint>

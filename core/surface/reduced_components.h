@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The components of the reduced surface: the closed sheets that the probe's centre can move on, each for itself.
+// The components of the reduced surface: the closed sheets on which the probe's centre can move.
 //
 // The probe's centre moves on arcs, over fixed probes and on the spheres of atoms; what it reaches from one place is a
 // component of the reduced surface (Sanner, Olson & Spehner 1996),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bonds that are no bonds any more, counted residue by residue.
+// Counts bonds that are too long to be bonds, residue by residue.
 #include "core/trajectory/atom_order.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Frames made ready: molecules whole, centred, superposed, smoothed; and frames read ahead on a thread.
+// Prepared frames: molecules whole, centred, superposed and smoothed; and frames read ahead on a thread.
 #pragma once
 
 #include <condition_variable>

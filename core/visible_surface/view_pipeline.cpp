@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The stages of one view in order, each a kernel or two, with the buffers they hand on.
+// Runs the stages of one view in order, each a kernel or two, with the buffers they pass on.
 #include "core/visible_surface/view_pipeline.h"
 
 #include <algorithm>

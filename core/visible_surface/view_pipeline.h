@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The paper's pipeline: for every frame the part of the surface that one view needs, from atoms to primitives on the
-// GPU.
+// The paper's pipeline: computes for every frame the part of the surface that the view needs, from atoms to primitives
+// on the GPU.
 #pragma once
 
 #include <array>

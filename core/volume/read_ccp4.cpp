@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// CCP4 maps and MRC files: A. Cheng et al., J. Struct. Biol. 192, 146 (2015), and CCP4's maplib.
+// Reads CCP4 maps and MRC files: A. Cheng et al., J. Struct. Biol. 192, 146 (2015), and CCP4's maplib. Cheng et al., J.
+// Struct. Biol. 192, 146 (2015), and CCP4's maplib.
 //
 // gemmi reads them, too, but of the other byte order only floats, and it trusts the header's sizes.
 #include <algorithm>

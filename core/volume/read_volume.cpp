@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads a volume map in the format that its content tells.
+// Reads a volume map in the format that its content shows.
 #include "core/volume/read_volume.h"
 
 #include <utility>

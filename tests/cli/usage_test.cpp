@@ -35,6 +35,9 @@ TEST_F(Words, UnknownOptionsAreNamedInTheirOrderWithTheOneThatWasMeant) {
       {{"--bg", "white"}, "meniscus render has no option '--bg'; did you mean --background?"},
       {{"--ao", "1"}, "meniscus render has no option '--ao'; did you mean --ambient-occlusion?"},
       {{"--zoom", "ligand"}, "meniscus render has no option '--zoom'; did you mean --zoom-to?"},
+      {{"--ray", "800"}, "meniscus render has no option '--ray'; did you mean --size?"},
+      {{"--png", "b.png"}, "meniscus render has no option '--png'; did you mean --output?"},
+      {{"--bg-colour", "grey"}, "meniscus render has no option '--bg-colour'; did you mean --background?"},
       {{"--rotate", "y90"}, "meniscus render has no option '--rotate'; did you mean --turn?"},
       {{"--backgroud", "white"}, "meniscus render has no option '--backgroud'; did you mean --background?"},
       {{"--quite"}, "meniscus render has no option '--quite'; did you mean --quiet?"},
@@ -56,9 +59,37 @@ TEST_F(Words, UnknownOptionsAreNamedInTheirOrderWithTheOneThatWasMeant) {
 
 TEST_F(Words, UnknownCommandsAndMissingFilesAreToldApart) {
   EXPECT_EQ(says({"rendr", molecule_}).exit_code, 2);
-  EXPECT_NE(says({"rendr", molecule_}).err.find("'rendr' is not a command (did you mean render?) and no file"),
+  EXPECT_NE(says({"rendr", molecule_}).err.find("'rendr' is not a command (did you mean render?) and not a file"),
             std::string::npos);
-  EXPECT_NE(says({"nowhere.pdb"}).err.find("'nowhere.pdb' is not a command; there are surface, pockets, render"),
+  EXPECT_NE(says({"nowhere.pdb"})
+                .err.find("'nowhere.pdb' is not a command and not a file; the commands are surface, "
+                          "pockets, render"),
+            std::string::npos);
+}
+
+TEST_F(Words, ACodeOfThePdbIsNotAFile) {
+  const std::string advice = "; 9zzz is a PDB code, not a file; download https://files.rcsb.org/download/9zzz.cif.gz";
+  EXPECT_NE(says({"9zzz"}).err.find("'9zzz' is not a command" + advice), std::string::npos) << says({"9zzz"}).err;
+  const ProgramResult render = says({"render", "9zzz", "-o", (folder_.path() / "z.png").string()});
+  EXPECT_EQ(render.exit_code, 3);
+  EXPECT_NE(render.err.find("9zzz: cannot be read: No such file or directory" + advice), std::string::npos)
+      << render.err;
+  const ProgramResult other = says({"surface", "9zzz.pdb"});
+  EXPECT_EQ(other.err.find("PDB code"), std::string::npos) << other.err;
+}
+
+TEST_F(Words, ABackgroundMayHaveAnyNameOfAColour) {
+  const auto picture = [&](const std::string& color) {
+    const std::string output = (folder_.path() / (color + ".png")).string();
+    const ProgramResult result = says({"render", molecule_, "-o", output, "--size", "40x30", "--samples", "1",
+                                       "--no-provenance", "--background", color});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return test::read_bytes(output);
+  };
+  EXPECT_EQ(picture("grey"), picture("gray"));
+  EXPECT_EQ(picture("grey"), picture("#808080"));
+  EXPECT_NE(picture("white"), picture("gainsboro"));
+  EXPECT_NE(fault({"--background", "plaid"}).find("'plaid' is not a background: give transparent, a colour's name"),
             std::string::npos);
 }
 
@@ -90,6 +121,8 @@ TEST_F(Words, APictureNeedsNoNameAndNoCommand) {
   EXPECT_EQ(test::read_bytes((folder_.path() / "two.png").string()), bytes);
   EXPECT_EQ(says({"render", "two.xyzr", "--frames", "all"}).exit_code, 2);
   EXPECT_EQ(says({"render", "-"}).exit_code, 2);
+  EXPECT_EQ(says({"-"}).err, says({"render", "-"}).err);  // - is standard input, which gives no name
+  EXPECT_NE(says({"-"}).err.find("-o is missing: name the picture"), std::string::npos);
   std::filesystem::current_path(here);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Admits clients by token and origin, hands control on, and keeps commands until the drawing thread takes them.
+// Admits clients by token and origin, passes control on, and keeps commands until the drawing thread takes them.
 #include "app/preview/server/clients.h"
 
 #include <algorithm>

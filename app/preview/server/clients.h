@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who may talk to the preview server, who is connected and controls, and what they ask for on its way to the drawing
+// The clients of the preview server: who may connect, who controls, and their requests on the way to the drawing
 // thread.
 #pragma once
 

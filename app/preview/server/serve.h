@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The preview as a page: for machines without a display.
+// The preview as a web page, for machines without a display.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// GLFW with an EGL context: opening, listening, and saying in one line why there is no window.
+// Opens a GLFW window with an EGL context, collects its events, and says in one line why there is no window.
 #include "app/preview/window/desktop_window.h"
 
 #include <algorithm>

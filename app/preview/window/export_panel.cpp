@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Widgets of exports, and the line that says what became of one.
+// Widgets for exports, and the line that tells their result.
 #include "app/preview/window/export_panel.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the session on its thread, hands commands and replies over, and asks again what is not known yet.
+// Runs the session on its thread, passes commands and replies on, and repeats questions until they are answered.
 #include "app/preview/window/session_link.h"
 
 #include <algorithm>

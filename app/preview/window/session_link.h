@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The session behind the window: on a thread of its own, commands that wait for replies, and questions repeated until
-// answered.
+// The session of a window: on a thread of its own, with commands that wait for replies and questions that are repeated
+// until answered.
 #pragma once
 
 #include <chrono>

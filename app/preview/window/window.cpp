@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The loop of the window: what was done becomes commands, what came back becomes a picture; else it sleeps.
+// The loop of the window: turns events into commands and shows the pictures that come back; else it sleeps.
 #include "app/preview/window/window.h"
 
 #include <algorithm>

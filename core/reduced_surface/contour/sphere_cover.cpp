@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The vertices of a twice subdivided icosahedron as watched directions; sums of angles as products of cosines.
+// Watches the vertices of a twice subdivided icosahedron, and tests sums of angles by products of cosines.
 #include "core/reduced_surface/contour/sphere_cover.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exhaustive enumeration of RS edges, atom by atom in parallel (contour build-up: Totrov & Abagyan 1996).
+// Enumerates all RS edges, atom by atom in parallel (contour build-up: Totrov & Abagyan 1996).
 #include "core/reduced_surface/cpu/exhaustive.h"
 
 #include <algorithm>

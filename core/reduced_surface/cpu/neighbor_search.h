@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which balls overlap a ball: those of a grid's cells around it, tested many at once.
+// Finds the balls that overlap a ball: tests those of the grid's cells around it, many at once.
 #pragma once
 
 #include <cstddef>

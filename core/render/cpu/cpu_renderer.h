@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures of computed surfaces made by the CPU alone, for files and for faces that ask what a pixel shows.
+// Pictures of computed surfaces made by the CPU alone, for files and for previews that ask what a pixel shows.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The inner loops of pictures on the CPU, compiled for vectors of several widths; what they read and write.
+// Declares the inner loops of pictures on the CPU, compiled for vectors of several widths, and their data.
 #pragma once
 
 #include <bit>

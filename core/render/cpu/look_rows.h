@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shade, air and ink on rows of pixels in packets; included by lanes_*.cpp alone.
+// Ambient occlusion, depth cueing and silhouettes on rows of pixels in packets; included by lanes_*.cpp alone.
 #pragma once
 
 #include "core/render/cpu/lane_kernels.h"

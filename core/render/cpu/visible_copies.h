@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a block of a picture shows of many copies of surfaces, found without ever having all of them in memory.
+// Finds what a block of a picture shows of many copies of surfaces, without holding all of them in memory.
 //
 // First the atoms are drawn, as balls that no ray goes through. Then patches that may show in front of them are moved
 // and packed, copy after copy from front to back; when there are many they are cast, and whatever no ray shows is

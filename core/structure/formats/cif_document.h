@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one place where CIF text is parsed, by gemmi.
+// Parses CIF text with gemmi, at this one place.
 #pragma once
 
 #include <gemmi/cifdoc.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chooses the reader, then decides atom by atom what is used, and keeps the account.
+// Chooses the reader, decides for each atom whether it is used, and counts the decisions.
 #include "core/structure/formats/read_structure.h"
 
 #include <algorithm>

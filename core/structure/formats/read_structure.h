@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a file name to the atoms of a surface: format by content, one model, one alternate location, no water, no ions.
+// Reads the atoms of a surface from a file: format by content, one model, one alternate location, no water, no ions.
 #pragma once
 
 #include <memory>

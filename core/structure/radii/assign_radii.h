@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which radius each atom gets: tables and sets in their order, overrides, and the account of it.
+// Gives each atom its radius: by tables, sets and overrides in their order, with an account of where each came from.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Looks radii up by name, from the exact one to the general; a name walks a pattern in all ways at once.
+// Looks radii up by name, from the exact one to the general; patterns are matched in all ways at once.
 #include "core/structure/radii/radii_file.h"
 
 #include <cctype>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tells files of radii apart and reads them: lines of an atom or pattern each, and CHARMM's topologies with parameters.
+// Recognizes and reads files of radii: one atom or pattern per line, and CHARMM's topologies with parameters.
 
 #include <algorithm>
 #include <array>

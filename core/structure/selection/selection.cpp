@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Evaluates understood selections: each step over all atoms at once, sets on a stack.
+// Evaluates parsed selections: each step for all atoms at once, with sets on a stack.
 #include "core/structure/selection/selection.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sets of atoms by expression, in the words that users of PyMOL, VMD, MDAnalysis and gmx know.
+// Sets of atoms by expression, in the words that users of PyMOL, VMD, MDAnalysis and GROMACS know.
 #pragma once
 
 #include <memory>

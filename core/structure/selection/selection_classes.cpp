@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Residue by residue where the answer depends on its other atoms, else atom by atom.
+// Classifies atoms residue by residue where the answer depends on the other atoms, else atom by atom.
 #include "core/structure/selection/selection_classes.h"
 
 #include <algorithm>

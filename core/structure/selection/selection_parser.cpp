@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Understands selections by recursive descent; the result is a flat list, so only brackets and prefixes nest.
+// Parses selections by recursive descent into a flat list, so that only brackets and prefixes nest.
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/structure/selection/foreign_selections.h"
 #include "core/structure/selection/selection.h"
 #include "core/structure/selection/selection_lexer.h"
 #include "core/structure/selection/selection_steps.h"
@@ -145,6 +146,7 @@ class Parser {
   [[noreturn]] void refuse_unknown() const {
     if (token().kind == TokenKind::end) fail("a selection is missing at the end");
     if (token().kind != TokenKind::word) fail(fmt::format("a selection is missing before {}", in_quotes(token().text)));
+    if (const std::string advice = advice_on_foreign_selection(token().text); !advice.empty()) fail(advice);
     const std::string_view nearest = nearest_selection_word(token().text);
     fail(fmt::format("{} is not a selection keyword{}", in_quotes(token().text),
                      nearest.empty() ? std::string("; see meniscus help selections")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Walks from frame to frame, and keeps what it found beside a checksum.
+// Finds the frames of a file one after another, and stores their places with a checksum.
 #include "core/trajectory/formats/frame_index.h"
 
 #include <algorithm>

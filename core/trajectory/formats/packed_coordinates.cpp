@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bit stream of XTC: three whole numbers in one, in as few bits as their product needs.
+// Decodes the bit stream of XTC: three whole numbers in one, in as few bits as their product needs.
 #include "core/trajectory/formats/packed_coordinates.h"
 
 #include <bit>

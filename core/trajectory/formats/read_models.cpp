@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The models of a structure file (PDB, mmCIF, GRO, XYZ, ...) as the frames of a trajectory, found without parsing
-// atoms.
+// Reads the models of a structure file (PDB, mmCIF, GRO, XYZ, ...) as frames of a trajectory, which it finds without
+// parsing atoms.
 
 #include <algorithm>
 #include <array>
