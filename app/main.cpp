@@ -25,18 +25,18 @@
 namespace meniscus {
 namespace {
 
-constexpr const char* kExamples = R"(  meniscus info 1tii.pdb                          what the file holds
+constexpr const char* kExamples = R"(  meniscus info 1tii.pdb                          what the file contains
   meniscus surface 1tii.pdb                       area, volume, cavities; --json, --csv for programs
   meniscus pockets 1tii.pdb                       pockets, tunnels, cavities
   meniscus render 1tii.pdb -o 1tii.png            a picture
-  meniscus preview 1tii.pdb --serve               look at it while it changes
+  meniscus preview 1tii.pdb --serve               a preview in the browser
   meniscus export povray 1tii.pdb -o 1tii         a POV-Ray scene; blender, mitsuba, pbrt likewise
   meniscus surface 1tii.pdb --select 'chain A'    only some atoms; meniscus help selections
   meniscus COMMAND --help                         everything about one command)";
 
 constexpr const char* kExitCodesInShort = R"(Exit codes:
   0 done  1 internal error  2 wrong usage  3 bad input  4 no usable GPU  5 too large
-  6 output not written  7 surface not closed  8 trajectory cut short  9 stopped, to be resumed
+  6 output not written  7 surface not closed  8 trajectory cut short  9 stopped, run it again
 )";
 
 constexpr std::size_t kHelpWidth = 100;

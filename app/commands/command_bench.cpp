@@ -151,7 +151,7 @@ void run(BenchCommand& command) {
 
 void add_bench(CLI::App& command) {
   describe(command,
-           "  meniscus bench 1ubq.pdb 1tii.pdb            a row each: stages, total, surfaces per second\n"
+           "  meniscus bench 1ubq.pdb 1tii.pdb            one row per file: stages, total, surfaces per second\n"
            "  meniscus bench 6zu5.cif --device cpu --threads 1 --runs 20\n"
            "  meniscus bench --paper 1crn.pdb 1vis.pdb 1tii.pdb   frames as in the paper, beside its own figures",
            "All times are wall-clock milliseconds: the medians of the runs, after one run that is not counted. They "

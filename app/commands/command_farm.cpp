@@ -88,7 +88,7 @@ void bundle(BundleCommand command) {
   const farm::MadeBundle made = farm::make_bundle(options, bundled);
   for (const std::string& note : made.notes) std::cerr << "meniscus: note: " << escaped(note) << "\n";
   const farm::Chunking& chunking = made.bundle.chunking;
-  fmt::print(std::cout, "{}: {} frames in {} {} a step{}{}\n", escaped(command.folder),
+  fmt::print(std::cout, "{}: {} frames in {} {} per step{}{}\n", escaped(command.folder),
              with_thousands(made.bundle.frames.size()), chunking.count, chunking.count == 1 ? "task" : "tasks",
              chunking.seconds_per_frame ? fmt::format(", {:.3g} s a frame here", *chunking.seconds_per_frame) : "",
              made.was_there ? "; it was there already" : "");

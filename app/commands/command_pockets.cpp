@@ -73,9 +73,9 @@ void add_pockets(CLI::App& command) {
       "  meniscus pockets 1hpv.pdb                         a table, and where the ligand lies\n"
       "  meniscus pockets 1hpv.pdb --json > pockets.json   one JSON object\n"
       "  meniscus pockets 1hpv.pdb --csv pockets.csv --mesh pockets.ply    rows, and solids in colours\n"
-      "  meniscus pockets 1hpv.pdb --large-probe 6 --trim 0   shallower ones too\n"
+      "  meniscus pockets 1hpv.pdb --large-probe 6 --trim 0   shallower ones, too\n"
       "  meniscus pockets 1ake.cif --ligand 'resname AP5'  only these atoms are taken out\n"
-      "  meniscus pockets adk.psf adk.dcd --superpose 'name CA' --csv run.csv   each pocket through time\n"
+      "  meniscus pockets adk.psf adk.dcd --superpose 'name CA' --csv run.csv   each pocket over time\n"
       "  meniscus pockets 1hpv.pdb --figure lining.json; meniscus lining.json -o lining.png   the atoms around, by "
       "rank",
       "A pocket is a connected region that the probe of --probe can fill, inside the solid that --large-probe rolls "

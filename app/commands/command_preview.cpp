@@ -64,7 +64,7 @@ Shown read_run(PreviewCommand& command) {
     return {std::move(scene), read_and_tell(reading), {}, {}};
   }
   if (scene.molecule.division.instances != InstanceMode::none)
-    throw UsageError("--instances: copies in the preview stand still; leave it out, or the frames");
+    throw UsageError("--instances: copies in the preview do not move; leave it out, or the frames");
   MoleculeRequest molecule = scene.molecule;
   settle_selections(molecule, scene.frames, {.figure = &scene.figure, .view = &scene.picture});
   const auto frames = std::make_shared<FrameRun>(molecule, scene.frames);
@@ -225,7 +225,7 @@ void add_preview(CLI::App& command) {
            "  meniscus preview 1tii.pdb --serve                   prints an address to open in a browser\n"
            "  meniscus preview 1tii.pdb --serve 8080 --color chain\n"
            "  meniscus preview 1tii.pdb --color chain --tube polymer --opacity 0.3 --preset publication\n"
-           "  meniscus preview --scene fig.json                   the figure that a scene file says\n"
+           "  meniscus preview --scene fig.json                   the figure of a scene file\n"
            "  meniscus preview 1tii.pdb --record session.jsonl    what you do, for --commands\n"
            "  meniscus preview adk.psf --trajectory adk.dcd --superpose 'name CA'   blank plays it",
            "Each model of FILE is a frame, or each frame of --trajectory. A window needs a display with OpenGL 4.5 "

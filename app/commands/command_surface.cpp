@@ -73,14 +73,13 @@ void add_surface(CLI::App& command) {
       "  meniscus surface 1tii.pdb --csv atoms.csv --csv-residues residues.csv   areas of each\n"
       "  meniscus surface 1tii.pdb --by chain              each chain as if it were alone\n"
       "  meniscus surface 1tii.pdb --select 'chain D' --context 'chain E'   area of D, and what E buries of it\n"
-      "  meniscus surface 1tii.pdb --cavities only         cavities, and what lies in them\n"
+      "  meniscus surface 1tii.pdb --cavities only         cavities, and what is inside them\n"
       "  meniscus surface 1tii.pdb --gradients forces.csv  derivatives of areas and volumes by positions\n"
       "  meniscus surface 1tii.pdb --surface sas --csv -   solvent-accessible areas of atoms on standard output\n"
       "  meniscus surface balls.xyzr --surface vdw         van der Waals surface, radii of the file\n"
-      "  meniscus surface adk.psf adk.dcd --csv-series run.csv --plot run.svg   a row a frame, curves\n"
-      "  meniscus surface adk.psf adk.dcd --superpose 'name CA' --csv-cavities cavities.csv   each cavity through "
-      "time\n"
-      "  meniscus surface adk.psf adk.dcd --json                a line of JSON a frame",
+      "  meniscus surface adk.psf adk.dcd --csv-series run.csv --plot run.svg   one row per frame, curves\n"
+      "  meniscus surface adk.psf adk.dcd --superpose 'name CA' --csv-cavities cavities.csv   each cavity over time\n"
+      "  meniscus surface adk.psf adk.dcd --json                one line of JSON per frame",
       "The surface is that of the polymers and ligands of the first model, with the most occupied conformer of "
       "each\nresidue; water and free ions are left out. A line reports what was read, left out and used. Radii are "
       "Bondi's\n(`meniscus info` lists them), or the file's own (PQR, XYZR). The surface is closed and includes all "

@@ -44,7 +44,7 @@ void export_atoms(const SceneCommand& asked) {
     run = std::make_unique<FrameRun>(command.scene.molecule, command.scene.frames);
     if (run->atoms_change())
       throw UsageError(
-          "export atoms: the file has the same atoms in all frames, but --select chooses anew in each; add "
+          "export atoms: the file has the same atoms in all frames, but --select chooses others in each; add "
           "--select-once to keep those of the first");
   }
   Molecule molecule = first_molecule(command, run.get());

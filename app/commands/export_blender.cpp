@@ -251,12 +251,12 @@ void export_to_blender(const SceneCommand& asked) {
 }  // namespace
 
 void add_export_blender(CLI::App& command) {
-  describe(
-      command,
-      "  meniscus export blender 1tii.pdb -o 1tii.mns\n"
-      "  meniscus export blender 1tii.pdb -o 1tii.mns --camera camera.json --tolerance-pixels 0.25 "
-      "--size 1920x1080\n"
-      "  meniscus export blender adk.psf --trajectory adk.dcd --frames all -o adk   a file a frame, and a manifest");
+  describe(command,
+           "  meniscus export blender 1tii.pdb -o 1tii.mns\n"
+           "  meniscus export blender 1tii.pdb -o 1tii.mns --camera camera.json --tolerance-pixels 0.25 "
+           "--size 1920x1080\n"
+           "  meniscus export blender adk.psf --trajectory adk.dcd --frames all -o adk   one file per frame, and a "
+           "manifest");
   auto declared = std::make_shared<DeclaredCommand<>>(command, for_blender);
   declared->options.describe_output(".mns file to write; for frames, a folder");
   declared->options.option("mesh.attributes")

@@ -178,7 +178,7 @@ void add_export_mesh(CLI::App& command) {
       "  meniscus export mesh 1tii.pdb -o 1tii.3mf --even --tolerance 0.1\n"
       "  meniscus export mesh 1tii.pdb -o 1tii.vtp --attributes mean_curvature,hydrophobicity\n"
       "  meniscus export mesh 1tii.pdb -o part_#.stl --by component\n"
-      "  meniscus export mesh adk.psf adk.dcd --frames 0-90 -o adk_###.ply   a file a frame",
+      "  meniscus export mesh adk.psf adk.dcd --frames 0-90 -o adk_###.ply   one file per frame",
       "Each part of --by is an object of its own in 3MF, OBJ and GLB; with a # in the name of the output it is a file "
       "of\nits own, in any format. The default tolerance is half a pixel of --camera; without a camera it is 0.01 Å.");
   declare(command, "");

@@ -169,7 +169,7 @@ void add_export_mitsuba(CLI::App& command) {
   describe(command,
            "  meniscus export mitsuba 1tii.pdb -o 1tii --color chain     then: cd 1tii; mitsuba surface.xml\n"
            "  meniscus export mitsuba 1tii.pdb -o glass --material glass --size 1920x1080\n"
-           "  meniscus export mitsuba adk.psf --trajectory adk.dcd --frames 0-90 -o adk     a scene a frame");
+           "  meniscus export mitsuba adk.psf --trajectory adk.dcd --frames 0-90 -o adk     one scene per frame");
   declare(command, path_tracers::Renderer::mitsuba);
 }
 
@@ -177,7 +177,7 @@ void add_export_pbrt(CLI::App& command) {
   describe(command,
            "  meniscus export pbrt 1tii.pdb -o 1tii --color chain     then: cd 1tii; pbrt surface.pbrt\n"
            "  meniscus export pbrt 1tii.pdb -o wax --material wax --size 1920x1080\n"
-           "  meniscus export pbrt adk.psf --trajectory adk.dcd --frames 0-90 -o adk     a scene a frame");
+           "  meniscus export pbrt adk.psf --trajectory adk.dcd --frames 0-90 -o adk     one scene per frame");
   declare(command, path_tracers::Renderer::pbrt);
 }
 

@@ -85,10 +85,9 @@ std::vector<ReducedComponentSize> ChosenSurface::sizes() const {
 
 std::vector<AtomAreas> ChosenSurface::areas() const {
   if (chosen_.size() * computed_.surface.atoms.size() > kMostAreas)
-    throw CapacityError(
-        fmt::format("the areas of {} spheres in {} components are too many for one table; leave -af or "
-                    "-all_components away",
-                    computed_.surface.atoms.size(), chosen_.size()));
+    throw CapacityError(fmt::format(
+        "the areas of {} spheres in {} components are too many for one table; leave -af or -all_components out",
+        computed_.surface.atoms.size(), chosen_.size()));
   // Components that nobody asked for are one group, behind the others.
   const auto others = static_cast<std::uint32_t>(chosen_.size());
   std::vector<std::uint32_t> group(computed_.components.count, others);

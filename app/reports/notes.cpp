@@ -97,7 +97,7 @@ void tell_built(const SceneCommand& command, const Molecule& molecule) {
   say(command, fmt::format("surface on {} in {:.1f} ms", molecule.device, total_ms(molecule.stages)));
   if (const double grown_by = change_of_radii(molecule.objects).grown_by; grown_by > 0)
     say(command,
-        fmt::format("spheres that meet in one point were told apart by radii grown by up to {:.2g} Å", grown_by));
+        fmt::format("spheres that meet in one point were separated by radii grown by up to {:.2g} Å", grown_by));
 }
 
 Molecule build_and_tell(const SceneCommand& command, Structure structure) {

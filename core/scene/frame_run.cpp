@@ -369,8 +369,8 @@ std::optional<RunFrame> FrameRun::next() {
 std::vector<double> fluctuations(FrameRun& run) {
   if (run.atoms_change())
     throw RequestError(
-        "--color rmsf needs the same atoms in all frames, but --select chooses anew in each; add --select-once to keep "
-        "those of the first");
+        "--color rmsf needs the same atoms in all frames, but --select chooses others in each; add --select-once to "
+        "keep those of the first");
   const std::size_t count = run.structure().atoms.size();
   std::vector<glm::dvec3> mean(count, glm::dvec3(0.0));
   std::vector<double> squares(count, 0.0);  // of distances from the mean so far (Welford 1962)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The container of .mns files: a header and named arrays; and the arrays that tell of atoms.
+// The container of .mns files: a header and named arrays; and the arrays that describe atoms.
 #pragma once
 
 #include <cstddef>

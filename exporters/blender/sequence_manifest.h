@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run writes beside its .mns files: a manifest of its frames, and the atoms in each frame as one file of arrays.
+// Files of a run beside its .mns files: a manifest of its frames, and the atoms of each frame as one file of arrays.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Curvatures go to vertices, areas of patches to triangles, areas of atoms to atoms.
+// Assigns curvatures to vertices, areas of patches to triangles, and areas of atoms to atoms.
 #include "exporters/blender/surface_numbers.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a surface measures at its vertices, patches and atoms, for files for Blender.
+// Numbers of a surface at its vertices, patches and atoms, for files for Blender.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes the mesh formats that are lines of text: OBJ, OFF, smesh, DMS, PLY as text, and scripts for PyMOL.
+// Writes the text mesh formats: OBJ, OFF, smesh, DMS, PLY as text, and scripts for PyMOL.
 #include <algorithm>
 #include <cctype>
 #include <cmath>

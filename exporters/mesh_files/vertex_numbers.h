@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The numbers that vertices of a mesh may have in files: of the surface there, of its atom, of its residue.
+// Numbers that vertices of a mesh may have in files: of the surface there, of its atom, of its residue.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What scenes of all formats share: lights of the view, numbers of materials, and numbers as text.
+// What scenes of all formats share: lights, numbers of materials, and numbers as text.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes things of a scene of surfaces and shapes, and writes text and meshes, all or none.
+// Makes scene objects of surfaces and shapes, and writes text and meshes, all or none.
 #include "exporters/path_tracers/scene_folder.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Names of molecules as comments of a scene: such names only as can do nothing there.
+// Names of molecules as comments of a scene, restricted to those that can do nothing there.
 #pragma once
 
 #include <cstdint>

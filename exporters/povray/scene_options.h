@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scene shall be, and what was written of it.
+// The options of a scene, and the report of what was written.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What scenes of one surface and of a run have to look at before and after: names, extents, things worth a note.
+// Checks that scenes of one surface and of a run make before and after they are written: names, extents, notes.
 #pragma once
 
 #include <span>

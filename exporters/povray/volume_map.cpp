@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Puts a grid where POV-Ray's density files stand, and its colours where POV-Ray's colour maps have them.
+// Writes a grid as a density file of POV-Ray, and its colours as a colour map of POV-Ray.
 #include "exporters/povray/volume_map.h"
 
 #include <algorithm>

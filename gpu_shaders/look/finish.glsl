@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shade, air and ink: how they change the colour of a sample.
+// Shade, depth cueing and silhouettes: how they change the colour of a sample.
 //
 // GLSL and, as the body of a struct, C++: see view_space.glsl. The includer provides `params` of FinishParameters and
 // visibility_at() of a pixel that met something.

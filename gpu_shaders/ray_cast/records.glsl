@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What crosses the bus of the ray caster, for GLSL and C++: a bound for each primitive, rows of four floats, hits.
+// Data that the host and the ray caster exchange, for GLSL and C++: a bound for each primitive, rows of four floats,
+// hits.
 //
 // Common subset of GLSL and C++; in C++ the includer provides vec3, vec4 and uint.
 // All positions are relative to the pivot, a point in the middle of the picture close to what it shows, so that single

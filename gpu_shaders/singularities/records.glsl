@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What crosses the bus of this stage, for GLSL and C++ (core/gpu/kernel_records.h).
+// Data that the host and the kernels of this stage exchange, for GLSL and C++ (core/gpu/kernel_records.h).
 #ifndef MENISCUS_SINGULARITIES_RECORDS_GLSL
 #define MENISCUS_SINGULARITIES_RECORDS_GLSL
 

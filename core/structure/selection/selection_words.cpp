@@ -104,22 +104,22 @@ constexpr std::string_view kExamples = R"(Examples:
 
 constexpr std::string_view kRules = R"(
 Rules:
-  Keywords are read in any case; values (chains, names) as they stand, only elements in any case.
-  Lists of values: A B C, A,B,C or A+B+C. * stands for any letters and ? for one; quotes ("..." or
-  '...') take a value as it is, and are needed for a value that is also a keyword.
-  Ranges of residues follow number and insertion code: 52 < 52A < 53.
-  A set after within, around, byres, bychain or same ... as stands in parentheses where and/or follows.
-  SET within 5 of (EXPR) is what of SET is near it. (EXPR) around 5 and (EXPR) expand 5 work as in PyMOL.
-  Distances are exact and between the atoms of the file, without periodic images. In a run of frames
-  within, x, y, z, helix, strand and coil mean in each frame what they mean there; --select-once keeps
-  what they mean in its first.
-  Values that an atom lacks (B-factor, charge) meet no comparison.
+  Keywords and elements may be in any case; chains and names are case-sensitive.
+  Lists of values: A B C, A,B,C or A+B+C. * stands for any letters and ? for one. Quotes ("..." or
+  '...') take a value literally; they are needed for a value that is also a keyword.
+  Ranges of residues are ordered by number and insertion code: 52 < 52A < 53.
+  After within, around, byres, bychain or same ... as, put EXPR in parentheses if and/or follows.
+  SET within 5 of (EXPR): the atoms of SET near EXPR. (EXPR) around 5 and (EXPR) expand 5 work as in PyMOL.
+  Distances are exact, between the atoms of the file, without periodic images. In a run of frames
+  within, x, y, z, helix, strand and coil are evaluated in each frame; with --select-once in the first
+  frame only.
+  An atom without a value (B-factor, charge) never matches a comparison.
 
 Water and free ions:
-  They take part in the expression (within 5 of water works), but are left out of the surface even where
-  chain A or all selects them, unless --keep-water or --keep-ions is given or the expression names them:
-  water by the keyword or its residue name; ions by the keyword, residue name, element or atom name (a
-  name that other atoms of the file have too, as CA, does not name an ion). Then the expression decides.
+  Expressions see them (within 5 of water works), but the surface leaves them out even if chain A or all
+  selects them, unless --keep-water or --keep-ions is given or the expression names them: water by the
+  keyword or its residue name; ions by the keyword, residue name, element or atom name (a name that other
+  atoms of the file also have, such as CA, does not name an ion). Then the expression decides.
 )";
 
 }  // namespace

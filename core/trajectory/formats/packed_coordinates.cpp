@@ -199,7 +199,7 @@ std::string unpack(const PackedCoordinates& packed, std::span<glm::dvec3> positi
     if (class_change != 0) steps.set_small_class(steps.small_class() + class_change);
   }
   if (steps.bits().bytes_left() > kMostBytesLeft)
-    return fmt::format("is damaged: {} bytes are left behind its last atom", steps.bits().bytes_left());
+    return fmt::format("is damaged: {} bytes are left after its last atom", steps.bits().bytes_left());
   return {};
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Memory that callers pass, looked at here before it is followed: pointers, counts, strides, and structs of other
-// versions' sizes.
+// Memory that callers pass, checked before it is used: pointers, counts, strides, and structs of other versions' sizes.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pockets between the atoms of a surface, as tables.
+// Finds pockets between the atoms of a surface, and hands them out as tables.
 #include <cstdint>
 #include <memory>
 #include <string>

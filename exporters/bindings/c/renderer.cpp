@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ray casts pictures on the CPU, or on GL in a context of their own.
+// Ray casts pictures on the CPU, or on GL in a context of its own.
 #include "exporters/bindings/c/renderer.h"
 
 #include <string_view>

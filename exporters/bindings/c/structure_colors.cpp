@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Takes the schemes that colour atoms by what their file says of them.
+// Colours atoms by the schemes that need the data of their file.
 #include "exporters/bindings/c/structure_colors.h"
 
 #include <algorithm>

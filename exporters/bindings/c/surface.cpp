@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reading a surface: its numbers, its tables as they stand in memory, distances to it.
+// Reads a surface: its numbers, its tables without a copy, and distances to it.
 #include "exporters/bindings/c/surface.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Arrays between numpy and the library, without copies where that can be."""
+"""Arrays between numpy and the library, without copies where possible."""
 from __future__ import annotations
 
 import ctypes

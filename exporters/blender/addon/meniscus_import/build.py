@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Turns a surface that mns_reader has checked into Blender data. Whole or not at all: on an error everything is removed."""
+"""Turns a checked surface into Blender data, completely or not at all: on an error everything is removed. Whole or not
+at all: on an error everything is removed."""
 
 import math
 import os

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The materials of imported surfaces: known by what they are for, shared by all imports, kept as they were edited."""
+"""The materials of imported surfaces: found by their purpose, shared by all imports, kept as a user edited them."""
 
 import bpy
 

@@ -116,7 +116,7 @@ def read_arrays(path):
     for entry in entries:
         name, array = _read_array(path, data, start, entry)
         if name in arrays:
-            raise MnsError(f"{path}: array {name} comes twice")
+            raise MnsError(f"{path}: array {name} appears twice")
         arrays[name] = array
     return header, arrays
 
@@ -274,7 +274,7 @@ def _check_caps(path, surface):
     except (KeyError, TypeError, AttributeError):
         good = False
     if not good:
-        raise MnsError(f"{path}: what the header says of caps makes no sense")
+        raise MnsError(f"{path}: what the header says about caps is not valid")
     cap, plane = surface["mesh.kind"] == CAP, surface.get("mesh.cap_plane")
     if cap.any() and (plane is None or plane.dtype.kind not in "iu" or int(plane[cap].max()) >= len(planes)):
         raise MnsError(f"{path}: a cap lies on no plane")

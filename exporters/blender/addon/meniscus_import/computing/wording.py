@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Puts messages of the program and of libmeniscus into the words of the panel: an artist has fields, not options."""
+"""Rewrites messages of the program and of libmeniscus in the words of the panel, which has fields instead of
+options."""
 
 import re
 
