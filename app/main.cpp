@@ -106,7 +106,7 @@ class ManualFormatter : public CLI::Formatter {
  private:
   static constexpr std::size_t kRarePlace = 100;
 
-  /// Of a heading; those that no list has stand between.
+  /// Of a heading; those in no list are between.
   static std::size_t place_of(const std::string& heading) {
     const auto first = std::ranges::find(kFirstHeadings, heading), rare = std::ranges::find(kRareHeadings, heading);
     if (rare != kRareHeadings.end()) return kRarePlace + static_cast<std::size_t>(rare - kRareHeadings.begin());

@@ -38,7 +38,7 @@ namespace {
 constexpr std::size_t kFaultsShown = 10;
 
 struct BundleCommand {
-  std::vector<std::string> words;  // behind --
+  std::vector<std::string> words;  // after --
   farm::BundleOptions options;
   std::string folder, engines = "make,slurm,openjd,flamenco", film, addon = addon_folder();
   double frames_per_second = 25.0;

@@ -46,7 +46,7 @@ std::string host_name() {
   return ::gethostname(name, sizeof name - 1) == 0 && name[0] ? escaped(name) : "HOST";
 }
 
-/// A molecule, where its atoms stand at the frames of a trajectory, if there is one, and how it is seen at first.
+/// A molecule, where its atoms are at the frames of a trajectory, if there is one, and how it is seen at first.
 struct Shown {
   Scene scene;  ///< selections settled, colours measured
   Structure structure;
@@ -97,7 +97,7 @@ Shown read_inputs(PreviewCommand& command) {
   color = color_of(shown.scene.molecule);
   require_previewed(color);
   if (!command.aims) return shown;
-  // What stands beside the surface counts; a scene's picture is framed as render frames it.
+  // What is drawn beside the surface counts; a scene's picture is framed as render frames it.
   const FigureRequest& figure = shown.scene.figure;
   const bool reads_again = !figure.representations.empty() || !figure.objects.empty();
   shown.camera =

@@ -99,7 +99,7 @@ void run(const WorkCommand& command) {
   const farm::Bundle bundle = farm::read_bundle(command.folder);
   const farm::Assignment assignment = assignment_of(command, bundle);
   const farm::Workplace place = workplace_of(command);
-  // Software GL takes as many threads as the machine has cores unless told.
+  // Software GL takes as many threads as the machine has cores unless set.
   if (command.threads > 0) ::setenv("LP_NUM_THREADS", std::to_string(command.threads).c_str(), 0);
   const StopHandler handler(
       [&] {

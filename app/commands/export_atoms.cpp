@@ -18,7 +18,7 @@
 namespace meniscus {
 namespace {
 
-// Where the atoms of merged() objects stand, with the positions of another frame.
+// Where the atoms of merged() objects are, with the positions of another frame.
 std::vector<glm::dvec3> placed_atoms(std::span<const SurfaceObject> objects, const Structure& structure) {
   std::vector<glm::dvec3> positions;
   for (const SurfaceObject& object : objects)

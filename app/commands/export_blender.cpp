@@ -99,7 +99,7 @@ std::vector<blender::MeshedObject> whole_objects(const SceneCommand& command, co
   return objects;
 }
 
-// Meshes of what stands beside the surface with looks of its own, kept in `made`.
+// Meshes of what is drawn beside the surface with looks of its own, kept in `made`.
 void add_more(const SceneCommand& command, const Figure& figure, const Camera& camera, double tolerance,
               std::vector<ShapeObject>& made, std::vector<blender::MeshedObject>& objects) {
   Structure shown;
@@ -175,7 +175,7 @@ struct FigureMeshes {
   std::vector<blender::MeshedObject> objects;
 };
 
-// moving: velocities of atoms, if vertices shall have some. tell: says how many triangles came out.
+// moving: velocities of atoms, if vertices should have some. tell: says how many triangles came out.
 void mesh_figure(const SceneCommand& command, FigureFrame& frame, const blender::CutFile& cut, double tolerance,
                  bool tell, FigureMeshes& made) {
   Molecule& molecule = frame.figure.molecule;

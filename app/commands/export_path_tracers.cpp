@@ -69,7 +69,7 @@ void add_surface(const Scene& asked, std::vector<SurfaceObject> objects, double 
     scene.items.push_back(item_of(object, planes, asked.figure.cap, tolerance, scene.origin));
 }
 
-// What stands beside the surface with looks of its own.
+// What is drawn beside the surface with looks of its own.
 void add_more(const Scene& asked, const Figure& figure, std::span<const Atom> atoms, double tolerance,
               path_tracers::Scene& scene) {
   const std::vector<Ball> balls = placed_balls(figure.molecule.objects);

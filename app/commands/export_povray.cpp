@@ -65,7 +65,7 @@ std::optional<std::vector<povray::SceneColor>> colors_of_run(const Scene& asked,
   return all.colors();
 }
 
-// Of all atoms that are shown, if comments shall tell them.
+// Of all atoms that are shown, if comments should tell them.
 std::vector<std::string> comment_names(const Scene& scene, const Structure& structure) {
   std::vector<std::string> names;
   if (!scene.renderer.comments) return names;
@@ -82,7 +82,7 @@ std::vector<std::string> comment_names(const Scene& scene, const Structure& stru
   return names;
 }
 
-// What stands beside the surface with looks of its own. keeps_empty: those that show nothing have a place, too.
+// What is drawn beside the surface with looks of its own. keeps_empty: those that show nothing have a place, too.
 std::vector<povray::SceneObject> more_objects(const Figure& figure, const FigureRequest& request, const Camera& camera,
                                               std::span<const Ball> balls, bool keeps_empty) {
   std::vector<povray::SceneObject> more;

@@ -92,7 +92,7 @@ class FigureRun {
   std::optional<ViewAim> aim_;
 };
 
-/// Makes one object of several copies. Before planes cut: where they stand, a copy is cut as no other is.
+/// Makes one object of several copies. Before planes cut: where they are, a copy is cut as no other is.
 void settle_copies(std::vector<SurfaceObject>& objects);
 
 /// Throws UsageError if caps would have to show values of a map, which the files do not hold. reason: that sentence.

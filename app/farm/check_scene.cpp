@@ -247,7 +247,7 @@ bool is_scene_file(const std::string& name) {
   return unfinished || std::regex_match(name, known);
 }
 
-/// For an error message: what is no ASCII might not be text at all.
+/// For an error message: what is not ASCII might not be text at all.
 std::string beginning(std::string_view word) {
   constexpr std::size_t kShown = 60;
   std::string text(word.substr(0, kShown));

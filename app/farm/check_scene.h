@@ -9,7 +9,7 @@
 
 namespace meniscus::farm {
 
-/// What stands in scene/. Throws InputError: an entry that is no file of a scene, or a link; a word in a shared file
+/// What is in scene/. Throws InputError: an entry that is not a file of a scene, or a link; a word in a shared file
 /// that this program does not write.
 void check_scene(const std::filesystem::path& folder);
 

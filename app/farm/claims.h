@@ -40,7 +40,7 @@ class Claims {
   /// Whether the frame is this worker's now. False: another that lives has it, or all was given back. Look at its
   /// record again when you have it: another may have made it just before. Throws OutputError.
   bool take(const std::string& step, std::uint64_t frame);
-  /// When its record is written, or when it shall not be made.
+  /// When its record is written, or when it should not be made.
   void give_back(const std::string& step, std::uint64_t frame);
 
   /// Whether another worker that lives has the frame.

@@ -18,7 +18,7 @@ struct CommandOption {
   bool joined = false;               ///< that word is name=value
 };
 
-/// Reads what stands behind FILE. Every word must be a known option or its value: nothing that writes a file, starts a
+/// Reads what is after FILE. Every word must be a known option or its value: nothing that writes a file, starts a
 /// program, or is merely unknown gets through. Throws RequestError for anything else.
 std::vector<CommandOption> read_command_options(const std::vector<std::string>& words);
 

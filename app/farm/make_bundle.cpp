@@ -155,7 +155,7 @@ std::uint64_t peak_memory_of_children() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) / 1024 + 1;
 }
 
-/// Makes the first frame and takes it away again: the farm's machines shall make all of them alike.
+/// Makes the first frame and takes it away again: the farm's machines should make all of them alike.
 void make_trial(const Bundle& bundle, const Staging& staging, Chunking& measured) {
   const StopHandler handler(
       [&] {

@@ -40,7 +40,7 @@ void make_frames(const Bundle& bundle, const Step& step, const Workplace& place,
 /// {"frame":42,"state":"failed","exit":7,"error":"..."}, in the order of the list. `command_for` gives its arguments
 /// for a list of frames; `alone`: that it makes one after another, not several at once. A program that makes several at
 /// once says so before it begins them: {"event":"start","at_once":3}. If a signal ends it, another process goes on
-/// behind the last frame told, with one frame after another, so that it is known which one it was at; if that ends so,
+/// after the last frame told, with one frame after another, so that it is known which one it was at; if that ends so,
 /// too, and at the same frame, the frame has failed, and a third makes the others.
 void make_by_lines(
     const std::function<std::vector<std::string>(const std::vector<std::uint64_t>& frames, bool alone)>& command_for,

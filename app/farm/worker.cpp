@@ -119,7 +119,7 @@ class Worker {
       if (batch.empty()) return;
       begin_ = std::chrono::steady_clock::now();
       first_ = true;
-      log_.take();  // what was said behind the last frame of a batch before
+      log_.take();  // what was said after the last frame of a batch before
       make_frames(bundle_, task.step, place_, batch, listener(task));
     }
   }

@@ -47,7 +47,7 @@ class FilmWriter {
  private:
   void wait();
   void end_pictures();
-  std::string fault() const;  ///< why what the encoder has written is no film; empty if it is one
+  std::string fault() const;  ///< why what the encoder has written is not a film; empty if it is one
 
   OutputFile file_;
   FilmPixels pixels_;

@@ -19,7 +19,7 @@ class LocalSocket {
   LocalSocket(LocalSocket&& other) noexcept : number_(other.number_) { other.number_ = kNone; }
   LocalSocket& operator=(LocalSocket&&) = delete;
 
-  /// Has somebody called within this time?
+  /// Has someone called within this time?
   bool has_caller(int milliseconds) const;
   /// The first that called; what it does not take or send within `seconds` fails.
   std::optional<LocalSocket> caller(int seconds) const;

@@ -50,7 +50,7 @@ constexpr double kLargestProbe = 100.0, kLargestCavity = 1e9;   // Å, Å³
 constexpr double kSmallestScale = 0.1, kLargestScale = 20.0;    // points per Å
 constexpr std::size_t kLargestSettings = std::size_t{1} << 20;  // bytes
 
-/// One line's value, and where it stands.
+/// One line's value, and where it is.
 struct Value {
   const TextFile& file;
   std::size_t line;

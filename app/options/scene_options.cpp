@@ -110,7 +110,7 @@ SceneOptions::SceneOptions(CLI::App& command, CommandBit bit, SceneCommand& into
   if ((bit & kForRuns) != 0) into.scene.frames.index_folder = cache_folder();
 }
 
-/// Those that say how the work is done; and trajectories that stand behind FILE.
+/// Those that say how the work is done; and trajectories that are after FILE.
 void SceneOptions::add_own_option(const Property& property) {
   PropertyOptions options(command_);
   const std::string_view key = property.key;

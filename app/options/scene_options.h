@@ -70,7 +70,7 @@ class SceneOptions {
 
   /// Sets the values of the scene: those of the scene file, then those of the command line; and completes it. named:
   /// words of an earlier command line, whose files the scene may name, too. Throws UsageError, CLI::ParseError,
-  /// SelectionError; InputError for a file that is no scene or names files that it may not.
+  /// SelectionError; InputError for a file that is not a scene or names files that it may not.
   void take(const std::vector<std::string>& named = {});
 
   /// Whether the command line or the scene file has a value of this property.

@@ -128,7 +128,7 @@ void print_reply(const std::string& path, std::size_t line, const nlohmann::json
 
 namespace {
 
-/// A value as it may stand in a message: short, and in one line.
+/// A value as it may be in a message: short, and in one line.
 std::string shown(const nlohmann::json& value) {
   constexpr std::size_t kLongest = 60;
   return shortened(value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace), kLongest);

@@ -86,7 +86,7 @@ std::vector<Ball> sampled_balls(const TrajectoryPositions& trajectory, const Str
   return sampled;
 }
 
-/// before: beside the surface so far, of which only colours are changed where no shapes are to be made anew.
+/// before: beside the surface so far, of which only colours are changed where no shapes are to be made again.
 std::shared_ptr<const BesideSurface> beside_of(const Structure& marked, const PreviewFigure& figure, bool only_colors,
                                                const std::shared_ptr<const BesideSurface>& before) {
   const ColorScheme scheme = figure.told_scheme();

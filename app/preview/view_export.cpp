@@ -132,7 +132,7 @@ nlohmann::json ExportJob::told() {
 
 namespace {
 
-/// The complete surface, of copies one for each group of atoms that stand together, and what computed it.
+/// The complete surface, of copies one for each group of atoms that are together, and what computed it.
 std::pair<std::vector<SurfaceObject>, std::string> complete_surfaces(const ExportedView& view,
                                                                      const ExportWatch& watch) {
   SurfaceRequest request;

@@ -30,7 +30,7 @@
 namespace meniscus {
 
 /// Told of an export while it is made: the word for its stage and the share of that which is done, from 0 to 1. What it
-/// throws ends the export, which leaves nothing behind.
+/// throws ends the export, which leaves nothing.
 using ExportWatch = std::function<void(const char* stage, double share)>;
 
 /// Works on a thread of its own from the beginning. The other functions are for one thread.

@@ -9,7 +9,7 @@
 
 namespace meniscus {
 
-/// What stands in the margins of every page.
+/// What is in the margins of every page.
 struct ManMargins {
   std::string date;     ///< 2026-11-22
   std::string version;  ///< "meniscus 0.1.0"

@@ -10,7 +10,7 @@ namespace meniscus {
 std::string version_line();
 
 /// That, and lines about compiler, system, libraries as they are loaded, and the GL driver that auto would take. What
-/// cannot be found is told in its line. Reads CUDA_VISIBLE_DEVICES like --device.
+/// cannot be found is reported in its line. Reads CUDA_VISIBLE_DEVICES like --device.
 std::string version_report();
 
 }  // namespace meniscus

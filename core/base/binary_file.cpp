@@ -40,7 +40,7 @@ std::string advice_on_pdb_code(std::string_view word) {
 BinaryFile::BinaryFile(const std::string& path, Contents contents) : path_(path) {
   const bool atoms = contents == Contents::atoms;
   const std::filesystem::path file = path_of_text(path);
-  // Asked before opening, because to open a pipe waits for somebody who writes to it.
+  // Asked before opening, because to open a pipe waits for someone who writes to it.
   std::optional<State> state = system_file::state_of(file);
   if (!state) unreadable(path, errno);
   if (state->kind == State::Kind::folder)

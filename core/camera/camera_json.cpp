@@ -24,7 +24,7 @@ constexpr double kLargestFrame = 1e9;
 
 using Json = nlohmann::ordered_json;
 
-/// A value as it may stand in a message: short, and without control characters.
+/// A value as it may be in a message: short, and without control characters.
 std::string shown(const Json& value) {
   constexpr std::size_t kLongest = 100;
   return shortened(value.dump(), kLongest);

@@ -72,7 +72,7 @@ class ForeignReader {
     return result;
   }
 
-  /// Rounded as it was written; anything else is no rotation.
+  /// Rounded as it was written; anything else is not a rotation.
   glm::dmat3 rotation(const glm::dmat3& m, const char* of) const {
     constexpr double kRounding = 1e-3;
     const glm::dmat3 product = glm::transpose(m) * m;

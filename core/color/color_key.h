@@ -30,7 +30,7 @@ struct ColorClass {
   glm::vec3 color{0.0f};
 };
 
-/// What a legend says: a scale, or classes, or both where rules stand beside a scale, or neither for one fixed colour.
+/// What a legend says: a scale, or classes, or both where rules are beside a scale, or neither for one fixed colour.
 struct ColorKey {
   std::string title;  ///< "chain", "element", ...; the scale has its own
   std::optional<ColorScale> scale;

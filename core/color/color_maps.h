@@ -54,7 +54,7 @@ glm::vec3 mapped_color(ColorMap map, double t);
 /// How many colours a map of steps has, each of which stands for a class of numbers; 0: colours run into each other.
 std::size_t map_steps(ColorMap map);
 
-/// What atoms without a number get unless told otherwise: a grey #808080, which no map comes near, but #cc79a7 with
+/// What atoms without a number get unless set otherwise: a grey #808080, which no map comes near, but #cc79a7 with
 /// cividis, which goes through grey, and ConSurf's own yellow for grades of too few data.
 glm::vec3 default_missing_color(ColorMap map);
 

@@ -113,8 +113,8 @@ std::string scheme_word(const ColorScheme& color);
 /// All words parse_color_scheme reads, for messages: "element, chain, ..., a name such as red, or #rrggbb".
 std::string color_scheme_words();
 
-/// Reads "EXPR=red": split at the last "=", and what stands behind it is read as parse_color_scheme does. Throws
-/// RequestError for what is no colour or cannot be a rule's, SelectionError.
+/// Reads "EXPR=red": split at the last "=", and what is behind it is read as parse_color_scheme does. Throws
+/// RequestError for what is not a colour or cannot be a rule's, SelectionError.
 ColorRule parse_color_rule(std::string_view text);
 
 /// The rules' expressions that mean none of these atoms, so that someone may be told.

@@ -27,7 +27,7 @@ std::optional<int> parse_index(std::string_view text) {
   return index;
 }
 
-/// UUID or PCI address: hexadecimal digits and what stands between them.
+/// UUID or PCI address: hexadecimal digits and what is between them.
 bool looks_like_a_name(std::string_view text) {
   if (lower(text).starts_with(kUuidPrefix)) text.remove_prefix(kUuidPrefix.size());
   const auto fits = [](unsigned char c) { return std::isxdigit(c) || c == '-' || c == ':' || c == '.'; };

@@ -40,7 +40,7 @@ std::string bytes_of(Number number) {
   return {reinterpret_cast<const char*>(&number), sizeof number};
 }
 
-/// What stands in front of the binary: whatever it was made of.
+/// What is in front of the binary: whatever it was made of.
 std::string head_of(const std::string& driver, std::string_view text) {
   return fmt::format("meniscus kernel 1\n{}{}\n{}", driver, text.size(), text);
 }

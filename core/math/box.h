@@ -77,7 +77,7 @@ class BoxTree {
   struct Node {
     Box box;
     std::uint32_t first = 0, last = 0;  // into order_
-    std::uint32_t second_child = 0;     // 0: a leaf; the first child stands behind its parent
+    std::uint32_t second_child = 0;     // 0: a leaf; the first child is behind its parent
   };
 
   void build(std::span<const Box> boxes, std::uint32_t first, std::uint32_t last) {

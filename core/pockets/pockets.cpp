@@ -117,7 +117,7 @@ class PocketFinder {
     return parts;
   }
 
-  /// Atoms that float in a pocket are no part of it.
+  /// Atoms that float in a pocket are not part of it.
   void add_islands(std::vector<Part>& parts) const {
     const Surface& s = found_.surface;
     const std::vector<bool> reached = reached_from_outside(s);

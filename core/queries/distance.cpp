@@ -177,7 +177,7 @@ struct SurfaceDistance::Index {
     return next;
   }
 
-  // Where a probe may be that stands against an atom, two, or three.
+  // Where a probe may be that is against an atom, two, or three.
   Tables<3> list_accessible() const {
     Tables<3> t;
     for (const ConvexPatch& patch : s.convex)

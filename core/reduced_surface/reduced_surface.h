@@ -79,7 +79,7 @@ std::vector<bool> swallowed_atoms(std::span<const Ball> atoms, double* protrudin
 
 /// swallowed_atoms() of one frame after another: whoever could swallow whom is found once, with room for a way that all
 /// atoms may go. As long as none has gone farther, and radii are the same, only those pairs are asked again; where
-/// atoms go farther from frame to frame all is found anew.
+/// atoms go farther from frame to frame all is found again.
 class SwallowedAtoms {
  public:
   std::vector<bool> of(std::span<const Ball> atoms);

@@ -82,7 +82,7 @@ class Renderer {
 
   /// A finished picture over the look's background, which stays on the GPU as texture(). stop: asked now and then; if
   /// true, the picture is given up: false, the texture shows the one before, and there is nothing to pick. The drawable
-  /// must stay as long as somebody picks. Throws as render().
+  /// must stay as long as someone picks. Throws as render().
   bool draw(Drawable& drawable, const Camera& camera, const RenderSettings& settings,
             const std::function<bool()>& stop = {});
 

@@ -54,7 +54,7 @@ struct Font::Face {
   }
 
   /// Calls visit(left edge of the letter's box) with each letter of the text loaded into the face's slot; returns the
-  /// width of all. Letters stand on whole pixels, as hinting wants them.
+  /// width of all. Letters are on whole pixels, as hinting wants them.
   int for_each_letter(std::string_view text, const auto& visit) const {
     long x = 0;
     while (!text.empty()) {

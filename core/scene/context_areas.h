@@ -11,7 +11,7 @@
 
 namespace meniscus {
 
-/// The atoms that stand around those of a molecule, and what they do to its areas.
+/// The atoms that are around those of a molecule, and what they do to its areas.
 struct ContextAreas {
   std::size_t atoms = 0;            ///< of the context alone
   std::vector<AreaColumn> columns;  ///< for each given one: "<name>_in_context", "<name>_buried" (the difference)

@@ -60,7 +60,7 @@ class Bound {
       if (trajectory.frame_count() > 1) tolerance_ = kPartOfStep * std::abs(time_at(1) - time_at(0));
       return;
     }
-    // A number may lie behind the end: then nothing is left, or all.
+    // A number may lie after the end: then nothing is left, or all.
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), frame_);
     if (error == std::errc() && end == text.data() + text.size()) return;
     try {
@@ -101,7 +101,7 @@ class Bound {
   std::uint64_t frame_ = 0;
 };
 
-/// Does it depend on where atoms stand which of them a frame has, or how they are drawn beside the surface?
+/// Does it depend on where atoms are which of them a frame has, or how they are drawn beside the surface?
 bool chooses_by_positions(const MoleculeRequest& molecule, const RunRequest& request) {
   const auto asks = [](const std::optional<Selection>& selection) { return selection && selection->uses_positions(); };
   const ReadOptions& reading = molecule.reading;
@@ -168,7 +168,7 @@ FrameRun::FrameRun(const MoleculeRequest& molecule, const RunRequest& request, b
 FrameRun::~FrameRun() = default;
 
 /// With the coordinates of their file, or of the first frame where it has none; all that may be chosen, if that is done
-/// anew in each frame.
+/// again in each frame.
 void FrameRun::read_atoms(const MoleculeRequest& molecule, const RunRequest& request) {
   MoleculeRequest reading = molecule;
   reading.reading.keep_topology = true;
@@ -268,7 +268,7 @@ void FrameRun::prepare(const MoleculeRequest& molecule, const RunRequest& reques
   frames_ = std::make_unique<PreparedFrames>(*trajectory_, std::move(preparation));
 }
 
-/// Where an atom stands, which may be one of a copy.
+/// Where an atom is, which may be one of a copy.
 glm::dvec3 FrameRun::position_of(const Atom& atom, const std::vector<glm::dvec3>& positions) const {
   const glm::dvec3& position = positions[atom.index];
   return assembly_ ? copy_motion(*assembly_, atom)(position) : position;

@@ -68,7 +68,7 @@ class CameraCourse {
   double count_ = 1.0;
 };
 
-/// The balls as they stand before the camera that moves with them.
+/// The balls as they are before the camera that moves with them.
 std::vector<Ball> before_camera(std::span<const Ball> balls, const glm::dvec3& shift, const glm::dvec3& pivot,
                                 const glm::dvec3& axis, double angle) {
   std::vector<Ball> seen(balls.begin(), balls.end());

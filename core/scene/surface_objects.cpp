@@ -40,7 +40,7 @@ void require_closed(const SurfaceObject& object, const Structure& structure) {
                   certificate.open_atoms.size(), atoms));
 }
 
-/// A group of atoms and where it stands. Only atoms with the same motions can share a surface.
+/// A group of atoms and where it is. Only atoms with the same motions can share a surface.
 struct PlacedGroup {
   AtomGroup group;
   std::vector<RigidMotion> copies{RigidMotion{}};

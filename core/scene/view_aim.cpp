@@ -38,7 +38,7 @@ std::vector<Ball> picked(std::span<const SurfaceObject> objects, const std::vect
   return result;
 }
 
-/// Where the copies of an assembly stand, by what they have in common with the first.
+/// Where the copies of an assembly are, by what they have in common with the first.
 std::vector<RigidMotion> copy_motions(const Structure& structure) {
   std::vector<RigidMotion> motions;
   for (const Instances& instances : structure.instances)

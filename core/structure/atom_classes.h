@@ -22,7 +22,7 @@ struct AtomHints {
       0;  ///< what the columns of the name suggest (PDB: " CA " is carbon, "CA  " calcium); 0: nothing
 };
 
-/// True for the residues and ligands common enough to stand in gemmi's table.
+/// True for the residues and ligands common enough to be in gemmi's table.
 bool is_tabulated_residue(const std::string& residue_name);
 
 /// Sets `kind` of all atoms, residue by residue. What the file states decides; then names: amino acids and nucleotides

@@ -132,7 +132,7 @@ class NumberReader {
     }
   }
 
-  /// The column of the numbers: the one asked for, or the only one that is no name of an atom or residue.
+  /// The column of the numbers: the one asked for, or the only one that is not a name of an atom or residue.
   std::size_t value_column(const std::vector<std::string>& header) const {
     constexpr std::string_view kNames[] = {"frame", "index", "model", "chain",   "residue", "resname", "number",
                                            "resid", "icode", "name",  "element", "class",   "radius",  "atoms"};

@@ -185,7 +185,7 @@ struct Surface {
   std::vector<Border> borders;
   std::vector<HalfBorder> half_borders;
   std::vector<Loop> loops;
-  std::vector<Face> faces;  ///< those of one patch stand together
+  std::vector<Face> faces;  ///< those of one patch are together
 
   std::vector<Component> components;
   Certificate certificate;

@@ -60,7 +60,7 @@ class ViewPipeline final : public Drawable {
 
   std::span<const Ball> atoms() const override { return atoms_; }
 
-  /// Where the arcs around the view do not close for ties the radii grow by a hair (compute_surface.h). Throws
+  /// Where the arcs around the view do not close for ties the radii grow slightly (compute_surface.h). Throws
   /// OpenSurfaceError when that does not help, GpuError, CapacityError.
   const GpuScene& prepare(const PictureFrame& frame, StageClock& clock) override;
   void ask(Readback& readback) override;

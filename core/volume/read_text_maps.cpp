@@ -189,7 +189,7 @@ class CubeReader {
     return vector;
   }
 
-  /// A negative number of atoms: behind them stand the numbers of orbitals.
+  /// A negative number of atoms: behind them are the numbers of orbitals.
   void skip_atoms(std::int64_t atoms) {
     for (std::int64_t n = 0; n < std::abs(atoms); ++n) next_line();
     if (atoms >= 0) return;

@@ -10,7 +10,7 @@
 namespace meniscus {
 namespace {
 
-/// The first line that is no comment begins as DX files do.
+/// The first line that is not a comment begins as DX files do.
 bool is_dx(const TextFile& file) {
   LineReader lines(file.text);
   std::string_view line;

@@ -45,7 +45,7 @@ class ArraySink {
   std::vector<std::byte> buffer_;
 };
 
-/// Collects named arrays, then writes them behind their header.
+/// Collects named arrays, then writes them after their header.
 class MnsWriter {
  public:
   /// That of the file; kMnsVersion by itself.

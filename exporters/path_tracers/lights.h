@@ -40,7 +40,7 @@ struct Extent {
 };
 Extent extent_of(const Scene& scene);
 
-/// They stand as the camera sees them. Distant ones for what is matte; glass mirrors and bends what is around it, so
+/// They are as the camera sees them. Distant ones for what is matte; glass mirrors and bends what is around it, so
 /// that it has softboxes instead.
 Lights lights_of(const Scene& scene);
 

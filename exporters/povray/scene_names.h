@@ -13,7 +13,7 @@
 namespace meniscus::povray {
 
 /// The name, or nothing if it is longer than 40 bytes or holds anything but letters and digits of ASCII, blanks between
-/// them, and _ ' * + - . , ( ) as names of atoms and classes have them: it then stands in no scene.
+/// them, and _ ' * + - . , ( ) as names of atoms and classes have them: it then is in no scene.
 std::string_view harmless_name(std::string_view name);
 
 /// What the key calls a colour, as "  // chain A, C": at most five names. Empty: nothing that may be said.

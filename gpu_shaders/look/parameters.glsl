@@ -28,7 +28,7 @@ struct FinishParameters {
   float shininess;
   float ambient_occlusion;
   float outer_lines;  // widths in pixels: around all,
-  float inner_lines;  // around what stands in front of something else,
+  float inner_lines;  // around what is in front of something else,
   float part_lines;   // and between parts
   float widest_line;
   float step_pixels;  // half an Å and so many pixels further back a line begins;

@@ -8,7 +8,7 @@ struct SideRecord {
   vec4 contact;        // xyz: unit vector from the probe to the side's first contact
   vec4 gap_direction;  // xyz: from the spindle circle's centre to the middle of the covered gap
   vec4 circle_center;  // xyz: relative to the probe
-  uint circle;         // names the spindle circle; kNone if it is no spindle
+  uint circle;         // names the spindle circle; kNone if it is not a spindle
   uint partner;        // probe across the gap
   uint touching;       // 1: the circle is exactly as large as the probe
   uint spare;

@@ -14,7 +14,7 @@ struct View {
   vec3 forward;
   int block_edge;      // pixels; divides kTileEdge
   ivec2 picture_size;  // pixels
-  uint keep_all;       // 1: the eye may stand in the solid, or the whole surface is wanted
+  uint keep_all;       // 1: the eye may be in the solid, or the whole surface is wanted
 };
 const int kViewBinding = 2;
 

@@ -65,7 +65,7 @@ TEST_F(FramesInPictures, NumbersByFrameColorEachOfThem) {
     EXPECT_TRUE(bytes(name) == bytes(std::string("one_") + frame + ".png")) << frame;
   }
   EXPECT_FALSE(bytes("run_0.png") == bytes("run_1.png"));
-  // A frame without numbers fails, the others are made; a single picture is none of a run.
+  // A frame without numbers fails, the others are made; a single picture is not one of a run.
   const ProgramResult gap =
       meniscus({"render", file_, "-q", "--size", "64x48", "-o", (folder.path() / "gap_#.png").string(), "--frames",
                 "0-2", "--color-by-file", run});
@@ -153,7 +153,7 @@ TEST_F(FramesInPictures, Film) {
                            "stream=nb_read_frames,width,height,r_frame_rate", "-of", "csv=p=0", folder + "/a.mp4"});
   EXPECT_EQ(probe.out, "64,48,12/1,8\n");
   EXPECT_EQ(render({"-o", folder + "/c.mp4", "--size", "63x48"}).exit_code, 2);
-  // A film with a hole is no film, and nothing stays behind.
+  // A film with a hole is not a film, and nothing stays behind.
   const std::string bad = folder_.file("bad.pdb", walk(5, 2));
   EXPECT_EQ(meniscus({"render", bad, "-q", "--size", "64x48", "--frames", "all", "-o", folder + "/d.mp4"}).exit_code,
             3);

@@ -138,7 +138,7 @@ std::string two_copies(double distance) {
 
 TEST(Instances, AreExactOnlyWhereNoProbeTouchesTwo) {
   const TemporaryFolder folder;
-  // The copies' nearest carbons (radius 1.7) stand 20 - 9 = 11 Å apart; 2 (1.7 + 1.4) = 6.2.
+  // The copies' nearest carbons (radius 1.7) are 20 - 9 = 11 Å apart; 2 (1.7 + 1.4) = 6.2.
   const std::string apart = folder.file("apart.pdb", two_copies(20));
   const json instanced = surface_json({apart, "--assembly", "1", "--instances", "exact"});
   const json built = surface_json({apart, "--assembly", "1"});

@@ -169,7 +169,7 @@ TEST_F(Words, ACameraThatSeesNothingIsToldBeforeTheSurfaceIsComputed) {
   EXPECT_LT(warning, result.err.find("surface on"));
 }
 
-/// Width and height of a PNG, and what is behind the name of a chunk or a key.
+/// Width and height of a PNG, and what is after the name of a chunk or a key.
 std::string behind(const std::string& png, const std::string& name, std::size_t count) {
   const std::size_t at = png.find(name);
   return at == std::string::npos ? "" : png.substr(at + name.size(), count);

@@ -152,7 +152,7 @@ TEST_F(ChangedTrajectory, ThatShrinksOrIsWrittenAnewIsAnError) {
   EXPECT_NE(anew.err.find("was changed while it was read"), std::string::npos) << anew.err;
 }
 
-// Somebody writes the file anew again and again. (Who pauses in the middle for as long as we read is not noticed: that
+// Someone writes the file again again and again. (Who pauses in the middle for as long as we read is not noticed: that
 // is what the file held.)
 TEST(ChangedMolecule, ThatIsWrittenMeanwhileIsRefused) {
   const TemporaryFolder folder;

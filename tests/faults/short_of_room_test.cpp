@@ -102,7 +102,7 @@ TEST(StandardOutput, ThatIsFullOrClosedIsAnError) {
   }
 }
 
-// Notes that nobody can hear are no failure, and above all they are not written into the file that is open next.
+// Notes that nobody can hear are not a failure, and above all they are not written into the file that is open next.
 TEST(StandardError, ThatIsFullOrClosedIsNone) {
   const TemporaryFolder folder;
   const std::string in = folder.file("four.xyzr", kFourBalls);

@@ -66,7 +66,7 @@ TEST(Bombs, JsonOfBracketsAlone) {
       InputError);
 }
 
-// Every target that reads JSON, by brackets around the place where a value stands.
+// Every target that reads JSON, by brackets around the place where a value is.
 TEST(Bombs, JsonInEveryTarget) {
   const std::string deep = repeated("[", 300'000) + repeated("]", 300'000);
   for (const Target& target : targets()) {

@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Two peptides, one of which stands at three places and the other at two.
+/// Two peptides, one of which is at three places and the other at two.
 Structure peptides() {
   const TemporaryFolder folder;
   Structure structure = read_structure(folder.file("two.pdb", kTwoModels), {});

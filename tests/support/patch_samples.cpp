@@ -72,7 +72,7 @@ PatchSample sample_torus(const Surface& s, std::uint32_t patch, bool siblings, s
   const double theta = angle(random);
   const glm::dvec3 e = std::cos(theta) * t.start + std::sin(theta) * glm::cross(t.axis, t.start);
   double depth = torus_depth(s, t, e, psi);
-  // Patches are sorted by their atoms: those on the same circle stand together.
+  // Patches are sorted by their atoms: those on the same circle are together.
   if (siblings) {
     std::uint32_t other = patch;
     while (other > 0 && s.toroidal[other - 1].atom == t.atom) --other;

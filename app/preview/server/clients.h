@@ -74,7 +74,7 @@ inline constexpr int kPatience = 10;                  ///< seconds for a request
 /// 128 random bits of the system as 32 hexadecimal digits. Throws Error where the system has none.
 std::string random_token();
 
-/// Is this the Host header of a request to us? 127.0.0.1:PORT and localhost:PORT are; a name that somebody else's DNS
+/// Is this the Host header of a request to us? 127.0.0.1:PORT and localhost:PORT are; a name that someone else's DNS
 /// points here is not.
 bool is_own_host(std::string_view host, std::uint16_t port);
 

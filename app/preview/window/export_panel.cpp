@@ -59,7 +59,7 @@ void ExportPanel::draw() {
   progress();
 }
 
-/// Those that a scene came with are in the fields until somebody types others.
+/// Those that a scene came with are in the fields until someone types others.
 void ExportPanel::take_wishes() {
   const Json& wishes = link_.state()["export"];
   if (wishes == wishes_) return;

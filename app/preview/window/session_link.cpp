@@ -34,7 +34,7 @@ SessionThread::~SessionThread() {
 std::uint64_t SessionThread::post(nlohmann::json command) {
   const std::scoped_lock lock(mutex_);
   ++last_number_;
-  // While a picture is made, movements become one; questions are told apart by their numbers.
+  // While a picture is made, movements become one; questions are distinguished by their numbers.
   if (!queue_.empty() && !is_question(command) && merge_commands(queue_.back().command, command))
     queue_.back().number = last_number_;
   else

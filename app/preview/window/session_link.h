@@ -93,7 +93,7 @@ class SessionThread {
   std::thread thread_;
 };
 
-/// Every command of the window goes through here. Until the session has said how it stands, there
+/// Every command of the window goes through here. Until the session has said what its state is, there
 /// is no state.
 class SessionLink {
  public:

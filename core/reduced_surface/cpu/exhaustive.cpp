@@ -164,7 +164,7 @@ class Enumeration {
                   [&](std::uint32_t label) { return search_.atom(label); });
   }
 
-  // By atoms: those of each stand together and are sorted already.
+  // By atoms: those of each are together and are sorted already.
   std::vector<RsArc> sorted_arcs() {
     std::vector<std::uint32_t> first(atom_count_ + 1, 0);
     for (const Group& group : groups_)

@@ -65,7 +65,7 @@ class GpuNeighbors {
   /// From now on lists are made for these balls only, and pairs of two of them; all are still listed as neighbours.
   /// listed: `count` ascending indices; before: per ball and one more, how many listed ones come before it. Batches
   /// count entries of `listed`. Both buffers must stay. upload() and adopt() list all again. The count may be larger
-  /// than it is: behind the last one lists are empty.
+  /// than it is: after the last one lists are empty.
   void list_only(const Buffer& listed, const Buffer& before, std::uint32_t count);
 
   /// Of the lists; with list_only() perhaps more than there are.

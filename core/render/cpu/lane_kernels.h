@@ -124,7 +124,7 @@ struct LayerTask {
 };
 
 /// What a look makes of one sample of each pixel of a block. Arrays of pixels, those of `samples` too, have one more
-/// behind the last: it stands for whatever lies outside.
+/// after the last: it stands for whatever lies outside.
 struct LaneLook {
   kernel::BlockView view{};
   kernel::OcclusionParameters occlusion{};

@@ -8,7 +8,7 @@
 
 namespace meniscus {
 
-/// Parses the whole file once. Throws InputError with the line where it is no CIF.
+/// Parses the whole file once. Throws InputError with the line where it is not CIF.
 gemmi::cif::Document parse_cif(const TextFile& file);
 
 }  // namespace meniscus

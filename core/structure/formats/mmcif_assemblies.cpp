@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the assemblies of an mmCIF file: which chains (label_asym_id) stand under which products of operators.
+// Reads the assemblies of an mmCIF file: which chains (label_asym_id) are under which products of operators.
 #include <cmath>
 #include <map>
 

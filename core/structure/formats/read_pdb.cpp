@@ -92,7 +92,7 @@ class PdbReader {
     }
   }
 
-  /// chain, number and insertion code of the first residue and of the last stand in columns from these on, but for a
+  /// chain, number and insertion code of the first residue and of the last are in columns from these on, but for a
   /// blank between chain and number in HELIX. Records that cannot be read are passed over: they colour nothing.
   void take_range(std::string_view line, SecondaryStructure kind, std::size_t first, std::size_t last) {
     const std::size_t gap = kind == SecondaryStructure::helix ? 2 : 1;

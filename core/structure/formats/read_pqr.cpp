@@ -41,7 +41,7 @@ bool read_residue_number(std::string_view field, PqrRecord& record) {
   return true;
 }
 
-/// Blank-separated: serial, name, residue, chain if there is one, number, insertion code if it stands alone; then five
+/// Blank-separated: serial, name, residue, chain if there is one, number, insertion code if it is alone; then five
 /// numbers.
 std::optional<PqrRecord> by_blanks(std::string_view line) {
   std::vector<std::string_view> fields = fields_of(line.substr(line[0] == 'A' || line[0] == 'a' ? 4 : 6), 13);

@@ -27,7 +27,7 @@ namespace meniscus {
 namespace {
 
 /// Fields of a section are asked for by its name and their number; each of these functions throws InputError with file
-/// and line: no such section, columns that nobody understands, fewer or more fields, a field that is no number.
+/// and line: no such section, columns that nobody understands, fewer or more fields, a field that is not a number.
 class PrmtopSections {
  public:
   /// The file must outlive this object. Throws InputError where there is no section at all.

@@ -73,7 +73,7 @@ class PsfReader {
   std::array<std::string_view, 7> columns_of(std::string_view line) const {
     std::vector<std::string_view> fields = fields_of(line, 12);
     if (fields.size() == 8) {
-      // A blank segment, or, where the residue's number stands behind one, a blank type, as ProDy writes.
+      // A blank segment, or, where the residue's number is behind one, a blank type, as ProDy writes.
       const bool has_segment = !is_residue_number(fields[1]) && is_residue_number(fields[2]);
       fields.insert(fields.begin() + (has_segment ? 5 : 1), std::string_view());
     }

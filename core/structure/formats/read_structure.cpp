@@ -36,7 +36,7 @@ bool is_virtual_site(const Atom& atom) {
 bool is_hydrogen(const Atom& atom) { return atom.element == 1; }
 
 /// Whether a potential of the file's charges has this atom's, too, and a surface of the whole file its ball. Atoms of
-/// other alternate locations stand where one is used.
+/// other alternate locations are where one is used.
 bool has_charge_and_room(const Atom& atom, std::string_view reason) {
   return atom.charge != 0.0f && !std::isnan(atom.charge) && reason != kExcludedAltloc && reason != kExcludedVirtual &&
          reason != kExcludedRadius;
@@ -60,7 +60,7 @@ void leave_out(std::vector<Atom>& atoms, std::vector<Atom>& beside, ReadReport& 
   atoms.resize(kept);
 }
 
-/// What selections mean: what they select of atoms where these stand, or all that they may select somewhere. In a frame
+/// What selections mean: what they select of atoms where these are, or all that they may select somewhere. In a frame
 /// of a run nothing may be drawn beside the surface.
 enum class Meaning { here, in_a_frame, anywhere };
 
@@ -180,7 +180,7 @@ void assemble_beside(Structure& structure, const Assembly& assembly) {
   structure.beside = std::move(beside.atoms);
 }
 
-/// The bonds of all shown atoms, which stand in atoms and, behind them, in beside.
+/// The bonds of all shown atoms, which are in atoms and, after them, in beside.
 std::vector<Bond> bonds_of_shown(const Structure& structure, std::span<const Bond> listed) {
   const std::size_t own = structure.atoms.size();
   const auto atom = [&](std::uint32_t n) -> const Atom& {
@@ -243,7 +243,7 @@ void warn_of_missing_altloc(Structure& structure, const std::vector<Atom>& atoms
       fmt::format("no atom has the alternate location {}; the best one of each residue is used", choice.letter));
 }
 
-/// Leaves what a trajectory has of the atoms and bonds, counted anew.
+/// Leaves what a trajectory has of the atoms and bonds, counted again.
 void keep_trajectory_atoms(FileContents& contents, const Selection& selection, const TextFile& file,
                            ReadReport& report) {
   const auto refuse = [&](const std::string& what) {
@@ -269,7 +269,7 @@ void keep_trajectory_atoms(FileContents& contents, const Selection& selection, c
     for (std::uint32_t& end : bond) end = place[end];
 }
 
-/// The atoms of a topology stand where the options say.
+/// The atoms of a topology are where the options say.
 void place_atoms(FileContents& contents, const ReadOptions& options, const TextFile& file) {
   if (!contents.without_positions) return;
   if (options.positions.empty())
@@ -306,7 +306,7 @@ void use_assemblies(Structure& structure, const TextFile& file, const Reader& re
   assemble_beside(structure, assembly);
 }
 
-/// Of atoms shown together, places in Structure::atoms and, behind them, in beside, by Atom::index.
+/// Of atoms shown together, places in Structure::atoms and, after them, in beside, by Atom::index.
 std::vector<Bond> places_of(const Structure& structure, const std::vector<Bond>& by_index) {
   std::unordered_map<std::uint32_t, std::uint32_t> places;
   std::uint32_t next = 0;
@@ -345,7 +345,7 @@ struct StructureFile::Parts {
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
 
-  /// atoms: those of the contents, wherever they stand. Without bonds of what is shown.
+  /// atoms: those of the contents, wherever they are. Without bonds of what is shown.
   Structure choose(std::vector<Atom> atoms, Meaning meaning) const {
     Structure structure;
     structure.file = file.path;

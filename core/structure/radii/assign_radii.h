@@ -50,7 +50,7 @@ class RadiiChoice {
  private:
   struct Given {
     FoundRadius found;
-    bool covered = true;  // by what the user chose, not by the element for want of better
+    bool covered = true;  // by what the user chose, not by the element as a last resort
   };
   Given radius_for(const Atom& atom, bool hydrogens_used) const;
   std::vector<Given> radii_for(const Structure& structure, bool hydrogens_used) const;

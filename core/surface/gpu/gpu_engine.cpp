@@ -26,7 +26,7 @@ namespace {
 
 class GpuEngine final : public ReducedSurfaceEngine {
  public:
-  /// own: this very context, if it shall end with the engine.
+  /// own: this very context, if it should end with the engine.
   explicit GpuEngine(const EglContext& context, std::unique_ptr<EglContext> own = {})
       : own_(std::move(own)),
         device_(context.renderer() + ", GL " + context.version()),

@@ -259,7 +259,7 @@ class Dcd final : public Trajectory {
   bool has_cell_ = false, has_fourth_axis_ = false, charmm_itself_ = false;
   std::vector<std::uint32_t> free_atoms_;  // empty: all of them
   std::uint64_t first_frame_ = 0;          // its offset
-  Frame first_;                            // where the fixed atoms stand
+  Frame first_;                            // where the fixed atoms are
   std::vector<std::byte> bytes_;
 };
 

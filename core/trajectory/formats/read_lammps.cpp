@@ -46,7 +46,7 @@ struct PositionColumns {
 constexpr std::array<PositionColumns, 4> kPositionColumns{
     {{{"xu", "yu", "zu"}, false}, {{"xsu", "ysu", "zsu"}, true}, {{"x", "y", "z"}, false}, {{"xs", "ys", "zs"}, true}}};
 
-/// What stands above the atoms of a frame.
+/// What is above the atoms of a frame.
 struct DumpHeader {
   std::optional<std::int64_t> step;
   std::optional<double> time;

@@ -13,7 +13,7 @@
 #include "exporters/bindings/c/caller_memory.h"
 #include "exporters/bindings/c/surface.h"
 
-/// What stands behind the handle of pockets: their rows, one after the other.
+/// What is behind the handle of pockets: their rows, one after the other.
 struct meniscus_pockets : meniscus::c_api::Counted {
   std::vector<meniscus_pocket> pockets;
   std::vector<double> mouths;

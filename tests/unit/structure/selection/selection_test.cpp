@@ -28,7 +28,7 @@ struct AtomSketch {
   char insertion = ' ';
 };
 
-/// A peptide with an insertion, a nucleotide, a ligand, water and ions; atom n stands at x = n.
+/// A peptide with an insertion, a nucleotide, a ligand, water and ions; atom n is at x = n.
 std::vector<Atom> small_molecule() {
   const AtomSketch sketches[] = {
       {"N", "ALA", "A", -1, 7},

@@ -78,7 +78,7 @@ extern "C" {
 typedef enum meniscus_status {
   MENISCUS_OK = 0,
   MENISCUS_INTERNAL = 1,  /* a fault of this library: please report it */
-  MENISCUS_USAGE = 2,     /* a call that makes no sense: NULL, an unknown word, a struct without its size */
+  MENISCUS_USAGE = 2,     /* a call that is not valid: NULL, an unknown word, a struct without its size */
   MENISCUS_INPUT = 3,     /* a position, radius, colour or camera that cannot be; the text has its index and value */
   MENISCUS_NO_GPU = 4,    /* no usable GL or GPU, or one that left work undone */
   MENISCUS_CAPACITY = 5,  /* out of memory or threads, or more than indices or a file can count */
@@ -165,7 +165,7 @@ typedef struct meniscus_surface meniscus_surface;
 MENISCUS_API meniscus_status meniscus_compute(meniscus_computer* computer, const meniscus_atoms* atoms,
                                               meniscus_surface** surface);
 /* Computes the next frame. *surface is a surface, whose reference is taken over: of the frame before, say. If nobody
- * else holds it, it is computed anew in place, and its arrays end; else it is let go and a new one made. If the call
+ * else holds it, it is computed again in place, and its arrays end; else it is let go and a new one made. If the call
  * fails *surface stays as it was. */
 MENISCUS_API meniscus_status meniscus_recompute(meniscus_computer* computer, const meniscus_atoms* atoms,
                                                 meniscus_surface** surface);
@@ -395,7 +395,7 @@ typedef struct meniscus_structure meniscus_structure;
 
 /* Reads PDB, mmCIF, PQR, GRO, XYZ and XYZR, plain or packed with gzip, as the program does: polymers and ligands of the
  * first model, of each residue the most occupied conformer, without water and free ions, unless the options say
- * otherwise. options: NULL for the defaults. *structure is overwritten. Of a text that is no selection
+ * otherwise. options: NULL for the defaults. *structure is overwritten. Of a text that is not a selection
  * meniscus_last_error() has two more lines: the expression, and a caret under the place. */
 MENISCUS_API meniscus_status meniscus_read(const char* path, const meniscus_read_options* options,
                                            meniscus_structure** structure);
@@ -604,7 +604,7 @@ MENISCUS_API meniscus_status meniscus_surface_camera(const meniscus_surface* sur
                                                      meniscus_projection projection, meniscus_camera* camera);
 
 /* Everything that can be chosen of a picture, as one value: the molecule's file and which of its atoms, their surface
- * and its colours, what stands beside it, the view, the look, what is written into the picture. A new one has the
+ * and its colours, what is drawn beside it, the view, the look, what is written into the picture. A new one has the
  * defaults of the program. Each value has a name, that of the program's option with "_" for "-" ("depth_cue"), and a
  * key, that of scene files ("look.depth_cue"); meniscus_scene_properties() lists all. Values are text as on the command
  * line, with its units: "7pt", "0.5", "chain A"; of flags "true" and "false". */
@@ -673,7 +673,7 @@ MENISCUS_API meniscus_status meniscus_renderer_new(meniscus_device device, menis
 MENISCUS_API meniscus_renderer* meniscus_renderer_retain(meniscus_renderer* renderer);
 MENISCUS_API void meniscus_renderer_release(meniscus_renderer* renderer);
 
-/* Draws a scene as `meniscus render` does: reads its molecule, computes it and what stands beside it, and writes its
+/* Draws a scene as `meniscus render` does: reads its molecule, computes it and what is drawn beside it, and writes its
  * legend, labels and scale bar; the same bytes as in the program's PNG file. Where it is computed and drawn the
  * renderer says; its `output` and `legend_file` are not written. rgba: width * height * 4 bytes of
  * meniscus_scene_size(), red, green, blue, alpha (not multiplied in), rows from the top; rgba_size: the room there.
