@@ -44,8 +44,8 @@ struct SceneObject {
 };
 
 struct SceneOptions {
-  std::string name = "surface";    ///< of all files; letters, digits, '-' and '_' only, since it is in the scene
-  int width = 1280, height = 960;  ///< pixels
+  std::string name = "surface";          ///< of all files; letters, digits, '-' and '_' only, since it is in the scene
+  int width = 1280, height = 960;        ///< pixels
   Material material = Material::opaque;  ///< the scene's default; every scene holds all of them
   glm::vec3 background{1.0f};            ///< sRGB
   Existing existing = Existing::refuse;
