@@ -114,8 +114,8 @@ std::string advice_on_foreign_selection(std::string_view word) {
   if (!pymol && !chimerax) return "";
   const std::string ours = pymol ? from_pymol(word) : from_chimerax(word);
   if (ours.empty()) return "";
-  return fmt::format("{} is written in {}'s way; write {}", in_quotes(word), pymol ? "PyMOL" : "ChimeraX",
-                     in_quotes(ours));
+  return fmt::format("{} is written in {}'s way; write '{}'", in_quotes(word), pymol ? "PyMOL" : "ChimeraX",
+                     shortened(ours, 200));
 }
 
 }  // namespace meniscus

@@ -132,8 +132,8 @@ class SceneValues(SurfaceValues, total=False):
     begin: Text
     #: WHEN: Last frame or time to use
     end: Text
-    #: N: Show each frame N times, for slow motion or a camera around a molecule at rest. The files of frame F
-    #: are numbered F*N, F*N + 1 and so on [1]
+    #: N: Show each frame N times, for slow motion or a moving camera. The files of frame F are numbered F*N,
+    #: F*N + 1 and so on [1]
     repeat: int
     #: LIST: Make only these frames, as one part of the whole run. Camera, colours and scene stay those of the
     #: whole run
@@ -203,9 +203,9 @@ class SceneValues(SurfaceValues, total=False):
     #: Å: Distance outside the surface at which the map is sampled, in Å. Centres of solvent molecules lie at
     #: 1.4 [0]
     map_offset: float
-    #: MAP: Colour map of numbers: viridis, cividis, magma, blue-white-red (default for hydrophobicity), red-
-    #: white-blue (default for charge: negative is red), blues and ylorrd (light), consurf (grades 1 to 9),
-    #: categorical (each number has its own colour) [viridis]
+    #: MAP: Colour map for numbers, such as viridis or blue-white-red. Others: cividis, magma, red-white-blue
+    #: (default for charge: negative is red), blues and ylorrd (light), consurf (grades 1 to 9), categorical
+    #: (each number has its own colour). blue-white-red is the default for hydrophobicity [viridis]
     map: Text
     #: FILE: File of a colour map: one colour per line, or a position and a colour. A JSON list of them is read,
     #: too
@@ -251,9 +251,9 @@ class SceneValues(SurfaceValues, total=False):
     #: FILE: Camera: JSON, PyMOL's get_view or ChimeraX's view matrix. A file, or the text itself [shows
     #: everything]
     camera: Path
-    #: SIDE: Side that faces the viewer: front (the broad side), back, top, bottom, right, left; x, y, z: axes
-    #: of the file; 1, 2, 3: axes of inertia, longest first; symmetry: along the axis of --assembly, symmetry-
-    #: side: with that axis upright. A minus sign in front turns to the opposite side [front]
+    #: SIDE: Side that faces the viewer: front, back, top, bottom, right or left. front: the broad side; x, y,
+    #: z: axes of the file; 1, 2, 3: axes of inertia, longest first; symmetry: along the axis of --assembly;
+    #: symmetry-side: with that axis upright. A minus sign before it shows the opposite side [front]
     view: Text
     #: AXISANGLE: Turn the molecule about an axis by degrees: y90, x-30, z45. x points right, y up, z to the
     #: viewer. Repeatable, applied in this order

@@ -216,7 +216,7 @@ TEST(Selection, MistakesArePointedAt) {
       {"c. A", "'c.' is PyMOL's; write chain", 0},
       {"water and i. 5", "'i.' is PyMOL's; write resid", 10},
       {"/a//A/10", "'/a//A/10' is written in PyMOL's way; write 'chain A and resid 10'", 0},
-      {"//A/LYS`10/CA", "write 'chain A and resname LYS and resid 10 and name CA'", 0},
+      {"///A/LYS`10/CA", "write 'chain A and resname LYS and resid 10 and name CA'", 0},
       {"A/10/", "'A/10/' is written in PyMOL's way; write 'chain A and resid 10'", 0},
       {"not 10/CA", "write 'resid 10 and name CA'", 4},
       {":10-20", "':10-20' is written in ChimeraX's way; write 'resid 10-20'", 0},
