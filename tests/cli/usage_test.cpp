@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the program says of words it does not know, and what it takes for granted.
+// What the program says about words that it does not know, and what it assumes where words are missing.
 #include <filesystem>
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A few atoms that walk: frames for tests of runs.
+// A few atoms that move: frames for tests of runs.
 #pragma once
 
 #include <string>

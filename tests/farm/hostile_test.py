@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bundles from elsewhere: none may write or read outside its folder, or start a program, whatever stands in it."""
+"""Bundles from elsewhere: none may write or read outside its folder, or start a program, whatever it contains."""
 
 import hashlib
 import json

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How far a bundle is and how long still, for people, programs and Prometheus; and what was said of each frame."""
+"""The progress of a bundle and the time left, for people, programs and Prometheus; and the log of each frame."""
 
 import json
 import os

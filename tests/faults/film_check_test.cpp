@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A film that is not whole is found out, wherever it ends and whatever it lacks.
+// An incomplete film is detected, wherever it ends and whatever it lacks.
 #include "app/film/film.h"
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Films are what was asked for, as ffprobe tells, and their colours come back.
+// Films are as requested, as ffprobe reports, and their colours come back.
 #include "app/film/film_format.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Others write the same output, kill the program, forbid the folder, or change the input while it is read.
+// Other processes write the same output, kill the program, forbid the folder, or change the input while it is read.
 #include <algorithm>
 #include <atomic>
 #include <chrono>

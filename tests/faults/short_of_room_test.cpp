@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// No room for a file, no memory, nobody who takes the output: one line, the documented code, and no half file.
+// No room for a file, no memory, a closed output: one line, the documented code, and no half file.
 #include <algorithm>
 #include <filesystem>
 #include <utility>

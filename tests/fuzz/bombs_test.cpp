@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Short inputs that ask for much: each is refused before it has taken much memory, time or stack.
+// Short inputs that ask for much are refused before they take much memory, time or stack.
 #include <sys/resource.h>
 
 #include <ctime>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Light, shade, lines and air do what they say, the same in blocks of any size and every time.
+// Light, shade, lines and depth cueing do what they say, the same in blocks of any size and every time.
 #include "core/render/look.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The schedule of drafts and full pictures: what is given up for what, and how films are drawn.
+// The schedule of drafts and full pictures: which is stopped for which, and how films are drawn.
 #include "app/preview/session.h"
 
 #include <chrono>

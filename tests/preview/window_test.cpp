@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The window as users have it: opened, dragged, typed into, closed and bereft of its display.
+// The window as users have it: opened, dragged, typed into, closed, and without its display.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What recipes of families draw from, and the lists of recipes that families.cpp puts together.
+// Random numbers for recipes of families, and the lists of recipes that families.cpp joins.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Uniform points on spheres and tori, and the clips of primitives.h.
+// Draws uniform points on spheres and tori, and applies the clips of primitives.h.
 #include "tests/support/patch_samples.h"
 
 #include <algorithm>

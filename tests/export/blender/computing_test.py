@@ -318,7 +318,7 @@ class Wording(WithFolder):
                  "select them by --trajectory-atoms": "select them by Trajectory's atoms",
                  "a.pdb: add --trajectory with a file": "a.pdb: add Trajectory with a file",
                  "--keep-water and --keep-ions use more":
-                     '"keep-water" and "keep-ions" use more (keep-water, keep-ions: options of the program meniscus that this panel has not)',
+                     '"keep-water" and "keep-ions" use more (keep-water, keep-ions: options of the program meniscus that this panel does not have)',
                  "/x/my--run.pdb: has no atoms": "/x/my--run.pdb: has no atoms"}
         for text, wanted in cases.items():
             self.assertEqual(wording.for_panel(text), wanted)

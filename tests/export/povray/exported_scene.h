@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A molecule with its surface, its oracle, and the way from a camera to the pixels that differ.
+// A molecule with its surface and its oracle, and the comparison of rendered pixels for a camera.
 #pragma once
 
 #include <functional>

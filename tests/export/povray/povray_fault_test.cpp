@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Faults seeded into the geometry's text must be seen by the comparison, or it would prove nothing.
+// The comparison must see faults planted in the geometry's text, or it would prove nothing.
 #include <cmath>
 #include <regex>
 #include <sstream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which devices a wish leads to, on machines made up here.
+// The devices that a choice leads to, on invented machines.
 #include "core/gpu/device_choice.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Volume maps: a linear field comes back exactly from every format, skewed and turned; faults are named by line.
+// Volume maps: a linear field is read back exactly from every format, skewed and turned; errors name the line.
 #include <bit>
 #include <cmath>
 #include <cstring>

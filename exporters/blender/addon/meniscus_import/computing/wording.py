@@ -29,4 +29,4 @@ def for_panel(text):
     worded = OPTION.sub(field, text)
     if not lacking:
         return worded
-    return f"{worded} ({', '.join(lacking)}: {'an option' if len(lacking) == 1 else 'options'} of the program meniscus that this panel has not)"
+    return f"{worded} ({', '.join(lacking)}: {'an option' if len(lacking) == 1 else 'options'} of the program meniscus that this panel does not have)"
