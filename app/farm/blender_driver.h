@@ -20,7 +20,7 @@ struct DriverFile {
 const std::vector<DriverFile>& driver_files();
 
 /// Throws RequestError unless the bundle brings exactly these files below inputs/blender/, or none for bundles whose
-/// frames are not made by Blender: what Blender runs is a program, which nobody else should choose.
+/// frames are not made by Blender: what Blender runs is a program, which only we may choose.
 void check_driver(const Bundle& bundle);
 
 /// A copy of the driver in a hidden folder of the bundle, away with this object. Made of files with the right checksums

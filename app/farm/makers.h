@@ -20,7 +20,7 @@ struct FrameListener {
   /// Hears, before the above, of a frame whose process was ended by a signal and that is tried a second time.
   std::function<void(std::uint64_t frame, const std::string& error)> tried_again;
   /// Hears each line that a process says, but those about frames, before it hears of the frame that is over then. Not
-  /// those said while it makes several at once: nobody knows of which frame they are.
+  /// those said while it makes several at once: their frame is then unknown.
   std::function<void(const std::string& line)> said;
 };
 
@@ -52,7 +52,7 @@ void make_by_povray(const Bundle& bundle, const Step& step, const Workplace& pla
 
 /// Removes unfinished pictures of this process, and its copy of Blender's driver.
 void remove_own_leftovers(const std::filesystem::path& folder);
-/// Removes whatever killed workers left unfinished. For a bundle that nobody works on any more.
+/// Removes whatever killed workers left unfinished. For a bundle without running workers.
 void remove_leftovers(const std::filesystem::path& folder);
 
 }  // namespace meniscus::farm

@@ -29,7 +29,7 @@ std::string command_word(const nlohmann::json& command);
 std::string sentence_of(const std::string& error, const std::string& word);
 
 /// Does the command only ask: state, stats, choices, render_command, export_state, or a pick that does not wait?
-/// Anyone may, and nobody records it.
+/// Any client may send it, and it is not recorded.
 bool is_question(const nlohmann::json& command);
 
 /// What a command will change, from the least to the most.

@@ -100,7 +100,7 @@ class ViewCache {
   /// Of the last picture's molecule, without the legend.
   glm::ivec2 molecule_size() const { return renderer_->size(); }
   double milliseconds() const { return milliseconds_; }
-  /// Of the last picture that was no draft: nobody waits for the stages of those.
+  /// Of the last picture that was not a draft; stages of drafts are not measured.
   const std::vector<StageTime>& stages() const { return stages_; }
 
  private:

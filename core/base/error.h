@@ -22,7 +22,7 @@ class InputError : public Error {
 };
 
 /// A selection that cannot be understood. what(): a sentence, a line with the expression, a line with a caret under the
-/// place; all of it may be printed as it is.
+/// place; it may be printed as it is.
 class SelectionError : public Error {
  public:
   SelectionError(const std::string& sentence, const std::string& picture)
@@ -34,7 +34,7 @@ class SelectionError : public Error {
   std::string sentence_, picture_;
 };
 
-/// A wish that cannot be met as it is: options that are not valid together, a picture too small for its legend.
+/// A request that cannot be met: options that exclude each other, a picture too small for its legend.
 class RequestError : public Error {
  public:
   using Error::Error;

@@ -117,7 +117,7 @@ std::string color_scheme_words();
 /// RequestError for what is not a colour or cannot be a rule's, SelectionError.
 ColorRule parse_color_rule(std::string_view text);
 
-/// The rules' expressions that mean none of these atoms, so that someone may be told.
+/// The rules' expressions that select none of these atoms, for warnings.
 std::vector<std::string> rules_without_atoms(const Structure& structure, const ColorScheme& scheme);
 
 /// Reads "EXPR=0.4", split at the last "=", or "0.4" for all atoms. Throws RequestError for a number outside [0, 1],

@@ -16,7 +16,7 @@
 
 namespace meniscus {
 
-/// Axis-parallel, both corners included, in Å; empty at first.
+/// Axis-parallel, both corners included, in Å; initially empty.
 struct Box {
   glm::dvec3 low{std::numeric_limits<double>::infinity()};
   glm::dvec3 high{-std::numeric_limits<double>::infinity()};
@@ -32,7 +32,7 @@ struct Box {
   }
 };
 
-/// Boxes around things, which are then asked in the order of their nearness to a point.
+/// Boxes around objects, which are then visited in the order of their nearness to a point.
 class BoxTree {
  public:
   explicit BoxTree(std::span<const Box> boxes) : order_(boxes.size()) {

@@ -86,7 +86,7 @@ class Renderer {
   bool draw(Drawable& drawable, const Camera& camera, const RenderSettings& settings,
             const std::function<bool()>& stop = {});
 
-  /// Whether draw() asks the GPU what a picture needs before or after it is made; at first as suits the device.
+  /// Whether buffer sizes are read back before or after drawing. The default is the faster way for the device.
   void set_counting(Counting counting) { counting_ = counting; }
 
   /// The last drawn picture, 8 bit sRGB and alpha (255) per pixel, rows from the top.

@@ -27,7 +27,7 @@ enum class WholeBy {
   guess     ///< those the file lists and all that distances suggest
 };
 
-/// Which frames of which trajectory, and what is done to them.
+/// Which frames of which trajectory, and how they are prepared.
 struct RunRequest {
   std::vector<std::string> trajectories;      ///< in a row; none: the models of the molecule's file are the frames
   std::optional<Selection> trajectory_atoms;  ///< of the molecule's file, those that they have; nothing: all
@@ -49,7 +49,7 @@ struct RunRequest {
 
   std::string index_folder;  ///< where indices of frames are kept; empty: nowhere
 
-  /// Is a run asked for at all?
+  /// Whether a run is requested.
   bool asked() const;
 };
 

@@ -32,7 +32,7 @@ const char* class_name(AtomClass kind);
 /// asked for.
 enum class FileRadii : std::uint8_t { none, if_asked, usual };
 
-/// What the backbone of a residue forms. `unknown`: nobody has looked; `coil`: neither of the others.
+/// Secondary structure of a residue. `unknown`: not determined yet; `coil`: neither of the others.
 enum class SecondaryStructure : std::uint8_t { unknown, coil, helix, strand };
 
 /// One atom. Text fields come from the file as they are: never paste them into the source code of another program.

@@ -47,7 +47,7 @@ class Trajectory {
   std::size_t atom_count() const { return atom_count_; }
   /// Whole frames, at least one.
   std::uint64_t frame_count() const { return frame_count_; }
-  /// Oddities that stop nobody: a frame count in the header that is not the file's, ...
+  /// Non-fatal warnings, such as a frame count in the header that is not that of the file.
   const std::vector<Warning>& warnings() const { return warnings_; }
   /// Empty, or what is wrong after the last whole frame: "the file ends within frame 42; its 42 whole frames are
   /// used".
@@ -90,8 +90,8 @@ struct TrajectoryOptions {
   std::function<std::size_t()> atoms{};
 };
 
-/// Opens a file of any format in core/trajectory/formats/trajectory_formats.h, told by its content. Throws InputError:
-/// missing, no trajectory, not one whole frame, broken header.
+/// Opens a file of any format in core/trajectory/formats/trajectory_formats.h, recognized by content. Throws
+/// InputError: missing, no trajectory, not one whole frame, broken header.
 std::unique_ptr<Trajectory> open_trajectory(const std::string& path, const TrajectoryOptions& options = {});
 
 class JoinedFrames : public Trajectory {

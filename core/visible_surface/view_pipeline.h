@@ -54,8 +54,8 @@ class ViewPipeline final : public Drawable {
   /// What the next pictures are made of; probe_radius in Å, >= 0. At first 1.4 Å and visible.
   void set_surface(double probe_radius, Extent extent);
 
-  /// Whether prepare() asks the GPU what a view needs between its stages, or trusts in the last one's sizes; at first
-  /// as suits the device.
+  /// Whether prepare() reads buffer sizes back between its stages, or assumes those of the last view. The default is
+  /// the faster way for the device.
   void set_counting(Counting counting) { counting_ = counting; }
 
   std::span<const Ball> atoms() const override { return atoms_; }

@@ -33,8 +33,8 @@ struct ClientCommand {
   std::vector<nlohmann::json> ids;  ///< of the messages, for their replies
 };
 
-/// Drags that nobody has seen yet become one drag, and of values such as the probe radius the latest counts, so that a
-/// slow picture never makes a queue. Every function may be called from any thread.
+/// Drags not drawn yet become one drag, and of values such as the probe radius the latest counts, so
+/// that a slow picture never makes a queue. Every function may be called from any thread.
 class Mailbox {
  public:
   /// False, and nothing happens, if too many commands wait already.
@@ -116,10 +116,10 @@ struct Clients {
   /// Connections that have not shown the token yet, oldest first, each by a function that ends it.
   std::map<std::uint64_t, std::function<void()>> strangers;
   std::uint64_t next_stranger = 1;
-  ClientNumber controller = 0;  ///< 0: nobody
+  ClientNumber controller = 0;  ///< 0: none
 
   bool controls(ClientNumber client) const { return client == controller; }
-  /// This client controls from now on; both are told.
+  /// This client controls from now on; both are notified.
   void give_control(ClientNumber client);
   bool full() const;
   ClientNumber join(std::shared_ptr<Client> client);

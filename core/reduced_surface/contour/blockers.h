@@ -20,7 +20,7 @@ inline constexpr std::size_t kLanes = 8;
 /// That multiple.
 constexpr std::size_t whole_vectors(std::size_t count) { return (count + kLanes - 1) / kLanes * kLanes; }
 
-/// Columns of doubles, all of one length: what is one number of many things is together.
+/// Columns of doubles, all of one length: one number of many balls is contiguous.
 template <std::size_t kColumns>
 class ColumnTable {
  public:

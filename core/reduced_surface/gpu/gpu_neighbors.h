@@ -143,7 +143,7 @@ class GpuNeighbors {
   TexelBuffer listed_texels_{TexelFormat::uint1}, before_texels_{TexelFormat::uint1};
   Buffer cell_first_, rank_, cell_atoms_, class_counts_;
   Buffer ball_count_;   // uint, whether loops were cut short; uint, how many balls there are
-  BallBatch resident_;  // whose lists the buffers hold; count 0: nobody's
+  BallBatch resident_;  // whose lists the buffers hold; count 0: none
   Counting counting_ = Counting::now;
   BallBatch known_, trusted_;  // of one batch: as last counted, with room
   struct Counted {

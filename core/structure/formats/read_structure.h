@@ -17,7 +17,7 @@
 
 namespace meniscus {
 
-/// What to do with atoms whose element nobody can tell.
+/// What to do with atoms of unknown element.
 enum class UnknownElement { halt, guess, skip };
 
 /// What to do with hydrogens. `automatic`: kept with radii for explicit hydrogens, left out with united atoms.

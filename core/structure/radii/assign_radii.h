@@ -44,7 +44,7 @@ class RadiiChoice {
   /// Gives every atom its radius and leaves out those whose radius is zero (tables say so of some hydrogens). Fills in
   /// Structure::radii_set and radius_classes. Warns of atoms that neither files nor set cover, which get Bondi's radius
   /// of their element; of explicit hydrogens beside united atoms; of elements without a published radius; of overrides
-  /// that select nothing. Returns the labels of atoms whose radius is a guess because nobody knows their element.
+  /// that select nothing. Returns the labels of atoms whose radius is a guess, because their element is unknown.
   std::vector<std::string> assign(Structure& structure) const;
 
  private:
