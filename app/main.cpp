@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program `meniscus`: reads the command line, and has the command do its work.
+// The program `meniscus`: reads the command line, and runs the command.
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -20,24 +20,25 @@
 #include "app/process/program_main.h"
 #include "app/process/this_program.h"
 #include "app/reports/version_report.h"
+#include "core/base/binary_file.h"
 #include "core/base/text.h"
 #include "core/properties/properties.h"
 
 namespace meniscus {
 namespace {
 
-constexpr const char* kExamples = R"(  meniscus info 1tii.pdb                          what the file holds
+constexpr const char* kExamples = R"(  meniscus info 1tii.pdb                          what the file contains
   meniscus surface 1tii.pdb                       area, volume, cavities; --json, --csv for programs
   meniscus pockets 1tii.pdb                       pockets, tunnels, cavities
   meniscus render 1tii.pdb -o 1tii.png            a picture
-  meniscus preview 1tii.pdb --serve               look at it while it changes
+  meniscus preview 1tii.pdb --serve               a preview in the browser
   meniscus export povray 1tii.pdb -o 1tii         a POV-Ray scene; blender, mitsuba, pbrt likewise
   meniscus surface 1tii.pdb --select 'chain A'    only some atoms; meniscus help selections
   meniscus COMMAND --help                         everything about one command)";
 
 constexpr const char* kExitCodesInShort = R"(Exit codes:
   0 done  1 internal error  2 wrong usage  3 bad input  4 no usable GPU  5 too large
-  6 output not written  7 surface not closed  8 trajectory cut short  9 stopped, to be resumed
+  6 output not written  7 surface not closed  8 trajectory cut short  9 stopped, run it again
 )";
 
 constexpr std::size_t kHelpWidth = 100;
@@ -165,18 +166,22 @@ bool is_command(std::string_view word) {
   std::vector<std::string_view> names;
   for (const Command& command : commands()) names.emplace_back(command.name);
   const std::string_view nearest = nearest_word(word, names);
-  throw UsageError(fmt::format("{} is no command{}; there are {}; see meniscus --help", in_quotes(word),
-                               nearest.empty() ? "" : fmt::format(" (did you mean {}?) and no file", nearest),
+  if (const std::string advice = advice_on_pdb_code(word); !advice.empty())
+    throw UsageError(fmt::format("{} is not a command{}", in_quotes(word), advice));
+  throw UsageError(fmt::format("{} is not a command{} and not a file; the commands are {}; see meniscus --help",
+                               in_quotes(word), nearest.empty() ? "" : fmt::format(" (did you mean {}?)", nearest),
                                fmt::join(names, ", ")));
 }
 
-/// The words as they were typed; `meniscus my.pdb` means `meniscus render my.pdb`, and `meniscus my.json`
-/// `meniscus render --scene my.json`.
+/// The words as they were typed; `meniscus my.pdb` means `meniscus render my.pdb`, so with - for standard input, and
+/// `meniscus my.json` means `meniscus render --scene my.json`.
 std::vector<const char*> words_of(int argc, char** argv) {
   std::vector<const char*> words(argv, argv + argc);
-  if (argc < 2 || argv[1][0] == '-' || is_command(argv[1])) return words;
+  const std::string_view first = argc < 2 ? "" : argv[1];
+  const bool standard_input = first == "-";
+  if (!standard_input && (first.empty() || first[0] == '-' || is_command(first))) return words;
   std::error_code unreadable;
-  if (!std::filesystem::is_regular_file(argv[1], unreadable)) refuse_unknown_command(argv[1]);
+  if (!standard_input && !std::filesystem::is_regular_file(argv[1], unreadable)) refuse_unknown_command(first);
   if (std::filesystem::path(argv[1]).extension() == ".json") words.insert(words.begin() + 1, "--scene");
   words.insert(words.begin() + 1, "render");
   return words;
@@ -198,8 +203,7 @@ void run(int argc, char** argv) {
   program.get_formatter()->label("Positionals", "Arguments");
   program.get_formatter()->label("SUBCOMMAND", "COMMAND");
   bool verbose = false;
-  program.add_flag("--verbose", verbose,
-                   "With --version: also compiler, libraries and GL driver, for reports of faults");
+  program.add_flag("--verbose", verbose, "With --version: also compiler, libraries and GL driver, for bug reports");
   program.set_version_flag(
       "--version", [&verbose] { return verbose ? version_report() : version_line(); }, "Show version and commit");
   program.add_flag_callback(

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What compare_peers.sh runs: areas, areas of a trajectory and pictures of one molecule by several programs, as tables.
+"""Compares areas, areas of a trajectory and pictures of one molecule by several programs, as tables; compare_peers.sh
+runs it.
 
 Every program gets the same heavy atoms with the same radii (Bondi 1964, by element), so that areas differ by method alone. The
 exact solvent-accessible area is that of Meniscus in closed form; an error is a program's whole area beside it. Times are

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Says how far the normals of the same view differ between the ray caster, POV-Ray and Blender.
+"""Compares the normals of one view between the ray caster, POV-Ray and Blender.
 
   compare_pictures.py RAY_CAST.exr POVRAY_NORMAL.png BLENDER_PASSES.exr [--json]
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tells of a shared library or a program of any system what can be told without running it: the processor, the oldest system,
-the libraries that it needs, and how many functions a library gives.
+"""Describes a shared library or a program of any system without running it: the processor, the oldest system, the
+libraries that it needs, and how many functions a library has.
 
 describe_library.py FILE...     needs lief, of PyPI. Exit code 1 if one needs a library that its system does not bring, or takes a
 mathematical function from the system, whose last digit is that of the system, or if a library gives other names than

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What figures_beside_pymol.sh runs: the twelve figures of docs/how-to/figures.md by two programs, a table and contact sheets.
+"""Makes the twelve figures of docs/how-to/figures.md with two programs, as a table and contact sheets;
+figures_beside_pymol.sh runs it.
 
 PyMOL gets the camera that Meniscus saved, the same size, paper and cores, its usual surface and smooth edges; what a figure
 needs and PyMOL has no command for is made as its users make it, by a few lines of Python. Times are those of whole processes.
@@ -61,7 +62,7 @@ FIGURES = (
      "cmd.load({molecule!r}, 'm'); cmd.hide(); cmd.show('surface'); cmd.load('pot.dx', 'pot'); "
      "cmd.ramp_new('ramp', 'pot', [-3, 0, 3], ['red', 'white', 'blue']); cmd.set('surface_color', 'ramp', 'm'); "
      "cmd.disable('ramp'); look(camera)",
-     "colours at pixels, in PyMOL at vertices; PyMOL's ramp is no legend with a scale and unit in the picture"),
+     "colours at pixels, in PyMOL at vertices; PyMOL's ramp is not a legend with a scale and unit in the picture"),
     ("a pocket and its ligand", "1ake.cif",
      "--select 'polymer and chain A' --sticks 'ligand and chain A' --color lightgrey --color 'ligand=element' "
      "--zoom-to 'within 5 of (ligand and chain A)' --clip 'depth>0.55' --background white",

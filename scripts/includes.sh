@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Does every file include what it needs? Compiles each by itself and without precompiled headers, as far as its syntax:
-# all of them, or those that are named. The last line says how many were tried and failed.
+# Checks that every file includes what it needs: compiles each by itself and without precompiled headers, as far as its
+# syntax. The last line says how many were tried and failed.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=build/plain

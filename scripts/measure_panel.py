@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How long a change in the panel of the Blender add-on takes, stage by stage: the probe moves, and the mesh follows.
+"""Measures how long a change in the panel of the Blender add-on takes, stage by stage: the probe moves, and the mesh
+follows.
 
     MENISCUS_LIBRARY=build/release/exporters/bindings/c/libmeniscus.so blender [-b] --factory-startup --python-exit-code 3 \
         --python scripts/measure_panel.py -- FILE [--density D | --tolerance T] [--changes N] [--trajectory T] [--program P]

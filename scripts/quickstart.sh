@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what Meniscus needs, builds it, makes a picture of 1TII, and then one more three times: by ray casting, by
-# POV-Ray and by Blender from our exports, compared. Safe to run again. Results are in quickstart/ below the current folder.
+# Installs what Meniscus needs, builds it, makes a picture of 1TII, and then the same view by ray casting, by POV-Ray
+# and by Blender from our exports. Safe to run again. Results are in quickstart/ below the current folder.
 set -euo pipefail
 here=$(cd "$(dirname "$0")/.." && pwd)
 source "$here/scripts/packages.sh"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chains are computed alone and together; the difference is what they bury.
+// Computes chains alone and together; the difference is the area that they bury.
 #include "app/commands/buried_attribute.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ std::vector<double> buried_by_chains(const MoleculeRequest& molecule, const Stru
   const auto wanted = std::ranges::find(names, "buried_area");
   if (wanted == names.end()) return {};
   if (!structure.instances.empty()) {
-    if (!all) throw RequestError("areas buried between copies need copies made of atoms; leave --instances away");
+    if (!all) throw RequestError("areas buried between copies need copies made of atoms; leave --instances out");
     names.erase(wanted);
     return {};
   }

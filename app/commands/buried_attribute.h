@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The attribute buried_area of exported meshes: what other chains bury of each atom.
+// The attribute buried_area of exported meshes: the area of each atom that other chains bury.
 #pragma once
 
 #include <string>

@@ -150,13 +150,12 @@ void run(BenchCommand& command) {
 }  // namespace
 
 void add_bench(CLI::App& command) {
-  describe(
-      command,
-      "  meniscus bench 1ubq.pdb 1tii.pdb            a row each: stages, total, surfaces per second\n"
-      "  meniscus bench 6zu5.cif --device cpu --threads 1 --runs 20\n"
-      "  meniscus bench --paper 1crn.pdb 1vis.pdb 1tii.pdb   frames as in the paper, beside its own figures",
-      "All times are wall-clock milliseconds, the medians of the runs, after one run that is not counted. Reading\n"
-      "the file is not part of them.");
+  describe(command,
+           "  meniscus bench 1ubq.pdb 1tii.pdb            one row per file: stages, total, surfaces per second\n"
+           "  meniscus bench 6zu5.cif --device cpu --threads 1 --runs 20\n"
+           "  meniscus bench --paper 1crn.pdb 1vis.pdb 1tii.pdb   frames as in the paper, beside its own figures",
+           "All times are wall-clock milliseconds: the medians of the runs, after one run that is not counted. They "
+           "do\nnot include reading the file.");
   auto declared = std::make_shared<DeclaredCommand<BenchCommand>>(command, for_bench);
   BenchCommand& state = declared->state;
   command.add_option("FILES", state.files, "Molecules: " + format_names() + "; .gz too")->required();
@@ -165,7 +164,7 @@ void add_bench(CLI::App& command) {
   options.add("bench.numbers", state.numbers);
   options.add("bench.baseline", state.baseline);
   options.add("bench.paper", state.paper);
-  declared->options.option("image.size")->description("With --paper: size of frames in pixels [1024x768]");
+  declared->options.option("image.size")->description("With --paper: size of the frames in pixels [1024x768]");
   command.callback([declared] {
     BenchCommand& asked = declared->state;
     asked.scene.molecule.surface.timing = StageTiming::exact;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus colors`: what surfaces can be coloured by, the maps for numbers, and where both come from.
+// `meniscus colors`: lists colour schemes and colour maps with their sources.
 #include <iostream>
 
 #include <fmt/format.h>
@@ -25,11 +25,10 @@ void list_colors() {
   print_row("EXPR=COLOR", "any of these but kind and component, for the atoms of an expression", "");
   fmt::print(std::cout, "\n--map MAP, for numbers\n");
   for (const ColorMapMetadata& map : color_maps()) print_row(map.name, map.source, "");
-  fmt::print(
-      std::cout,
-      "\nNumbers beyond --color-range take the colour of its end. Atoms without a number are grey #808080 (with\n"
-      "cividis, which goes through grey, #cc79a7) or of --missing-color. If all numbers are equal they take the\n"
-      "middle of the map.\n");
+  fmt::print(std::cout,
+             "\nNumbers beyond --color-range have the colour of its end. Atoms without a number have --missing-color; "
+             "its default is\ngrey #808080 (with cividis, which contains grey, #cc79a7). If all numbers are equal, "
+             "they have the colour in the\nmiddle of the map.\n");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus completion SHELL`: the script by which a shell completes the command line.
+// `meniscus completion SHELL`: prints the script with which a shell completes the command line.
 #include <iostream>
 #include <memory>
 
@@ -26,7 +26,7 @@ void run(const CLI::App& program, const std::string& name) {
     std::cout << shell.completion(command_tree(program));
     return;
   }
-  throw UsageError(in_quotes(name) + " is no shell; there are bash, zsh, fish");
+  throw UsageError(in_quotes(name) + " is not a supported shell; choose bash, zsh or fish");
 }
 
 }  // namespace

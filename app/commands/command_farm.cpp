@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus farm`: bundles a framed command for any render farm, tells how far it is, verifies it and makes the film.
+// `meniscus farm`: bundles a command on frames for any render farm, shows its progress, verifies it and makes the film.
 #include <algorithm>
 #include <ctime>
 #include <iostream>
@@ -38,7 +38,7 @@ namespace {
 constexpr std::size_t kFaultsShown = 10;
 
 struct BundleCommand {
-  std::vector<std::string> words;  // behind --
+  std::vector<std::string> words;  // after --
   farm::BundleOptions options;
   std::string folder, engines = "make,slurm,openjd,flamenco", film, addon = addon_folder();
   double frames_per_second = 25.0;
@@ -56,7 +56,7 @@ std::vector<farm::Engine> engines_of(const BundleCommand& command) {
     if (word == "all") {
       chosen = table;
     } else if (found == table.end()) {
-      throw UsageError(fmt::format("--engine: {} is none of {}, all", in_quotes(word), names));
+      throw UsageError(fmt::format("--engine: {} is not one of {}, all", in_quotes(word), names));
     } else {
       chosen.push_back(*found);
     }
@@ -70,7 +70,7 @@ std::vector<farm::Engine> engines_of(const BundleCommand& command) {
 void check_film_name(const std::string& name) {
   if (name.find('/') != std::string::npos || name.starts_with('.') || name.starts_with('-') || !is_film_path(name))
     throw UsageError(
-        fmt::format("--film {} is no plain name that ends in .mp4, .mov, .mkv, .webm or .gif", in_quotes(name)));
+        fmt::format("--film {} is not a plain name that ends in .mp4, .mov, .mkv, .webm or .gif", in_quotes(name)));
   farm::require_printable_path("--film", name);
 }
 
@@ -88,7 +88,7 @@ void bundle(BundleCommand command) {
   const farm::MadeBundle made = farm::make_bundle(options, bundled);
   for (const std::string& note : made.notes) std::cerr << "meniscus: note: " << escaped(note) << "\n";
   const farm::Chunking& chunking = made.bundle.chunking;
-  fmt::print(std::cout, "{}: {} frames in {} {} a step{}{}\n", escaped(command.folder),
+  fmt::print(std::cout, "{}: {} frames in {} {} per step{}{}\n", escaped(command.folder),
              with_thousands(made.bundle.frames.size()), chunking.count, chunking.count == 1 ? "task" : "tasks",
              chunking.seconds_per_frame ? fmt::format(", {:.3g} s a frame here", *chunking.seconds_per_frame) : "",
              made.was_there ? "; it was there already" : "");
@@ -107,13 +107,13 @@ void add_farm_bundle(CLI::App& command) {
            "  meniscus farm bundle film -- export povray adk.psf --trajectory adk.dcd --frames 0-97 -- +A0.1\n"
            "  meniscus farm bundle film --engine slurm --chunk-frames 20 -- export blender adk.pdb --frames all -- "
            "--samples 64",
-           "Behind -- stands the command without -o, FILE first; behind another --, options for POV-Ray or Blender's\n"
-           "driver. Files that the command reads are copied into the bundle. One frame is made for trial, to see how\n"
-           "long it takes, unless --chunk-frames says how many frames make a task.");
+           "After -- comes the command without -o, FILE first; after another --, options for POV-Ray or "
+           "Blender's\ndriver. Files that the command reads are copied into the bundle. One trial frame is made to "
+           "measure its\ntime, unless --chunk-frames sets the number of frames of a task.");
   auto state = std::make_shared<BundleCommand>();
-  command.add_option("DIR", state->folder, "The folder to make")->required()->type_name("");
+  command.add_option("DIR", state->folder, "Folder to make")->required()->type_name("");
   command
-      .add_option("COMMAND", state->words, "Behind --: render, or export povray, blender, mitsuba or pbrt, and more")
+      .add_option("COMMAND", state->words, "After --: render, or export povray, blender, mitsuba or pbrt, with options")
       ->required()
       ->type_name("");
   PropertyOptions options(command);
@@ -147,7 +147,7 @@ void add_farm_status(CLI::App& command) {
            "  meniscus farm status film\n"
            "  meniscus farm status film --prometheus > film.prom.new && mv film.prom.new /var/lib/node/film.prom");
   auto state = std::make_shared<Status>();
-  command.add_option("BUNDLE", state->folder, "The bundle's folder")->required()->type_name("");
+  command.add_option("BUNDLE", state->folder, "Folder of the bundle")->required()->type_name("");
   PropertyOptions options(command);
   CLI::Option* const json = options.add("report.json", state->json);
   options.add("status.prometheus", state->metrics)->excludes(json);
@@ -168,7 +168,7 @@ std::string utc_time(double seconds) {
   std::tm parts{};
   char text[64] = {};
   if (!::gmtime_r(&whole, &parts) || std::strftime(text, sizeof text, "%F %T UTC", &parts) == 0)
-    return "a time that is none";
+    return "an invalid time";
   return text;
 }
 
@@ -179,7 +179,7 @@ std::string outcome(const std::optional<farm::FrameRecord>& record) {
   const std::string when = record->ended > 0.0 ? " at " + utc_time(record->ended) : "";
   if (!record->done())
     return fmt::format("failed{}{}, exit code {}: {}", who, when, record->exit_code, escaped(record->error));
-  const std::string again = record->first_try.empty() ? "" : "; the second try: " + escaped(record->first_try);
+  const std::string again = record->first_try.empty() ? "" : "; second try: " + escaped(record->first_try);
   return fmt::format("made{}{} in {:.2f} s{}", who, when, record->seconds, again);
 }
 
@@ -187,7 +187,7 @@ void tell_log(const std::string& folder, std::uint64_t frame, const std::string&
   const farm::Bundle bundle = farm::read_bundle(folder);
   bundle.place_of(frame);
   if (!only_step.empty() && !bundle.step(only_step))
-    throw UsageError(fmt::format("--step {} is none of this bundle's", in_quotes(only_step)));
+    throw UsageError(fmt::format("--step {} is not a step of this bundle", in_quotes(only_step)));
   const farm::FrameRecords records(folder, bundle);
   for (const farm::Step& step : bundle.steps) {
     if (!only_step.empty() && step.name != only_step) continue;
@@ -211,8 +211,8 @@ void add_farm_log(CLI::App& command) {
            "  meniscus farm log film 42\n"
            "  meniscus farm log film 42 --step render");
   auto state = std::make_shared<Log>();
-  command.add_option("BUNDLE", state->folder, "The bundle's folder")->required()->type_name("");
-  command.add_option("FRAME", state->frame, "The frame's number, as in the trajectory")->required()->type_name("");
+  command.add_option("BUNDLE", state->folder, "Folder of the bundle")->required()->type_name("");
+  command.add_option("FRAME", state->frame, "Number of the frame in the trajectory")->required()->type_name("");
   PropertyOptions(command).add("work.step", state->step);
   command.callback([state] { tell_log(state->folder, state->frame, state->step); });
 }
@@ -283,7 +283,7 @@ void add_farm_verify(CLI::App& command) {
     std::optional<farm::InPlace> in_place;
   };
   auto state = std::make_shared<Verify>();
-  command.add_option("BUNDLE", state->folder, "The bundle's folder")->required()->type_name("");
+  command.add_option("BUNDLE", state->folder, "Folder of the bundle")->required()->type_name("");
   PropertyOptions(command).add_word("verify.allow_missing", state->in_place,
                                     {farm::InPlace::hold, farm::InPlace::drop});
   command.callback([state] { verify(state->folder, state->in_place); });

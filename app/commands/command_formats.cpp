@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus formats`: which files can be read, and what of them is used.
+// `meniscus formats`: lists the file formats that are read, and what is read of each.
 #include <iostream>
 #include <memory>
 #include <string>

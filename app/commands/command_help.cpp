@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus help TOPIC`: topics in short, the help of commands, and the pages of the manual.
+// `meniscus help TOPIC`: shows topics in short, the help of commands, and the pages of the manual.
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -36,67 +36,67 @@ constexpr const char* kAssemblies = R"(Examples:
   meniscus export povray 4v6x.cif --assembly 2 --instances exact -o 4v6x
 
 A file may describe how its chains are repeated in the biological molecule: REMARK 350 of PDB, _pdbx_struct_assembly
-of mmCIF. --assembly builds it of the atoms that --select and the other options leave (they work on the chains of the
-file). Copies of chain A beyond the first are called A-2, A-3, as in the assembly files of the wwPDB; --color chain
-gives them the colour of A, --color copy tells them apart (not with --instances, which share their colours).
+of mmCIF. --assembly builds that molecule from the atoms that --select and the other options leave; they apply to the
+chains of the file. Further copies of chain A are called A-2, A-3, as in the assembly files of the wwPDB. --color chain
+gives them the colour of A; --color copy gives each its own (not with --instances, whose copies share their colours).
 
-  without --instances  every copy becomes atoms, and all together get one surface: right where copies touch, and
+  without --instances  every copy becomes atoms, and all of them have one surface, which is right where copies touch;
                        at most 10,000,000 atoms
-  --instances exact    one copy is computed and drawn many times. Only where no probe can touch two copies is that the
-                       surface of the whole; otherwise it is refused, naming the closest pair of atoms
-  --instances separate the same without asking: each copy has a surface of its own, as if it were alone
+  --instances exact    one copy is computed and drawn many times. This is the surface of the whole only if no probe can
+                       touch two copies; otherwise it is an error, which names the closest pair of atoms
+  --instances separate the same without this check: each copy has a surface as if it were alone
 
-Matrices must be rotations within 0.001; six decimals are completed to the nearest exact one. Mirrored, sheared or
-incomplete ones are errors.
+Matrices must be rotations within 0.001; six decimals are rounded to the nearest exact rotation. Mirrored, sheared or
+incomplete matrices are errors.
 )";
 
 constexpr const char* kExitCodes = R"(  0  done
   1  internal error: please report it
   2  wrong usage
-  3  input cannot be read or makes no sense: "file:line: what, value, what to do"
+  3  input cannot be read or is not valid: "file:line: what, value, what to do"
   4  no usable GPU or GL, no display for a window, or the driver refused or lost something
   5  a limit of the machine or of a format was reached
   6  an output cannot be written, or exists and --force was not given
   7  the surface is not closed: the atoms are named, nothing is written
   8  all whole frames are done, but the trajectory ends in mid-frame
-  9  a worker of a farm was told to stop (SIGTERM, SIGUSR1): run it again, and it goes on where it stopped
+  9  a worker of a farm was stopped (SIGTERM, SIGUSR1): run it again, and it continues where it stopped
 
-A run of frames goes on after a frame that fails, and ends with the code of the first that did.
+A run of frames continues after a frame that fails. Its exit code is that of the first frame that failed.
 
-Files are written under a temporary name beside the final one and renamed when whole; a half file never bears the
-final name. Interrupted (Ctrl-C, SIGTERM) the program removes what is unfinished and ends with 128 + the signal.
+Files are written under a temporary name in the same folder and renamed when complete; an incomplete file never has
+the final name. When interrupted (Ctrl-C, SIGTERM), the program removes unfinished files and ends with 128 + the signal.
 )";
 
 constexpr const char* kFrames = R"(Examples:
-  meniscus surface adk.psf adk.dcd --csv-series adk.csv                    a row a frame
+  meniscus surface adk.psf adk.dcd --csv-series adk.csv                    one row per frame
   meniscus render adk.psf --trajectory adk.dcd --superpose 'name CA' -o adk.mp4
   meniscus render 1d3z.pdb --frames 0-9 -o model_##.png                    the models of a file are its frames
-  meniscus render 1tii.pdb --repeat 120 --turntable 1 -o turn.mp4          once around what stands still
+  meniscus render 1tii.pdb --repeat 120 --turntable 1 -o turn.mp4          once around a molecule at rest
   meniscus export povray adk.psf --trajectory adk.xtc --frames 0-999:10 -o adk
   meniscus preview adk.psf --trajectory adk.xtc --whole --center protein
 
-FILE says what the atoms are, --trajectory where they are (meniscus formats lists what is read). Selections that ask
-where atoms are (within, x, y, z, helix, strand, coil) are evaluated anew in each frame, all others once; --select-once
-keeps what they mean in the first frame of the run.
-Several trajectories are read in a row; they may stand right behind FILE. --trajectory-atoms 'not water' says which atoms
-of FILE they have, if not all.
+FILE lists the atoms, --trajectory their positions (meniscus formats lists the formats). Selections that depend on
+positions (within, x, y, z, helix, strand, coil) are evaluated in each frame, all others once. With --select-once all
+are evaluated in the first frame of the run only.
+Several trajectories are read one after the other; they may follow FILE on the command line. If they have only some of
+FILE's atoms, --trajectory-atoms selects these, such as 'not water'.
 
-Which frames  they count from 0, or from the end: -1 or last. --frames takes all, 7, 0-99, 0-99:10 (every tenth), 90- (to
-              the last), -10- (the last ten), and several of these with commas between; then --begin and --end (a frame, or a time such as 2.5ns) and --stride N.
-              --repeat N shows each of these N times.
-              --only LIST makes a chunk of this run: camera, colours and scene stay those of the whole.
-Prepared      in this order: --whole puts molecules together that the periodic box cuts, along the bonds of FILE and of
+Frames        count from 0, or from the end: -1 or last. --frames takes all, 7, 0-99, 0-99:10 (every tenth), 90- (to the
+              last), -10- (the last ten), and several of these separated by commas. --begin and --end (a frame, or a
+              time such as 2.5ns) and --stride N apply after that. --repeat N shows each of these frames N times.
+              --only LIST makes a part of the run; camera, colours and scene stay those of the whole run.
+Preparation   is done in this order: --whole joins molecules that the periodic box cuts, along the bonds of FILE and of
               standard residues (guess: by distance), and gathers them around the largest; --superpose EXPR fits atoms
-              to where they are in the --reference frame (0), --center EXPR only moves; --smooth N takes means over N
-              frames. A prepared frame depends on its number alone, so shares of a run fit together.
-Camera        by default still, showing all of every frame. --camera FILE for one of your own, --camera-path FILE for key
-              frames {"keys":[{"frame":0,"camera":{...}},...]} (cameras as --save-camera writes them), --turntable TURNS,
-              --follow EXPR.
-Files         bear the number of the frame in the trajectory; with --repeat N those of frame F bear F*N, F*N + 1, ...
+              to their positions in the --reference frame (0), --center EXPR only moves; --smooth N averages over N
+              frames. A prepared frame depends on its number alone, so parts of a run fit together.
+Camera        By default it does not move and shows all atoms of all frames. --camera FILE sets another one,
+              --camera-path FILE has key frames {"keys":[{"frame":0,"camera":{...}},...]} (cameras as --save-camera
+              writes them), --turntable TURNS turns it, --follow EXPR moves it with atoms.
+Files         have the number of the frame in the trajectory; with --repeat N those of frame F have F*N, F*N + 1, ...
               Pictures: -o frame_#####.png; a film: -o film.mp4 (needs ffmpeg), --fps.
-What fails    is told, and the run goes on; in the end the exit code is that of the first frame that failed. A trajectory
-              that ends in mid-frame gives all its whole frames, and then exit code 8.
-Progress      --progress bar, plain, json (a line a frame on stderr), openjd, none.
+Failures      A frame that fails is reported, and the run continues. The exit code is that of the first frame that
+              failed. A trajectory that ends in mid-frame gives all its complete frames, and then exit code 8.
+Progress      --progress bar, plain, json (one line per frame on standard error), openjd, none.
 )";
 
 std::string frames_page() { return kFrames; }
@@ -108,9 +108,9 @@ std::string scenes_page() { return scene_help(); }
 constexpr Topic kTopics[] = {
     {"selections", "the language of --select, --show and --context", selection_page},
     {"assemblies", "biological assemblies, and copies drawn as instances", assembly_page},
-    {"frames", "trajectories, films, and the cameras that move through them", frames_page},
-    {"scenes", "scene files, and the option that each of their keys is", scenes_page},
-    {"exit-codes", "what the program returns, and what is left behind", exit_page},
+    {"frames", "trajectories, films, and moving cameras", frames_page},
+    {"scenes", "scene files, and the option of each key", scenes_page},
+    {"exit-codes", "exit codes, and which files exist after an error", exit_page},
 };
 
 /// Folders of the manual, in the order in which people read.
@@ -205,7 +205,7 @@ void add_help(CLI::App& command) {
            "  meniscus help --man man            a manual page of every command and topic, into the folder man");
   auto topic = std::make_shared<std::string>(), folder = std::make_shared<std::string>();
   auto schema = std::make_shared<bool>(false);
-  command.add_option("TOPIC", *topic, "The page; none: what pages there are")
+  command.add_option("TOPIC", *topic, "Page to show; without it, the list of pages")
       ->check(proposes(page_names(*command.get_parent())))
       ->type_name("");
   PropertyOptions options(command);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus info`: what a file holds, and what of it a surface would use; frames and times of trajectories.
+// `meniscus info`: shows what a file contains and what a surface would use of it; frames and times of trajectories.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -114,7 +114,7 @@ void print_ranges(const Structure& structure) {
     fmt::print(std::cout, "B-factors     {:.2f} to {:.2f} Å²\n", b_factor[0], b_factor[1]);
 }
 
-/// The atoms of a topology stand where the first frame has them.
+/// The atoms of a topology are where the first frame has them.
 void print_structure(const SceneCommand& command, Trajectory* trajectory) {
   ReadOptions everything = command.scene.molecule.reading;
   everything.keep_water = everything.keep_ions = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus pockets`: finds pockets, tunnels and cavities and prints their numbers; their solids as a mesh.
+// `meniscus pockets`: finds pockets, tunnels and cavities, prints their numbers, and writes their solids as a mesh.
 #include <algorithm>
 #include <memory>
 #include <string>
@@ -23,17 +23,16 @@ namespace {
 void check_mesh_path(const std::string& path) {
   const MeshFormat* const format = mesh_format_of_path(path);
   if (!format || format->solid || format->atoms)
-    throw UsageError(
-        fmt::format("--mesh {}: the ending names no format for pockets; there are {}, but those for one "
-                    "solid or for atoms",
-                    in_quotes(path), mesh_format_words()));
+    throw UsageError(fmt::format(
+        "--mesh {}: the ending is not that of a format for pockets; choose one of {} that holds several solids",
+        in_quotes(path), mesh_format_words()));
 }
 
 // Of a run each frame has one.
 void check_numbered(const char* option, const std::string& path) {
   if (path.empty() || NumberedPath::parse(path)) return;
-  throw UsageError(fmt::format("{} {}: each frame has a file; put # where its number goes, as in {}", option,
-                               in_quotes(path), in_quotes(numbered_name(path))));
+  throw UsageError(fmt::format("{} {}: each frame needs a file of its own; put # where its number goes, as in {}",
+                               option, in_quotes(path), in_quotes(numbered_name(path))));
 }
 
 void check_run(const PocketsCommand& command) {
@@ -41,14 +40,13 @@ void check_run(const PocketsCommand& command) {
   check_numbered("--figure", command.figure);
   if (!command.csv.empty() && !command.scene.frames.only.empty())
     throw UsageError(
-        "--csv needs all frames of the run, as numbers of pockets go on from one to the next; leave "
-        "--only away");
+        "--csv needs all frames of the run, because pockets keep their numbers from frame to frame; leave --only out");
 }
 
 void check_request(const PocketsCommand& command) {
   if (const std::string fault = pocket_fault(command.pockets); !fault.empty()) throw UsageError(fault);
   if (command.scene.molecule.division.instances != InstanceMode::none)
-    throw UsageError("--instances: pockets are between all atoms, those of copies too; leave it away");
+    throw UsageError("--instances: pockets need the atoms of all copies; leave it out");
   if (command.json && command.csv == "-")
     throw UsageError("standard output holds one thing at a time: --json, or --csv -");
   if (!command.mesh.empty()) check_mesh_path(command.mesh);
@@ -72,22 +70,20 @@ void check_request(const PocketsCommand& command) {
 void add_pockets(CLI::App& command) {
   describe(
       command,
-      "  meniscus pockets 1hpv.pdb                         a table; the ligand's place is told\n"
+      "  meniscus pockets 1hpv.pdb                         a table, and where the ligand lies\n"
       "  meniscus pockets 1hpv.pdb --json > pockets.json   one JSON object\n"
       "  meniscus pockets 1hpv.pdb --csv pockets.csv --mesh pockets.ply    rows, and solids in colours\n"
-      "  meniscus pockets 1hpv.pdb --large-probe 6 --trim 0   shallower ones too\n"
+      "  meniscus pockets 1hpv.pdb --large-probe 6 --trim 0   shallower ones, too\n"
       "  meniscus pockets 1ake.cif --ligand 'resname AP5'  only these atoms are taken out\n"
-      "  meniscus pockets adk.psf adk.dcd --superpose 'name CA' --csv run.csv   each pocket through time\n"
+      "  meniscus pockets adk.psf adk.dcd --superpose 'name CA' --csv run.csv   each pocket over time\n"
       "  meniscus pockets 1hpv.pdb --figure lining.json; meniscus lining.json -o lining.png   the atoms around, by "
       "rank",
-      "A pocket is a connected part of what a probe of --probe can fill of the solid that --large-probe rolls over, "
-      "its\n"
-      "surface lowered by --trim. Large probes that touch the molecule close the mouths; then pockets are cavities of\n"
-      "an exact surface, and volume, areas and borders are in closed form. A volume is too large by at most the area "
-      "of\n"
-      "the mouths times --mouth-tolerance (`less up to`). Without a mouth it is a cavity, with two or more a tunnel.\n"
-      "Ranked by volume. Over frames a pocket keeps its number while probes at rest in it overlap. "
-      "docs/how-to/pockets.md.");
+      "A pocket is a connected region that the probe of --probe can fill, inside the solid that --large-probe rolls "
+      "over\nand --trim below its surface. Large probes that touch the molecule close the mouths, so pockets are "
+      "cavities of an\nexact surface, with volumes, areas and borders in closed form. A volume is too large by at most "
+      "the area of the\nmouths times --mouth-tolerance (column `less up to`). A pocket without a mouth is a cavity, "
+      "one with two or more a\ntunnel. Pockets are ranked by volume. Over frames a pocket keeps its number while "
+      "probes at rest in it overlap.");
   auto declared = std::make_shared<DeclaredCommand<PocketsCommand>>(command, for_pockets);
   PocketsCommand& state = declared->state;
   PropertyOptions options(command);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus preview`: look at the surface while it changes.
+// `meniscus preview`: shows the surface in a window or a browser while it changes.
 #include <algorithm>
 #include <charconv>
 #include <csignal>
@@ -46,7 +46,7 @@ std::string host_name() {
   return ::gethostname(name, sizeof name - 1) == 0 && name[0] ? escaped(name) : "HOST";
 }
 
-/// A molecule, where its atoms stand at the frames of a trajectory, if there is one, and how it is seen at first.
+/// A molecule, where its atoms are at the frames of a trajectory, if there is one, and how it is seen at first.
 struct Shown {
   Scene scene;  ///< selections settled, colours measured
   Structure structure;
@@ -64,7 +64,7 @@ Shown read_run(PreviewCommand& command) {
     return {std::move(scene), read_and_tell(reading), {}, {}};
   }
   if (scene.molecule.division.instances != InstanceMode::none)
-    throw UsageError("--instances: copies in the preview stand still; leave it away, or the frames");
+    throw UsageError("--instances: copies in the preview do not move; leave it out, or the frames");
   MoleculeRequest molecule = scene.molecule;
   settle_selections(molecule, scene.frames, {.figure = &scene.figure, .view = &scene.picture});
   const auto frames = std::make_shared<FrameRun>(molecule, scene.frames);
@@ -87,7 +87,7 @@ Shown read_run(PreviewCommand& command) {
 
 Shown read_inputs(PreviewCommand& command) {
   if (!std::filesystem::is_directory(command.output_folder))
-    throw OutputError(command.output_folder, "--output-dir is no folder");
+    throw OutputError(command.output_folder, "--output-dir is not a folder");
   const std::optional<Camera> camera = given_camera(command.scene.picture);
   Shown shown = read_run(command);
   shown.camera = camera;
@@ -97,7 +97,7 @@ Shown read_inputs(PreviewCommand& command) {
   color = color_of(shown.scene.molecule);
   require_previewed(color);
   if (!command.aims) return shown;
-  // What stands beside the surface counts; a scene's picture is framed as render frames it.
+  // What is drawn beside the surface counts; a scene's picture is framed as render frames it.
   const FigureRequest& figure = shown.scene.figure;
   const bool reads_again = !figure.representations.empty() || !figure.objects.empty();
   shown.camera =
@@ -225,13 +225,13 @@ void add_preview(CLI::App& command) {
            "  meniscus preview 1tii.pdb --serve                   prints an address to open in a browser\n"
            "  meniscus preview 1tii.pdb --serve 8080 --color chain\n"
            "  meniscus preview 1tii.pdb --color chain --tube polymer --opacity 0.3 --preset publication\n"
-           "  meniscus preview --scene fig.json                   the figure that a scene file says\n"
-           "  meniscus preview 1tii.pdb --record session.jsonl    what is done, for --commands\n"
+           "  meniscus preview --scene fig.json                   the figure of a scene file\n"
+           "  meniscus preview 1tii.pdb --record session.jsonl    what you do, for --commands\n"
            "  meniscus preview adk.psf --trajectory adk.dcd --superpose 'name CA'   blank plays it",
            "Each model of FILE is a frame, or each frame of --trajectory. A window needs a display with OpenGL 4.5 "
-           "through EGL; without one the\n"
-           "exit code is 4. The page is served on 127.0.0.1 only, to whoever has the address with its token; to\n"
-           "look from another machine, use the ssh line that is printed. SIGINT and SIGTERM end both.");
+           "through\nEGL; without one the exit code is 4. The page is served on 127.0.0.1 only and opens only with the "
+           "token in its\naddress. To open it on another machine, use the ssh line that is printed. SIGINT and SIGTERM "
+           "end both.");
   auto declared = std::make_shared<DeclaredPreview>(command, for_preview);
   add_preview_options(command, *declared);
   command.callback([declared] {

@@ -56,7 +56,7 @@ void name_output(RenderCommand& command) {
   std::filesystem::path name = std::filesystem::path(scene.molecule.file).filename();
   if (name.extension() == ".gz") name = name.stem();
   name = name.stem();
-  if (name.empty() || name == "-") throw UsageError("-o is missing: what shall the picture be called?");
+  if (name.empty() || name == "-") throw UsageError("-o is missing: name the picture, such as -o picture.png");
   scene.output = name.string() + ".png";
   say(command, "the picture goes to " + scene.output + "; -o PATH sends it elsewhere");
 }
@@ -67,12 +67,11 @@ void check_scene(const RenderCommand& command) {
   if (!scene.frames.asked()) check_image_path(scene.output);
   if (scene.image.aovs && !holds_aovs(scene.output))
     throw UsageError("--aovs needs an .exr output; other formats hold colour only");
-  if (scene.image.extent && scene.image.aovs)
-    throw UsageError("--aovs needs the complete surface; leave --extent away");
+  if (scene.image.extent && scene.image.aovs) throw UsageError("--aovs needs the complete surface; leave --extent out");
   if (scene.image.extent && (!scene.figure.plain() || !scene.molecule.color.opacities.empty()))
     throw UsageError(
-        "--extent draws the surface alone, whole and opaque; leave --extent away, or --opacity, --clip and the like");
-  if (!scene.image.extent && command.stats) throw UsageError("--stats tells the stages of a view; add --extent");
+        "--extent draws the surface alone, whole and opaque; leave --extent out, or --opacity, --clip and the like");
+  if (!scene.image.extent && command.stats) throw UsageError("--stats reports the stages of a view; add --extent");
   check_legend(scene);
 }
 
@@ -165,7 +164,7 @@ void add_render(CLI::App& command) {
   auto declared = std::make_shared<DeclaredCommand<RenderCommand>>(command, for_render);
   RenderCommand& state = declared->state;
   declared->options.describe_output(
-      "Picture to write: .png, .jpg, .webp, .tif, .exr [FILE's name here, as .png]; of frames: frame_#####.png, or a "
+      "Picture to write: .png, .jpg, .webp, .tif, .exr [FILE's name here, as .png]; for frames: frame_#####.png, or a "
       "film: .mp4, .mov, .mkv, .webm, .gif",
       OutputName::optional);
   PropertyOptions options(command);

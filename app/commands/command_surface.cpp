@@ -45,7 +45,7 @@ void check_outputs(const SurfaceCommand& command) {
     const Division& division = command.scene.molecule.division;
     if (division.components || division.cavities != Cavities::keep || division.instances != InstanceMode::none)
       throw UsageError(
-          "--gradients are of whole surfaces of atoms; leave --by component, --cavities and --instances away");
+          "--gradients are of whole surfaces of atoms; leave --by component, --cavities and --instances out");
   }
   if (!command.cavity_csv.empty()) {
     const Division& division = command.scene.molecule.division;
@@ -55,10 +55,11 @@ void check_outputs(const SurfaceCommand& command) {
     if (division.groups || division.components || division.cavities == Cavities::drop ||
         division.instances != InstanceMode::none)
       throw UsageError(
-          "--csv-cavities follows the cavities of one surface; leave --by, --cavities drop and --instances away");
+          "--csv-cavities follows the cavities of one surface; leave --by, --cavities drop and --instances out");
     if (!command.scene.frames.only.empty())
       throw UsageError(
-          "--csv-cavities needs all frames of the run, as numbers go on from one to the next; leave --only away");
+          "--csv-cavities needs all frames of the run, because cavities keep their numbers from frame to frame; leave "
+          "--only out");
   }
   for (const std::string& path : paths)
     if (!is_stdout(path)) check_output(path, command.existing());
@@ -72,24 +73,21 @@ void add_surface(CLI::App& command) {
       "  meniscus surface 1tii.pdb --csv atoms.csv --csv-residues residues.csv   areas of each\n"
       "  meniscus surface 1tii.pdb --by chain              each chain as if it were alone\n"
       "  meniscus surface 1tii.pdb --select 'chain D' --context 'chain E'   area of D, and what E buries of it\n"
-      "  meniscus surface 1tii.pdb --cavities only         cavities, and what lies in them\n"
+      "  meniscus surface 1tii.pdb --cavities only         cavities, and what is inside them\n"
       "  meniscus surface 1tii.pdb --gradients forces.csv  derivatives of areas and volumes by positions\n"
       "  meniscus surface 1tii.pdb --surface sas --csv -   solvent-accessible areas of atoms on standard output\n"
       "  meniscus surface balls.xyzr --surface vdw         van der Waals surface, radii of the file\n"
-      "  meniscus surface adk.psf adk.dcd --csv-series run.csv --plot run.svg   a row a frame, curves\n"
-      "  meniscus surface adk.psf adk.dcd --superpose 'name CA' --csv-cavities cavities.csv   each cavity through "
-      "time\n"
-      "  meniscus surface adk.psf adk.dcd --json                a line of JSON a frame",
-      "Used are the polymers and ligands of the first model, of each residue the most occupied conformer; water and\n"
-      "free ions are left out. What was read, left out and used is always said. Radii are Bondi's (`meniscus info`\n"
-      "lists them), or the file's own (PQR, XYZR). The surface is complete, cavities too, and closed; areas and "
-      "volumes\n"
-      "are exact, in closed form. `volume` is the solid's, less cavities; a cavity's own is positive. An atom's part "
-      "of the\n"
-      "surface is what has its colour in pictures: its contact patch, and of the patches around it what is nearer to\n"
-      "its contact than to any other.\n"
-      "Over frames the tables of atoms and residues have their rows for each frame. A cavity keeps its number while\n"
-      "probes that rest in it, touching three atoms, overlap from one frame to the next.");
+      "  meniscus surface adk.psf adk.dcd --csv-series run.csv --plot run.svg   one row per frame, curves\n"
+      "  meniscus surface adk.psf adk.dcd --superpose 'name CA' --csv-cavities cavities.csv   each cavity over time\n"
+      "  meniscus surface adk.psf adk.dcd --json                one line of JSON per frame",
+      "The surface is that of the polymers and ligands of the first model, with the most occupied conformer of "
+      "each\nresidue; water and free ions are left out. A line reports what was read, left out and used. Radii are "
+      "Bondi's\n(`meniscus info` lists them), or the file's own (PQR, XYZR). The surface is closed and includes all "
+      "cavities; areas\nand volumes are exact, in closed form. `volume` is that of the solid, without its cavities; "
+      "the volume of a cavity is\npositive. The area of an atom is the part of the surface that has the atom's colour "
+      "in pictures: its contact patch,\nand those parts of the patches around that are nearer to it than to any "
+      "other.\nOver frames the tables of atoms and residues have rows for each frame. A cavity keeps its number while "
+      "probes that\nrest in it, touching three atoms, overlap from one frame to the next.");
   auto declared = std::make_shared<DeclaredCommand<SurfaceCommand>>(command, for_surface);
   SurfaceCommand& state = declared->state;
   state.scene.molecule.surface.timing = StageTiming::exact;  // each is printed

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus work`: makes what is missing of a bundle, for a person or for any engine.
+// `meniscus work`: makes the missing frames of a bundle, for a person or for any engine.
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
@@ -76,7 +76,7 @@ farm::Assignment assignment_of(const WorkCommand& command, const farm::Bundle& b
     if (command.step.empty() || command.step == step.name) assignment.steps.push_back(step.name);
   }
   if (assignment.steps.empty())
-    throw UsageError(fmt::format("--step {} is none of this bundle's: {}", in_quotes(command.step), names));
+    throw UsageError(fmt::format("--step {} is not a step of this bundle: {}", in_quotes(command.step), names));
   const std::optional<Chunk> chunk = command.chunk.empty() ? std::nullopt : std::optional(parse_chunk(command.chunk));
   // Workers of neighbouring shares on a machine of several GPUs take one each.
   if (chunk) ::setenv(kWorkerVariable, std::to_string(chunk->number - 1).c_str(), 0);
@@ -99,7 +99,7 @@ void run(const WorkCommand& command) {
   const farm::Bundle bundle = farm::read_bundle(command.folder);
   const farm::Assignment assignment = assignment_of(command, bundle);
   const farm::Workplace place = workplace_of(command);
-  // Software GL takes as many threads as the machine has cores unless told.
+  // Software GL takes as many threads as the machine has cores unless set.
   if (command.threads > 0) ::setenv("LP_NUM_THREADS", std::to_string(command.threads).c_str(), 0);
   const StopHandler handler(
       [&] {
@@ -114,18 +114,16 @@ void run(const WorkCommand& command) {
 }  // namespace
 
 void add_work(CLI::App& command) {
-  describe(
-      command,
-      "  meniscus work film                                all that is missing\n"
-      "  meniscus work film --step render --chunk 3/10     the third of ten shares of one step\n"
-      "  meniscus work film --frames 40-49 --force         these once more",
-      "A frame whose files are there with the right checksums is not made again, so the same command goes on after\n"
-      "whatever stopped it, even kill -9, and any number of workers share a bundle: each frame is made by one of "
-      "them.\n"
-      "Told to stop (SIGTERM, SIGUSR1, Ctrl-C) it leaves whole files only and\n"
-      "ends with exit code 9. After a frame that fails the others are made; the exit code is that frame's.");
+  describe(command,
+           "  meniscus work film                                all that is missing\n"
+           "  meniscus work film --step render --chunk 3/10     the third of ten shares of one step\n"
+           "  meniscus work film --frames 40-49 --force         these once more",
+           "A frame whose files exist with the right checksums is not made again. So the same command continues after "
+           "any\ninterruption, even kill -9, and any number of workers can share a bundle: each frame is made by one "
+           "of them.\nWhen it is stopped (SIGTERM, SIGUSR1, Ctrl-C) it leaves complete files only and ends with exit "
+           "code 9. If a\nframe fails, the others are still made; the exit code is that of the failed frame.");
   auto state = std::make_shared<WorkCommand>();
-  command.add_option("BUNDLE", state->folder, "The bundle's folder")->required()->type_name("");
+  command.add_option("BUNDLE", state->folder, "Folder of the bundle")->required()->type_name("");
   PropertyOptions options(command);
   options.add("work.step", state->step);
   CLI::Option* const frames = options.add("work.frames", state->frames);

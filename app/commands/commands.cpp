@@ -8,45 +8,42 @@ namespace {
 void add_export(CLI::App& command) { describe(command, "  meniscus export FORMAT --help"); }
 
 constexpr Command kFormats[] = {
-    {"povray", "Write a POV-Ray scene of the analytic patches, no triangles; prints how to render it",
-     add_export_povray},
+    {"povray", "Write a POV-Ray scene of the exact patches, without triangles", add_export_povray},
     {"blender", "Write a file for Blender: closed mesh, analytic patches, atoms, camera (add-on: meniscus_import)",
      add_export_blender},
-    {"mitsuba", "Write a Mitsuba 3 scene: meshes as fine as the picture, spheres and cylinders as they are",
+    {"mitsuba", "Write a Mitsuba 3 scene: meshes as fine as the picture needs, exact spheres and cylinders",
      add_export_mitsuba},
-    {"pbrt", "Write a pbrt-v4 scene: meshes as fine as the picture, spheres and cylinders as they are",
+    {"pbrt", "Write a pbrt-v4 scene: meshes as fine as the picture needs, exact spheres and cylinders",
      add_export_pbrt},
     {"mesh", "Write a closed triangle mesh: STL, 3MF, OBJ, OFF, GLB, VTP, TetGen, DMS or PLY", add_export_mesh},
     {"ply", "Write a closed triangle mesh as binary PLY: the same as export mesh --format ply", add_export_ply},
-    {"atoms", "Write the atoms that a surface is computed of, with radii, colours and frames, as arrays",
-     add_export_atoms},
+    {"atoms", "Write the atoms of a surface with radii, colours and frames, as arrays", add_export_atoms},
 };
 
 constexpr Command kFarmCommands[] = {
-    {"bundle", "Make a folder that any machine can work on", add_farm_bundle},
-    {"status", "Tell how far the frames of a bundle are, how long still, and what failed last", add_farm_status},
-    {"log", "Tell what became of a frame, who made it, and what the programs that made it said", add_farm_log},
-    {"verify", "Check that every frame is there, whole, of the right size and not blank; then make the film",
+    {"bundle", "Make a folder of frames to render that any machine can work on", add_farm_bundle},
+    {"status", "Show the progress of a bundle, the time left and the last failure", add_farm_status},
+    {"log", "Show what happened to a frame, which machine made it, and the output of its programs", add_farm_log},
+    {"verify", "Check that every frame is complete, of the right size and not blank; then make the film",
      add_farm_verify},
 };
 
 constexpr Command kCommands[] = {
     {"surface", "Compute the surface; print area, volume, components, chains, and areas of atoms", add_surface},
     {"pockets", "Find pockets, tunnels and cavities: volume, mouths, depth, the atoms around", add_pockets},
-    {"render", "Ray cast a picture of the analytic surface", add_render},
-    {"preview", "Look at the surface while it changes, in a window or in a browser", add_preview},
+    {"render", "Make a picture of the surface by ray casting its exact patches", add_render},
+    {"preview", "Show the surface in a window or a browser, and change it", add_preview},
     {"export", "Write the surface for another program", add_export, "Formats", kFormats},
     {"farm", "Make films on many machines: make, Slurm, OpenJD, Flamenco, OpenCue", add_farm, "Commands",
      kFarmCommands},
     {"work", "Make the missing frames of a bundle, or a chunk of them (see meniscus farm)", add_work},
-    {"info", "Tell what a file holds: models, chains, classes, extent, and which radius each class of atoms gets",
+    {"info", "Show what a file contains: models, chains, classes, extent, and the radius of each class of atoms",
      add_info},
-    {"formats", "List the file formats that are read, and what of them is used", add_formats},
+    {"formats", "List the file formats that are read, and what is read of each", add_formats},
     {"colors", "List colour schemes and colour maps with their sources", add_colors},
     {"bench", "Time the stages of the surface computation for several files", add_bench},
-    {"completion", "Print the script by which bash, zsh or fish completes commands, options and their words",
-     add_completion},
-    {"help", "Show a page of the manual: selections, assemblies, frames, exit-codes, or a command", add_help},
+    {"completion", "Print a script for bash, zsh or fish that completes commands and options", add_completion},
+    {"help", "Show a page of help: a topic or a command", add_help},
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus export atoms`: the atoms that a surface is computed of, and where they stand in each frame, as arrays.
+// `meniscus export atoms`: writes the atoms of a surface, and their positions in each frame, as arrays.
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -18,7 +18,7 @@
 namespace meniscus {
 namespace {
 
-// Where the atoms of merged() objects stand, with the positions of another frame.
+// Where the atoms of merged() objects are, with the positions of another frame.
 std::vector<glm::dvec3> placed_atoms(std::span<const SurfaceObject> objects, const Structure& structure) {
   std::vector<glm::dvec3> positions;
   for (const SurfaceObject& object : objects)
@@ -44,8 +44,8 @@ void export_atoms(const SceneCommand& asked) {
     run = std::make_unique<FrameRun>(command.scene.molecule, command.scene.frames);
     if (run->atoms_change())
       throw UsageError(
-          "export atoms: the file has the same atoms in all frames, but --select means others in each; add "
-          "--select-once for those of the first");
+          "export atoms: the file has the same atoms in all frames, but --select chooses others in each; add "
+          "--select-once to keep those of the first");
   }
   Molecule molecule = first_molecule(command, run.get());
   blender::AtomFrames frames;
@@ -69,12 +69,13 @@ void export_atoms(const SceneCommand& asked) {
 }  // namespace
 
 void add_export_atoms(CLI::App& command) {
-  describe(command,
-           "  meniscus export atoms 1tii.pdb -o 1tii.atoms\n"
-           "  meniscus export atoms adk.psf --trajectory adk.dcd --frames all --select protein -o adk.atoms",
-           "For programs that compute surfaces themselves, by libmeniscus: the panel of the Blender add-on is one. The "
-           "file\n"
-           "is described in exporters/blender/FORMAT.md; radii and colours are those of the first frame of a run.");
+  describe(
+      command,
+      "  meniscus export atoms 1tii.pdb -o 1tii.atoms\n"
+      "  meniscus export atoms adk.psf --trajectory adk.dcd --frames all --select protein -o adk.atoms",
+      "For programs that compute surfaces themselves with libmeniscus, such as the panel of the Blender add-on. The "
+      "file\n"
+      "is described in exporters/blender/FORMAT.md; radii and colours are those of the first frame of a run.");
   auto declared = std::make_shared<DeclaredCommand<>>(command, for_atoms);
   declared->options.describe_output("File to write");
   command.callback([declared] {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus export blender`: mesh, analytic patches, atoms and camera as one .mns file.
+// `meniscus export blender`: writes mesh, analytic patches, atoms and camera as one .mns file.
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -72,7 +72,7 @@ std::vector<blender::MeshedObject> cut_objects(const SceneCommand& command, Mole
                        command.scene.figure.thickens,
                        std::move(made.cap_plane)});
   }
-  if (!any) throw RequestError("nothing of the surface is shown, so there is no mesh to write");
+  if (!any) throw RequestError("no part of the surface is shown, so there is no mesh to write");
   return objects;
 }
 
@@ -99,7 +99,7 @@ std::vector<blender::MeshedObject> whole_objects(const SceneCommand& command, co
   return objects;
 }
 
-// Meshes of what stands beside the surface with looks of its own, kept in `made`.
+// Meshes of what is drawn beside the surface with looks of its own, kept in `made`.
 void add_more(const SceneCommand& command, const Figure& figure, const Camera& camera, double tolerance,
               std::vector<ShapeObject>& made, std::vector<blender::MeshedObject>& objects) {
   Structure shown;
@@ -175,7 +175,7 @@ struct FigureMeshes {
   std::vector<blender::MeshedObject> objects;
 };
 
-// moving: velocities of atoms, if vertices shall have some. tell: says how many triangles came out.
+// moving: velocities of atoms, if vertices should have some. tell: says how many triangles came out.
 void mesh_figure(const SceneCommand& command, FigureFrame& frame, const blender::CutFile& cut, double tolerance,
                  bool tell, FigureMeshes& made) {
   Molecule& molecule = frame.figure.molecule;
@@ -251,18 +251,18 @@ void export_to_blender(const SceneCommand& asked) {
 }  // namespace
 
 void add_export_blender(CLI::App& command) {
-  describe(
-      command,
-      "  meniscus export blender 1tii.pdb -o 1tii.mns\n"
-      "  meniscus export blender 1tii.pdb -o 1tii.mns --camera camera.json --tolerance-pixels 0.25 "
-      "--size 1920x1080\n"
-      "  meniscus export blender adk.psf --trajectory adk.dcd --frames all -o adk   a file a frame, and a manifest");
+  describe(command,
+           "  meniscus export blender 1tii.pdb -o 1tii.mns\n"
+           "  meniscus export blender 1tii.pdb -o 1tii.mns --camera camera.json --tolerance-pixels 0.25 "
+           "--size 1920x1080\n"
+           "  meniscus export blender adk.psf --trajectory adk.dcd --frames all -o adk   one file per frame, and a "
+           "manifest");
   auto declared = std::make_shared<DeclaredCommand<>>(command, for_blender);
-  declared->options.describe_output(".mns file to write; of a run, the folder");
+  declared->options.describe_output(".mns file to write; for frames, a folder");
   declared->options.option("mesh.attributes")
       ->description(
-          "Numbers of the surface, separated by commas: usual (exact curvature, areas of atoms and patches), "
-          "all, none, or names as of export mesh [usual]");
+          "Numbers of the surface, separated by commas: usual (exact curvature, areas of atoms and patches), all, "
+          "none, or the names of export mesh [usual]");
   declared->options.option("frames.fps")->description("Frames per second of a run [25]");
   command.callback([declared] {
     declared->options.take();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus export mesh`: the closed mesh as a file of any format; `meniscus export ply` is what it began as.
+// `meniscus export mesh`: writes the closed mesh in any format; `meniscus export ply` is its older form.
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -32,8 +32,8 @@ const MeshFormat& format_of(const Scene& scene) {
   if (found) return *found;
   if (!word.empty())
     throw UsageError(fmt::format("--format: {} is not one of {}", in_quotes(word), mesh_format_words()));
-  throw UsageError(fmt::format("{} ends as no mesh file does; --format says which it is: {}", in_quotes(scene.output),
-                               mesh_format_words()));
+  throw UsageError(fmt::format("{} does not end like a mesh file; choose its format by --format: {}",
+                               in_quotes(scene.output), mesh_format_words()));
 }
 
 std::string scale_sentence(const MeshFormat& format, double scale) {
@@ -57,15 +57,13 @@ void refuse_what_does_not_fit(const MeshFormat& format, const Figure& figure, co
   const bool hides = std::ranges::any_of(molecule.objects, [](const auto& o) { return o.coloring.hides_some(); });
   if (even && hides)
     throw RequestError(
-        "triangles of an even mesh reach over borders of atoms, so it cannot end where --show does; leave "
-        "--even and --density away, or --select what is wanted");
+        "triangles of an even mesh cross the borders of atoms, so --show cannot cut it; leave --even and --density "
+        "out, or choose atoms by --select");
   if (!format.solid) return;
   const bool whole = std::ranges::all_of(molecule.objects, &SurfaceObject::whole);
   if (molecule.objects.size() > 1 || !whole || hides || !figure.beside.shapes.empty())
-    throw RequestError(
-        fmt::format("{} holds one closed surface, all of it: leave --by, --cavities, --show and shapes "
-                    "beside it away",
-                    format.word));
+    throw RequestError(fmt::format(
+        "{} holds one complete closed surface; leave --by, --cavities, --show and shapes out", format.word));
 }
 
 void tell(const SceneCommand& command, const MeshFormat& format, const MeshFileMaker& maker,
@@ -82,8 +80,8 @@ void tell(const SceneCommand& command, const MeshFormat& format, const MeshFileM
                              maker.fins() > 0 ? fmt::format("{} fins no thicker, ", with_thousands(maker.fins())) : "",
                              with_thousands(maker.flipped_edges())));
   if (maker.flat_triangles() > 0)
-    say(command, fmt::format("warning: {} triangles have no area in thousandths of an Å and could not be welded; "
-                             "another --tolerance may have none",
+    say(command, fmt::format("warning: {} triangles have no area when rounded to thousandths of an Å, and could not be "
+                             "welded; try another --tolerance",
                              with_thousands(maker.flat_triangles())));
 }
 
@@ -130,7 +128,7 @@ void export_to_mesh(const SceneCommand& asked) {
   if (format.numbers) parse_vertex_numbers(asked.scene.mesh.attributes);
   const auto numbered = NumberedPath::parse(asked.scene.output);
   if (asked.scene.frames.asked() && !numbered)
-    throw UsageError(fmt::format("-o {}: each frame has a file; put # where its number goes, as in {}",
+    throw UsageError(fmt::format("-o {}: each frame needs a file of its own; put # where its number goes, as in {}",
                                  in_quotes(asked.scene.output), in_quotes(numbered_name(asked.scene.output))));
   FigureRun run(asked);
   run.aim(asked.scene.picture, false);
@@ -154,9 +152,9 @@ void export_to_mesh(const SceneCommand& asked) {
 
 void declare(CLI::App& command, const std::string& format) {
   auto declared = std::make_shared<DeclaredCommand<>>(command, for_mesh);
-  declared->options.describe_output(format.empty()
-                                        ? "File to write; its ending names the format; of a run with # for the number"
-                                        : "PLY file to write");
+  declared->options.describe_output(
+      format.empty() ? "File to write; its ending chooses the format; for frames with # for the number"
+                     : "PLY file to write");
   declared->options.option("mesh.format")
       ->description(help_of(property_of("mesh.format")) + ": " + mesh_format_words());
   command.callback([declared, format] {
@@ -174,14 +172,15 @@ void declare(CLI::App& command, const std::string& format) {
 }  // namespace
 
 void add_export_mesh(CLI::App& command) {
-  describe(command,
-           "  meniscus export mesh 1tii.pdb -o 1tii.glb --color chain --density 2\n"
-           "  meniscus export mesh 1tii.pdb -o 1tii.3mf --even --tolerance 0.1\n"
-           "  meniscus export mesh 1tii.pdb -o 1tii.vtp --attributes mean_curvature,hydrophobicity\n"
-           "  meniscus export mesh 1tii.pdb -o part_#.stl --by component\n"
-           "  meniscus export mesh adk.psf adk.dcd --frames 0-90 -o adk_###.ply   a file a frame",
-           "Each object of --by is one of its own in 3MF, OBJ and GLB; with a # in the name of the output it is a file "
-           "of its\nown, in any format. Without --tolerance and --density: half a pixel of --camera, else 0.01 Å.");
+  describe(
+      command,
+      "  meniscus export mesh 1tii.pdb -o 1tii.glb --color chain --density 2\n"
+      "  meniscus export mesh 1tii.pdb -o 1tii.3mf --even --tolerance 0.1\n"
+      "  meniscus export mesh 1tii.pdb -o 1tii.vtp --attributes mean_curvature,hydrophobicity\n"
+      "  meniscus export mesh 1tii.pdb -o part_#.stl --by component\n"
+      "  meniscus export mesh adk.psf adk.dcd --frames 0-90 -o adk_###.ply   one file per frame",
+      "Each part of --by is an object of its own in 3MF, OBJ and GLB; with a # in the name of the output it is a file "
+      "of\nits own, in any format. The default tolerance is half a pixel of --camera; without a camera it is 0.01 Å.");
   declare(command, "");
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus export mitsuba` and `meniscus export pbrt`: a scene for renderers that follow paths of light, with meshes
-// as fine as the picture.
+// `meniscus export mitsuba` and `meniscus export pbrt`: write a scene for path tracers, with meshes as fine as the
+// picture needs.
 #include <algorithm>
 #include <iostream>
 #include <map>
@@ -69,7 +69,7 @@ void add_surface(const Scene& asked, std::vector<SurfaceObject> objects, double 
     scene.items.push_back(item_of(object, planes, asked.figure.cap, tolerance, scene.origin));
 }
 
-// What stands beside the surface with looks of its own.
+// What is drawn beside the surface with looks of its own.
 void add_more(const Scene& asked, const Figure& figure, std::span<const Atom> atoms, double tolerance,
               path_tracers::Scene& scene) {
   const std::vector<Ball> balls = placed_balls(figure.molecule.objects);
@@ -104,13 +104,12 @@ std::string render_command(const PathTracerCommand& command, bool of_a_run) {
 void check(const PathTracerCommand& command) {
   const auto is_film = [](const FigureObjectRequest& object) { return object.thickens; };
   if (command.scene.figure.thickens || std::ranges::any_of(command.scene.figure.objects, is_film))
-    throw UsageError(
-        "--film-opacity: opacity by the angle of the view is nothing that path tracers know; leave it away");
+    throw UsageError("--film-opacity: path tracers do not support opacity by viewing angle; leave it out");
   const auto hatched = [](const FigureObjectRequest& object) { return object.cap.hatching > 0.0; };
   if (command.scene.figure.cap.hatching > 0.0 || std::ranges::any_of(command.scene.figure.objects, hatched))
-    throw UsageError("--cap-hatching: caps in these scenes are plain; leave it away, or use render or export povray");
+    throw UsageError("--cap-hatching: caps in these scenes are plain; leave it out, or use render or export povray");
   if (command.renderer == path_tracers::Renderer::pbrt && command.scene.molecule.color.by == ColorScheme::By::volume)
-    throw UsageError("--color-map-file: meshes of pbrt have no colours of their vertices; use export mitsuba");
+    throw UsageError("--color-map-file: meshes of pbrt have no vertex colours; use export mitsuba");
   check_caps_of_map(command.scene, "these scenes have no values of the map on caps");
   check_saved_camera(command);
 }
@@ -149,7 +148,7 @@ void run(const PathTracerCommand& command) {
 void declare(CLI::App& command, path_tracers::Renderer renderer) {
   auto declared = std::make_shared<DeclaredCommand<PathTracerCommand>>(command, for_path_tracers);
   declared->state.renderer = renderer;
-  declared->options.describe_output("Folder to write; made when missing");
+  declared->options.describe_output("Folder to write; created if missing");
   const Property& material = property_of("path_tracers.material");
   declared->options.option("look.material")->description(help_of(material))->check(proposes(words_of(material)));
   command.callback([declared] {
@@ -170,7 +169,7 @@ void add_export_mitsuba(CLI::App& command) {
   describe(command,
            "  meniscus export mitsuba 1tii.pdb -o 1tii --color chain     then: cd 1tii; mitsuba surface.xml\n"
            "  meniscus export mitsuba 1tii.pdb -o glass --material glass --size 1920x1080\n"
-           "  meniscus export mitsuba adk.psf --trajectory adk.dcd --frames 0-90 -o adk     a scene a frame");
+           "  meniscus export mitsuba adk.psf --trajectory adk.dcd --frames 0-90 -o adk     one scene per frame");
   declare(command, path_tracers::Renderer::mitsuba);
 }
 
@@ -178,7 +177,7 @@ void add_export_pbrt(CLI::App& command) {
   describe(command,
            "  meniscus export pbrt 1tii.pdb -o 1tii --color chain     then: cd 1tii; pbrt surface.pbrt\n"
            "  meniscus export pbrt 1tii.pdb -o wax --material wax --size 1920x1080\n"
-           "  meniscus export pbrt adk.psf --trajectory adk.dcd --frames 0-90 -o adk     a scene a frame");
+           "  meniscus export pbrt adk.psf --trajectory adk.dcd --frames 0-90 -o adk     one scene per frame");
   declare(command, path_tracers::Renderer::pbrt);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus export povray`: a folder with a POV-Ray scene of the analytic patches.
+// `meniscus export povray`: writes a folder with a POV-Ray scene of the analytic patches.
 #include <algorithm>
 #include <iostream>
 #include <map>
@@ -65,7 +65,7 @@ std::optional<std::vector<povray::SceneColor>> colors_of_run(const Scene& asked,
   return all.colors();
 }
 
-// Of all atoms that are shown, if comments shall tell them.
+// Of all atoms that are shown, if comments should tell them.
 std::vector<std::string> comment_names(const Scene& scene, const Structure& structure) {
   std::vector<std::string> names;
   if (!scene.renderer.comments) return names;
@@ -82,7 +82,7 @@ std::vector<std::string> comment_names(const Scene& scene, const Structure& stru
   return names;
 }
 
-// What stands beside the surface with looks of its own. keeps_empty: those that show nothing have a place, too.
+// What is drawn beside the surface with looks of its own. keeps_empty: those that show nothing have a place, too.
 std::vector<povray::SceneObject> more_objects(const Figure& figure, const FigureRequest& request, const Camera& camera,
                                               std::span<const Ball> balls, bool keeps_empty) {
   std::vector<povray::SceneObject> more;
@@ -105,9 +105,7 @@ std::vector<povray::SceneObject> more_objects(const Figure& figure, const Figure
 // Before anything is computed.
 void check_povray(const SceneCommand& command) {
   if (command.scene.figure.thickens && command.scene.molecule.volume_offset != 0.0)
-    throw UsageError(
-        "--map-offset: POV-Ray samples beside the surface patch by patch, not in a film; leave "
-        "--film-opacity away, or the offset");
+    throw UsageError("--map-offset: scenes for POV-Ray cannot combine it with --film-opacity; leave one of them out");
   check_saved_camera(command);
 }
 
@@ -197,19 +195,19 @@ void export_to_povray(const SceneCommand& command) {
 }  // namespace
 
 void add_export_povray(CLI::App& command) {
-  describe(
-      command,
-      "  meniscus export povray 1tii.pdb -o 1tii                 then: cd 1tii; povray surface.ini\n"
-      "  meniscus export povray 1tii.pdb -o glass --material glass --size 1920x1080\n"
-      "  meniscus export povray 1tii.pdb -o cut --clip 'depth>0.5' --color chain --sticks 'chain C'\n"
-      "  meniscus export povray --scene fig.json -o fig           all of a figure; see meniscus help scenes\n"
-      "  meniscus export povray 1tii.pdb -o 1tii --camera camera.json --color chain --force\n"
-      "  meniscus export povray adk.psf --trajectory adk.dcd --frames 0-90 -o adk      then: povray surface.ini",
-      "Of a run of frames the folder holds one scene and an include for each frame; POV-Ray's frames and pictures\n"
-      "have the numbers of the trajectory. Machines that share the work give the same options and --only, and render\n"
-      "with +SF and +EF. povray 'surface.ini[film]' goes through a run in any order and counts pictures from 1.");
+  describe(command,
+           "  meniscus export povray 1tii.pdb -o 1tii                 then: cd 1tii; povray surface.ini\n"
+           "  meniscus export povray 1tii.pdb -o glass --material glass --size 1920x1080\n"
+           "  meniscus export povray 1tii.pdb -o cut --clip 'depth>0.5' --color chain --sticks 'chain C'\n"
+           "  meniscus export povray --scene fig.json -o fig           all of a figure; see meniscus help scenes\n"
+           "  meniscus export povray 1tii.pdb -o 1tii --camera camera.json --color chain --force\n"
+           "  meniscus export povray adk.psf --trajectory adk.dcd --frames 0-90 -o adk      then: povray surface.ini",
+           "For a run of frames the folder holds one scene and one include file per frame; POV-Ray's frames and "
+           "pictures\nhave the numbers of the trajectory. To share the work among machines, give each the same options "
+           "and its --only, and\nrender with +SF and +EF. povray 'surface.ini[film]' renders a run in any order and "
+           "counts pictures from 1.");
   auto declared = std::make_shared<DeclaredCommand<>>(command, for_povray);
-  declared->options.describe_output("Folder to write; made when missing");
+  declared->options.describe_output("Folder to write; created if missing");
   const Property& material = property_of("povray.material");
   declared->options.option("look.material")->description(help_of(material))->check(proposes(words_of(material)));
   command.callback([declared] {

@@ -123,7 +123,7 @@ void check_caps_of_map(const Scene& scene, std::string_view reason) {
 void check_saved_camera(const SceneCommand& command) {
   if (!command.save_camera.empty()) check_output(command.save_camera, command.existing());
   if (!command.save_camera.empty() && command.scene.frames.asked() && command.scene.run_camera.moves())
-    throw UsageError("--save-camera: a camera that moves is not a single one; leave it out");
+    throw UsageError("--save-camera: the camera of this run moves; leave it out");
 }
 
 void save_camera(const SceneCommand& command, const Camera& camera) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The figures that a command makes of a scene: one of a molecule, or one of each frame of a run.
+// The figures that a command makes from a scene: one of a molecule, or one of each frame of a run.
 #pragma once
 
 #include <cstdint>
@@ -92,7 +92,7 @@ class FigureRun {
   std::optional<ViewAim> aim_;
 };
 
-/// Makes one object of several copies. Before planes cut: where they stand, a copy is cut as no other is.
+/// Makes one object of several copies. Before planes cut: where they are, a copy is cut as no other is.
 void settle_copies(std::vector<SurfaceObject>& objects);
 
 /// Throws UsageError if caps would have to show values of a map, which the files do not hold. reason: that sentence.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws frames from a turning camera, with a changing probe, with moving atoms, and prints what each took.
+// Times frames from a turning camera, with a changing probe, and with moving atoms.
 #include "app/commands/paper_bench.h"
 
 #include <algorithm>
@@ -140,7 +140,7 @@ void print_head(std::size_t width) {
 }
 
 void print_row(MoleculeBench& bench, const PaperBenchMolecule& molecule, std::size_t width, Extent extent) {
-  // A complete surface does not depend on the camera: there only new atoms make all of it anew.
+  // A complete surface does not depend on the camera: there only new atoms make all of it again.
   const FrameTime turned = bench.measure(extent, extent == Extent::complete ? FrameChange::atoms : FrameChange::camera);
   const ViewStats stats = bench.stats();
   const FrameTime probe = bench.measure(extent, FrameChange::probe), moved = bench.measure(extent, FrameChange::atoms);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Table 1 of the paper (Krone, Dachsbacher & Ertl 2010) measured anew: frames of a view, stage group by stage group.
+// Measures table 1 of the paper (Krone, Dachsbacher & Ertl 2010) again: frames of a view, stage group by stage group.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Takes the options of a bundled command, without running it.
+// Parses the options of a bundled command, without running it.
 #include "app/commands/parse_bundled_command.h"
 
 #include <algorithm>
@@ -32,9 +32,9 @@ struct Parts {
 };
 
 Parts parts_of(const Words& words) {
-  if (words.empty()) throw UsageError("no command behind --; such as: -- render FILE --frames all");
+  if (words.empty()) throw UsageError("there is no command after --; write one such as -- render FILE --frames all");
   const std::size_t count = words.front() == "export" ? 2 : 1;
-  if (words.size() <= count) throw UsageError("behind -- there is no FILE");
+  if (words.size() <= count) throw UsageError("there is no FILE after --");
   const auto behind = words.begin() + static_cast<std::ptrdiff_t>(count);
   const auto second = std::find(behind, words.end(), "--");
   Parts parts{{words.begin(), behind}, {behind, second}, {}};
@@ -42,11 +42,11 @@ Parts parts_of(const Words& words) {
   const bool has_scene = std::ranges::any_of(
       parts.arguments, [](const std::string& word) { return word == "--scene" || word.starts_with("--scene="); });
   if (behind->starts_with('-') && !has_scene)
-    throw UsageError(fmt::format("name FILE right behind {}, then options; standard input cannot be bundled",
+    throw UsageError(fmt::format("name FILE directly after {}, then options; standard input cannot be bundled",
                                  fmt::join(parts.command, " ")));
   if (second != words.end()) parts.renderer.assign(second + 1, words.end());
   if (!parts.renderer.empty() && steps.back().maker == Maker::meniscus)
-    throw UsageError(fmt::format("no renderer is started for {}; leave out what is behind the second --",
+    throw UsageError(fmt::format("no renderer is started for {}; leave out what follows the second --",
                                  fmt::join(parts.command, " ")));
   return parts;
 }
@@ -57,7 +57,7 @@ void refuse_options(const Words& arguments) {
   for (const std::string& word : arguments) {
     const std::string_view name = std::string_view(word).substr(0, word.find('='));
     if (kDecidedByBundle.contains(name))
-      throw UsageError(fmt::format("{} behind --: the bundle and its workers decide that; leave it out", word));
+      throw UsageError(fmt::format("{} after --: the bundle and its workers decide that; leave it out", word));
     const auto is_named = [&](const Property* property) { return property->long_option() == name; };
     const auto is_possible = [&](const Property* property) {
       return is_named(property) &&
@@ -110,7 +110,7 @@ BundledCommand parse_bundled_command(const Words& words) {
     app.parse(arguments);
     declared.options.take();
   } catch (const CLI::ParseError& error) {
-    throw UsageError(fmt::format("behind --: {}", error.what()));
+    throw UsageError(fmt::format("after --: {}", error.what()));
   }
   if (declared.state.scene.molecule.file == "-") throw UsageError("standard input cannot be bundled; name a FILE");
   return {parts.command, bit, declared.state, typed(app, kProvenance), typed(app, kDeviceOptions), parts.renderer};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the words behind `farm bundle ... --` to the command that they are.
+// From the words after `farm bundle ... --` to a command.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws pictures into files, or for a film, with their legend and what is written into them.
+// Draws pictures into files, or for a film, with their legend and annotations.
 #include "app/commands/picture_sink.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `meniscus pockets` prints and writes: pockets of a molecule, or of each frame, followed from one to the next.
+// Prints and writes what `meniscus pockets` finds: pockets of a molecule, or of each frame, followed from one to the
+// next.
 #include <algorithm>
 #include <iostream>
 #include <memory>

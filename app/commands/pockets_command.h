@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the options of `meniscus pockets` say.
+// The options of `meniscus pockets`.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Adds the options of the preview, and takes them with its own defaults.
+// Adds the options of the preview, with its own defaults.
 #include "app/commands/preview_command.h"
 
 #include <charconv>
@@ -18,7 +18,7 @@ std::uint16_t parse_port(const std::string& text) {
   std::uint16_t port = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
   if (error != std::errc() || end != text.data() + text.size())
-    throw CLI::ValidationError("--serve", in_quotes(text) + " is no port, 0 to 65535; put FILE before --serve");
+    throw CLI::ValidationError("--serve", in_quotes(text) + " is not a port from 0 to 65535; put FILE before --serve");
   return port;
 }
 
@@ -34,7 +34,8 @@ void add_preview_options(CLI::App& command, DeclaredPreview& declared) {
   const SceneOptions& shared = declared.options;
   shared.option("molecule.model")->description("Model to show; default: all of them, each a frame");
   shared.option("image.samples")->description("Rays per pixel of exported pictures [4; of scenes 9]");
-  shared.option("image.background")->description("white, black, #rrggbb, or transparent in exported pictures [white]");
+  shared.option("image.background")
+      ->description("A colour (white, grey, #rrggbb), or transparent in exported pictures [white]");
   PropertyOptions options(command);
   PreviewCommand& state = declared.state;
   options.add_parsed("preview.serve", [&state](const std::string& text) { state.port = parse_port(text); });

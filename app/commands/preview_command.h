@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the options of `meniscus preview` say, and scene files as it begins with them, saves and opens them.
+// The options of `meniscus preview`, and the scene files that it starts with, saves and opens.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,7 @@ void add_preview_options(CLI::App& command, DeclaredPreview& declared);
 /// preview's own defaults count, which are quick to draw.
 void take_preview(DeclaredPreview& declared, const std::vector<std::string>& named = {});
 
-/// The molecule again, at a frame, with the atoms that a figure draws beside its surface. Files are read anew when
+/// The molecule again, at a frame, with the atoms that a figure draws beside its surface. Files are read again when
 /// these change.
 class ShownReader {
  public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the molecule of a preview again for a figure, aims cameras as render does, and opens scenes.
+// Reads a preview's molecule again for a figure, aims cameras as render does, and opens scenes.
 #include <algorithm>
 #include <filesystem>
 #include <numeric>
@@ -111,7 +111,7 @@ OpenedScene SceneOpener::operator()(const std::filesystem::path& path) const {
   PreviewCommand& opened = declared.state;
   if (!is_of_this_molecule(opened.scene))
     throw RequestError(fmt::format(
-        "open: {} is of other atoms, frames or numbers than {}, which is shown; begin another preview with --scene",
+        "open: {} has other atoms, frames or numbers than {}, which is shown; start another preview with --scene",
         escaped(path.string()), escaped(begun_.molecule.file)));
   const ColorScheme color = color_of(opened.scene.molecule);
   OpenedScene scene{figure_of(opened.scene, color), opened.wishes, 0};

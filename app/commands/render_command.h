@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the options of `meniscus render` say beside its scene, and what its pictures have in common.
+// The options of `meniscus render` besides its scene, and what its pictures have in common.
 #pragma once
 
 #include "app/options/scene_options.h"

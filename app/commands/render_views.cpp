@@ -54,11 +54,10 @@ double milliseconds(const std::vector<StageTime>& times, std::initializer_list<s
 /// Throws UsageError for options that only a complete surface can serve, and for --device cpu.
 void check_view_options(const MoleculeRequest& request) {
   const auto refuse = [](const char* option) {
-    throw UsageError(fmt::format("{} needs the complete surface; leave --extent away", option));
+    throw UsageError(fmt::format("{} needs the complete surface; leave --extent out", option));
   };
   if (request.surface.cpu)
-    throw UsageError(
-        "--extent finds on GL what the view needs; leave --device cpu away, or --extent: the picture is the same");
+    throw UsageError("--extent needs GL; leave out --device cpu, or --extent: the picture is the same");
   if (request.division.groups || request.division.components) refuse("--by");
   if (request.division.cavities != Cavities::keep) refuse("--cavities");
   if (request.division.instances != InstanceMode::none) refuse("--instances");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the options of `meniscus surface` say.
+// The options of `meniscus surface`.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `meniscus surface` prints and writes: numbers of a molecule, or of each frame as a line or a row, with cavities
+// Prints and writes what `meniscus surface` computes: numbers of a molecule, or a line or row per frame, with cavities
 // followed from one to the next.
 #include <algorithm>
 #include <iostream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus preview` of builds without window and page: it says so.
+// Refuses `meniscus preview` in builds without window and page.
 #include "app/commands/commands.h"
 #include "app/options/scene_options.h"
 #include "app/process/program_error.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compares, copies and removes the driver.
+// Compares, copies and removes the driver that Blender runs.
 #include "app/farm/blender_driver.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program that Blender runs to render frames, as this version of the add-on has it and no other.
+// The program that Blender runs to render frames: the driver of exactly this version of the add-on.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +20,7 @@ struct DriverFile {
 const std::vector<DriverFile>& driver_files();
 
 /// Throws RequestError unless the bundle brings exactly these files below inputs/blender/, or none for bundles whose
-/// frames are not made by Blender: what Blender runs is a program, which nobody else shall choose.
+/// frames are not made by Blender: what Blender runs is a program, which only we may choose.
 void check_driver(const Bundle& bundle);
 
 /// A copy of the driver in a hidden folder of the bundle, away with this object. Made of files with the right checksums

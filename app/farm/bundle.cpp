@@ -38,7 +38,7 @@ Maker maker_of(const std::string& word) {
 std::uint64_t whole_number(const Json& json, std::uint64_t most) {
   if (!json.is_number_unsigned() || json.get<std::uint64_t>() > most)
     throw RequestError(
-        fmt::format("is damaged: {} is no whole number up to {}", shortened(json.dump(), kLongestShown), most));
+        fmt::format("is damaged: {} is not a whole number up to {}", shortened(json.dump(), kLongestShown), most));
   return json.get<std::uint64_t>();
 }
 
@@ -117,7 +117,7 @@ Film read_film(const Json& json) {
 }
 
 Bundle bundle_from_json(const Json& json) {
-  if (json.at("schema") != "meniscus-farm-bundle") throw RequestError("is no bundle of a farm");
+  if (json.at("schema") != "meniscus-farm-bundle") throw RequestError("is not a farm bundle");
   if (json.at("schema_version") != kSchemaVersion)
     throw RequestError(fmt::format("has schema version {}; this program reads {}: use the program of version {}",
                                    shortened(json.at("schema_version").dump(), kLongestShown), kSchemaVersion,

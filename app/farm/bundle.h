@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run of frames as a folder that any machine can work on: what bundle.json says.
+// A run of frames as a folder that any machine can work on: the content of bundle.json.
 #pragma once
 
 #include <cstdint>
@@ -80,7 +80,7 @@ struct Bundle {
   /// Place of a frame in the run, from 0. Throws RequestError if it is not in it.
   std::size_t place_of(std::uint64_t frame) const;
   const Step* step(const std::string& name) const;  ///< nullptr: there is none
-  /// Whether the last step makes pictures; else scenes for a renderer that is no step.
+  /// Whether the last step makes pictures; else scenes for a renderer that is not a step.
   bool makes_pictures() const { return step("render") != nullptr; }
 };
 

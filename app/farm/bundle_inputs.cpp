@@ -34,7 +34,7 @@ std::string BundleInputs::add_file(const fs::path& source) {
   std::error_code error;
   const fs::path path = fs::canonical(source, error);
   if (error) throw InputError(source.string(), 0, fmt::format("cannot be bundled: {}", error.message()));
-  if (!fs::is_regular_file(path)) throw InputError(source.string(), 0, "is no regular file and cannot be bundled");
+  if (!fs::is_regular_file(path)) throw InputError(source.string(), 0, "is not a regular file and cannot be bundled");
   for (const Item& item : items_)
     if (item.source == path) return item.inside;
   items_.push_back({"inputs/" + unique(plain(source.filename().string())), path, {}});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The files a bundle brings along: where they come from, and what they are called inside.
+// The input files of a bundle: where they come from, and their names inside.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stands behind `farm bundle ... --`: a framed command of this program, understood but not run.
+// The command after `farm bundle ... --`: parsed, but not run.
 #pragma once
 
 #include <string>

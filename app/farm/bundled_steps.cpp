@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of them.
+// The table of commands that can be bundled, and their steps.
 #include "app/farm/bundled_steps.h"
 
 #include <fmt/format.h>

@@ -33,8 +33,8 @@ void check_inputs(const Bundle& bundle) {
   std::set<std::string> paths;
   for (const Input& input : bundle.inputs) {
     if (!input.path.starts_with("inputs/") || !is_inner_path(input.path))
-      throw RequestError(fmt::format("input {} is no plain path below inputs/", in_quotes(input.path)));
-    if (!paths.insert(input.path).second) throw RequestError(fmt::format("input {} comes twice", input.path));
+      throw RequestError(fmt::format("input {} is not a plain path below inputs/", in_quotes(input.path)));
+    if (!paths.insert(input.path).second) throw RequestError(fmt::format("input {} appears twice", input.path));
   }
 }
 
@@ -57,22 +57,22 @@ void check_numbers(const Bundle& bundle) {
   if (bundle.frames.empty()) throw RequestError("has no frames");
   const std::uint64_t count = bundle.chunking.count;
   if (count < 1 || count > std::min<std::uint64_t>(kMostTasks, bundle.frames.size()))
-    throw RequestError("its number of tasks makes no sense");
+    throw RequestError("its number of tasks is not valid");
   const std::uint64_t memory =
       std::max(bundle.chunking.asked_memory.value_or(1), bundle.chunking.peak_memory.value_or(1));
   if (bundle.chunking.cores < 1 || bundle.chunking.cores > kMostCores || memory < 1 || memory > kMostMemory)
-    throw RequestError("cores or memory of its tasks make no sense");
+    throw RequestError("cores or memory of its tasks are not valid");
   if (!bundle.film) return;
   if (!bundle.makes_pictures()) throw RequestError("has a film, and no pictures to make it of");
   const double rate = bundle.film->frames_per_second;
-  if (!(rate >= 0.1 && rate <= 1000.0)) throw RequestError("its film's frames a second make no sense");
+  if (!(rate >= 0.1 && rate <= 1000.0)) throw RequestError("its film's frames per second are not valid");
   const std::string& name = bundle.film->file;
   if (name.find('/') != std::string::npos || !is_film_path(name) || name.starts_with('.') || name.starts_with('-'))
-    throw RequestError(fmt::format("film {} is no plain name that ends in .mp4 or as films do", in_quotes(name)));
+    throw RequestError(fmt::format("film {} is not a plain name that ends in .mp4 or as films do", in_quotes(name)));
   try {
     film_encoder(name, bundle.film->format);
   } catch (const UsageError& error) {
-    throw RequestError(fmt::format("its film cannot be: {}", error.what()));
+    throw RequestError(fmt::format("its film cannot be made: {}", error.what()));
   }
 }
 
@@ -85,7 +85,7 @@ Words checked_command(const Bundle& bundle) {
   const auto file = bundle.command.begin() + static_cast<std::ptrdiff_t>(result.size());
   const auto check_file = [&](const std::string& path) {
     if (std::ranges::find(bundle.inputs, path, &Input::path) == bundle.inputs.end())
-      throw RequestError(fmt::format("{} is no input of the bundle", in_quotes(path)));
+      throw RequestError(fmt::format("{} is not an input of the bundle", in_quotes(path)));
   };
   check_file(*file);
   result.push_back(*file);

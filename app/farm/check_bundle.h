@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether what a bundle asks for stays in its folder: it may come from anywhere.
+// Checks that everything a bundle asks for stays in its folder: it may come from anywhere.
 #pragma once
 
 #include <string>

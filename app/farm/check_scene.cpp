@@ -247,7 +247,7 @@ bool is_scene_file(const std::string& name) {
   return unfinished || std::regex_match(name, known);
 }
 
-/// For an error message: what is no ASCII might not be text at all.
+/// For an error message: what is not ASCII might not be text at all.
 std::string beginning(std::string_view word) {
   constexpr std::size_t kShown = 60;
   std::string text(word.substr(0, kShown));
@@ -259,13 +259,14 @@ std::string beginning(std::string_view word) {
 std::string checked_text(const fs::path& folder, const fs::path& inner, std::string_view (*wrong)(std::string_view)) {
   std::optional<std::string> text = inner_text(folder, inner, kMostBytes);
   const std::string path = (folder / inner).string();
-  if (!text) throw InputError(path, 0, "is missing; do the step surface first");
+  if (!text) throw InputError(path, 0, "is missing; run the step surface first");
   const std::string_view word = wrong(*text);
   if (!word.empty())
-    throw InputError(path, 0,
-                     fmt::format("has {}, which this program does not write; remove scene/ and state/ and do "
-                                 "the step surface again",
-                                 in_quotes(beginning(word))));
+    throw InputError(
+        path, 0,
+        fmt::format(
+            "has {}, which this program does not write; remove scene/ and state/ and run the step surface again",
+            in_quotes(beginning(word))));
   return std::move(*text);
 }
 
@@ -318,13 +319,13 @@ std::string_view wrong_in_settings(std::string_view text) {
 
 void check_scene(const fs::path& folder) {
   if (inner_entry(folder, "scene") != Entry::folder)
-    throw InputError((folder / "scene").string(), 0, "is missing; do the step surface first");
+    throw InputError((folder / "scene").string(), 0, "is missing; run the step surface first");
   for (const fs::directory_entry& entry : fs::directory_iterator(folder / "scene")) {
     const fs::path inner = fs::path("scene") / entry.path().filename();
     const Entry found = inner_entry(folder, inner);
     if (found == Entry::nothing) continue;  // got its name in the meantime
     if (found != Entry::file || !is_scene_file(entry.path().filename().string()))
-      throw InputError(entry.path().string(), 0, "is nothing that this program writes; take it away");
+      throw InputError(entry.path().string(), 0, "was not written by this program; remove it");
   }
   checked_text(folder, fs::path("scene") / kSettings, wrong_in_settings);
   for (const char* shared : kShared) checked_text(folder, fs::path("scene") / shared, wrong_in_scene);

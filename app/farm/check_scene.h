@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the POV-Ray scene of a bundle is such as this program writes: scenes are programs, which could read and write
-// files anywhere.
+// Checks that the POV-Ray scene of a bundle was written by this program: scenes are programs, which could read and
+// write files anywhere.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace meniscus::farm {
 
-/// What stands in scene/. Throws InputError: an entry that is no file of a scene, or a link; a word in a shared file
+/// What is in scene/. Throws InputError: an entry that is not a file of a scene, or a link; a word in a shared file
 /// that this program does not write.
 void check_scene(const std::filesystem::path& folder);
 

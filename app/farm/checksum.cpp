@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Feeds OpenSSL's digest, files by the mebibyte.
+// Computes digests with OpenSSL, reading files by the mebibyte.
 #include "app/farm/checksum.h"
 
 #include <cerrno>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Forks and executes with care for signals, descriptors and orphans.
+// Starts child processes, with care for signals, descriptors and orphans.
 #include "app/farm/child_process.h"
 
 #include <algorithm>

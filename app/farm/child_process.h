@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A program that works for this one: started without a shell, read line by line, and gone when this one is gone.
+// A child process: started without a shell, read line by line, and ended when this program ends.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Claims as files.
+// Stores claims on frames as files.
 #include "app/farm/claims.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who makes which frame: claims in the bundle's folder, so that any number of workers on any machines share its work.
+// Claims on frames in the bundle's folder, so that any number of workers on any machines share its work.
 #pragma once
 
 #include <atomic>
@@ -30,7 +30,7 @@ namespace meniscus::farm {
 /// appear whole and are the same whoever made them.
 class Claims {
  public:
-  /// Begins to show that this worker lives. Throws OutputError if that cannot be written.
+  /// Begins to show that this worker is running. Throws OutputError if that cannot be written.
   explicit Claims(std::filesystem::path folder, double lease = kDefaultLease);
   /// Gives all back.
   ~Claims();
@@ -40,7 +40,7 @@ class Claims {
   /// Whether the frame is this worker's now. False: another that lives has it, or all was given back. Look at its
   /// record again when you have it: another may have made it just before. Throws OutputError.
   bool take(const std::string& step, std::uint64_t frame);
-  /// When its record is written, or when it shall not be made.
+  /// When its record is written, or when it should not be made.
   void give_back(const std::string& step, std::uint64_t frame);
 
   /// Whether another worker that lives has the frame.

@@ -155,7 +155,7 @@ void check_povray_options(const Words& words) {
   for (const std::string& word : words)
     if (word.size() < 2 || word.size() > kLongestWord || !std::regex_match(word, harmless) ||
         std::regex_match(word, chooses_frame))
-      throw RequestError(fmt::format("{} is no option for POV-Ray that a bundle may have", in_quotes(word)));
+      throw RequestError(fmt::format("{} is not an option for POV-Ray that a bundle may have", in_quotes(word)));
 }
 
 void check_blender_options(const Words& words) { Reader(words, blender_table()).read(); }

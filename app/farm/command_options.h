@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The options that a bundled command may have: a list of those known to be harmless, with what their values are.
+// The options that a bundled command may have: a list of harmless ones, with the kinds of their values.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ struct CommandOption {
   bool joined = false;               ///< that word is name=value
 };
 
-/// Reads what stands behind FILE. Every word must be a known option or its value: nothing that writes a file, starts a
+/// Reads what is after FILE. Every word must be a known option or its value: nothing that writes a file, starts a
 /// program, or is merely unknown gets through. Throws RequestError for anything else.
 std::vector<CommandOption> read_command_options(const std::vector<std::string>& words);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of engines, and what emitters share.
+// The table of engines, and the code that emitters share.
 #include "app/farm/emit.h"
 
 #include <algorithm>

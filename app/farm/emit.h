@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The engines that work on a bundle, and the files that tell them how. Each engine runs `meniscus work` and no more.
+// The engines that work on a bundle, and the job files for them. Each engine runs `meniscus work` and no more.
 #pragma once
 
 #include <string>

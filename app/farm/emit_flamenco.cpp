@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A job type of Flamenco 3, the same for every bundle, in old-fashioned JavaScript, for its engine is small; and the
-// job of this bundle.
+// Writes a job type of Flamenco 3, the same for every bundle, in old-fashioned JavaScript, because its engine is small;
+// and the job of this bundle.
 #include <nlohmann/json.hpp>
 
 #include "app/farm/emit.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A Makefile, for one machine without any queue: make is the engine.
+// Writes a Makefile, for one machine without any queue: make is the engine.
 #include <fmt/format.h>
 
 #include "app/farm/emit.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A job specification of OpenCue, after its DTD cjsl 1.15.
+// Writes a job specification of OpenCue, after its DTD cjsl 1.15.
 #include <fmt/format.h>
 
 #include "app/farm/emit.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A job template of Open Job Description, version 2023-09, as AWS Deadline Cloud and others run it.
+// Writes a job template of Open Job Description, version 2023-09, which AWS Deadline Cloud and others run.
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Slurm: an array of tasks for each step, behind all of the step before, however its tasks ended, and a job that
-// verifies.
+// Writes scripts for Slurm: an array of tasks for each step, after all of the step before, however its tasks ended, and
+// a job that verifies.
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +13,7 @@ namespace meniscus::farm {
 namespace {
 
 // `wait` ends early when a signal is trapped, so it is asked again. Code 9: stopped in good order; 137: killed, by the
-// machine or by somebody. Both go on where they were, but not for ever.
+// machine or by someone. Both go on where they were, but not for ever.
 std::string upper(std::string text) {
   std::ranges::transform(text, text.begin(), [](char c) { return static_cast<char>(c - 'a' + 'A'); });
   return text;

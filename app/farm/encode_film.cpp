@@ -33,7 +33,8 @@ DecodedImage decoded(const fs::path& path) {
 /// sRGB as the film takes it; what is transparent shows white, as in the films of `render`, where it keeps no alpha.
 std::vector<std::uint8_t> film_pixels(const fs::path& folder, const std::string& inner, const FilmPixels& pixels) {
   const fs::path path = folder / inner;
-  if (inner_entry(folder, inner) != Entry::file || !is_png(path)) throw InputError(path.string(), 0, "is no PNG file");
+  if (inner_entry(folder, inner) != Entry::file || !is_png(path))
+    throw InputError(path.string(), 0, "is not a PNG file");
   const DecodedImage picture = decoded(path);
   const auto channels = static_cast<std::size_t>(picture.channels);
   const bool keeps_alpha = pixels.channels == 4;

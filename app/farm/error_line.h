@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Of all that a program says before it fails, the line that tells why.
+// Finds the line that gives the reason in the output of a failed program.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ class ErrorLine {
     if (begin == std::string::npos || names_error_) return;
     names_error_ = line.find("rror") != std::string::npos;
     words_ = line.substr(begin);
-    // It stands behind words of this program's own.
+    // It comes after words of this program's own.
     constexpr std::string_view kOurs = "meniscus: error: ";
     if (words_.starts_with(kOurs)) words_.erase(0, kOurs.size());
   }

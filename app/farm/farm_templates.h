@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What engines are told with few marks to be filled in: the files of app/farm/templates.
+// The templates of job files: the files of app/farm/templates.
 #pragma once
 
 #include <span>

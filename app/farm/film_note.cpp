@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keeps the note as JSON.
+// Reads and writes the note as JSON.
 #include "app/farm/film_note.h"
 
 #include <algorithm>

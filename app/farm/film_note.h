@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which frames a film of a bundle lacks: a small file, state/film.json.
+// The frames that a bundle's film lacks: a small file, state/film.json.
 #pragma once
 
 #include <cstdint>

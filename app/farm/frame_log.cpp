@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keeps the two ends of what was said.
+// Keeps the first and the last part of a long output.
 #include "app/farm/frame_log.h"
 
 #include <utility>

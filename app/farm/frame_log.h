@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the processes of a frame said, kept beside its record.
+// The output of the processes that made a frame, kept beside its record.
 #pragma once
 
 #include <cstddef>

@@ -46,7 +46,7 @@ Json to_json(const FrameRecord& record) {
 
 // A whole number; the library would make any number one.
 std::uint64_t whole_number(const Json& json) {
-  if (!json.is_number_unsigned()) throw Json::type_error::create(302, "this is no whole number", &json);
+  if (!json.is_number_unsigned()) throw Json::type_error::create(302, "this is not a whole number", &json);
   return json.get<std::uint64_t>();
 }
 
@@ -116,7 +116,7 @@ FrameRecord FrameRecords::measured(std::uint64_t frame, const std::vector<std::s
   record.seconds = seconds;
   for (const std::string& path : paths) {
     if (!is_made_path(path) || inner_entry(folder_, path) != Entry::file)
-      throw InputError(path, 0, "is no file that a frame can consist of");
+      throw InputError(path, 0, "is not a file that a frame can have");
     const std::string sum = sha256_of_file(folder_ / path);
     record.files.push_back({path, fs::file_size(folder_ / path), sum});
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What became of one frame in one step: a small file in state/STEP/, the farm's only memory.
+// The result of one frame in one step: a small file in state/STEP/, the farm's only memory.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Looks with lstat, opens with O_NOFOLLOW.
+// Checks paths with lstat, and opens files with O_NOFOLLOW.
 #include "app/farm/inner_path.h"
 
 #include <algorithm>
@@ -87,7 +87,7 @@ std::optional<std::string> inner_text(const fs::path& folder, const fs::path& in
 }
 
 std::optional<FileTime> modified(const fs::path& path) {
-  // Opening asks a server anew; a mere look may be answered from memory (close-to-open consistency of NFS).
+  // Opening asks a server again; a mere look may be answered from memory (close-to-open consistency of NFS).
   const Descriptor file{::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)};
   struct stat status {};
   if (file.number < 0 || ::fstat(file.number, &status) != 0) return {};

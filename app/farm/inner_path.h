@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paths below the folder of a bundle that really stay below it: nothing that somebody else put there leads out.
+// Paths that really stay inside the folder of a bundle, whatever links others have put there.
 #pragma once
 
 #include <cstddef>

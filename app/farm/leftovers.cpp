@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Knows the names under which workers keep what is not finished.
+// Knows the names of unfinished files that workers leave.
 #include <unistd.h>
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Puts a bundle together beside its final name, tries one frame, and renames it.
+// Builds a bundle beside its final name, tries one frame, and renames it.
 #include "app/farm/make_bundle.h"
 
 #include <algorithm>
@@ -155,7 +155,7 @@ std::uint64_t peak_memory_of_children() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) / 1024 + 1;
 }
 
-/// Makes the first frame and takes it away again: the farm's machines shall make all of them alike.
+/// Makes the first frame and takes it away again: the farm's machines should make all of them alike.
 void make_trial(const Bundle& bundle, const Staging& staging, Chunking& measured) {
   const StopHandler handler(
       [&] {
@@ -202,7 +202,7 @@ std::optional<Bundle> same_bundle_at(const BundleOptions& options, const Bundle&
   std::error_code error;
   if (!fs::exists(options.folder / "bundle.json")) {
     if (fs::exists(options.folder) && !fs::is_empty(options.folder, error))
-      throw OutputError(options.folder.string(), "exists and is no bundle; choose another folder");
+      throw OutputError(options.folder.string(), "exists and is not a bundle; choose another folder");
     return {};
   }
   try {
@@ -240,9 +240,9 @@ Bundle described(const BundleOptions& options, const BundledCommand& asked, Bund
   bundle.frames = frames.numbers();
   bundle.steps = steps_with_arguments(asked);
   if (options.film && !bundle.makes_pictures())
-    throw UsageError("--film: this bundle makes scenes, and whoever renders them the film; leave it away");
+    throw UsageError("--film: this bundle makes scenes, not pictures; leave it out");
   if (options.film && scene.image.aovs)
-    throw UsageError("--film: pictures with --aovs are .exr, which films are not made of; leave one of them out");
+    throw UsageError("--film: pictures with --aovs are .exr, which films cannot use; leave one of them out");
   bundle.width = scene.picture.width;
   bundle.height = scene.picture.height;
   if (options.film)
@@ -267,7 +267,7 @@ void note_larger_tasks(const Bundle& bundle, std::vector<std::string>& notes) {
   if (wanted <= chunking.count) return;
   const std::string asked = chunking.asked_frames ? fmt::format("--chunk-frames {}", *chunking.asked_frames)
                                                   : fmt::format("--chunk-minutes {}", chunking.asked_minutes);
-  notes.push_back(fmt::format("{} would be {} tasks; queues take {}, so a task has up to {} frames", asked,
+  notes.push_back(fmt::format("{} would make {} tasks; queues accept {}, so a task has up to {} frames", asked,
                               with_thousands(wanted), with_thousands(chunking.count),
                               with_thousands((frames + chunking.count - 1) / chunking.count)));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the folder of a bundle of a framed command.
+// Makes the folder of a bundle.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,7 @@ struct BundleOptions {
   std::string farm_path;
   std::optional<Film> film;
   Chunking chunking;
-  bool cores_asked = false;  ///< else as many as --threads behind -- says, if it does
+  bool cores_asked = false;  ///< else as many as --threads after -- says, if it does
   InputTransfer transfer = InputTransfer::copy;
   std::filesystem::path addon;  ///< folder of render_mns.py
   bool force = false;
@@ -35,7 +35,7 @@ struct MadeBundle {
 /// Decides camera and chunks (making one frame to see how long it takes, if chunks are asked for by
 /// time), and puts all of it under its name at once; then writes the legend that all frames have in common, if the
 /// command has one as a picture of its own. Throws UsageError, InputError, OutputError (another bundle is
-/// there and `force` is not, or something that is no bundle), RunError if the trial frame fails.
+/// there and `force` is not, or something that is not a bundle), RunError if the trial frame fails.
 MadeBundle make_bundle(const BundleOptions& options, const BundledCommand& command);
 
 }  // namespace meniscus::farm

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Follows a program that makes many frames and tells each by a line of JSON.
+// Runs a program that makes many frames and reports each as a line of JSON.
 #include <algorithm>
 #include <optional>
 #include <utility>

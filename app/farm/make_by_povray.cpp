@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// POV-Ray renders one frame of the scene a process, in a folder of its own that has what was checked; the picture gets
-// its name when whole, without its date.
+// Renders one frame per POV-Ray process, in a folder of its own with the checked files; the picture gets its name when
+// complete, without its date.
 #include <algorithm>
 #include <chrono>
 

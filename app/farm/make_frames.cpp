@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The command line of each maker.
+// Builds the command line of each maker.
 #include <algorithm>
 #include <filesystem>
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The programs that make the frames of a step, and what they tell about each frame.
+// The programs that make the frames of a step, and what they report about each frame.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct FrameListener {
   /// Hears, before the above, of a frame whose process was ended by a signal and that is tried a second time.
   std::function<void(std::uint64_t frame, const std::string& error)> tried_again;
   /// Hears each line that a process says, but those about frames, before it hears of the frame that is over then. Not
-  /// those said while it makes several at once: nobody knows of which frame they are.
+  /// those said while it makes several at once: their frame is then unknown.
   std::function<void(const std::string& line)> said;
 };
 
@@ -40,7 +40,7 @@ void make_frames(const Bundle& bundle, const Step& step, const Workplace& place,
 /// {"frame":42,"state":"failed","exit":7,"error":"..."}, in the order of the list. `command_for` gives its arguments
 /// for a list of frames; `alone`: that it makes one after another, not several at once. A program that makes several at
 /// once says so before it begins them: {"event":"start","at_once":3}. If a signal ends it, another process goes on
-/// behind the last frame told, with one frame after another, so that it is known which one it was at; if that ends so,
+/// after the last frame told, with one frame after another, so that it is known which one it was at; if that ends so,
 /// too, and at the same frame, the frame has failed, and a third makes the others.
 void make_by_lines(
     const std::function<std::vector<std::string>(const std::vector<std::uint64_t>& frames, bool alone)>& command_for,
@@ -52,7 +52,7 @@ void make_by_povray(const Bundle& bundle, const Step& step, const Workplace& pla
 
 /// Removes unfinished pictures of this process, and its copy of Blender's driver.
 void remove_own_leftovers(const std::filesystem::path& folder);
-/// Removes whatever killed workers left unfinished. For a bundle that nobody works on any more.
+/// Removes whatever killed workers left unfinished. For a bundle without running workers.
 void remove_leftovers(const std::filesystem::path& folder);
 
 }  // namespace meniscus::farm

@@ -27,7 +27,7 @@ std::size_t big_endian(std::string_view bytes) {
 }  // namespace
 
 std::string png_without_time(std::string_view file) {
-  if (!file.starts_with(kSignature)) throw RunError(kExitInput, "the picture is no PNG file");
+  if (!file.starts_with(kSignature)) throw RunError(kExitInput, "the picture is not a PNG file");
   std::string result(kSignature);
   file.remove_prefix(kSignature.size());
   for (std::string_view type; type != "IEND";) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PNG files without what renderers write about themselves and the day.
+// Removes from PNG files what renderers write about themselves and the date.
 #pragma once
 
 #include <filesystem>

@@ -50,7 +50,7 @@ void require_printable_path(const std::string& what, std::string_view path) {
   }
   if (!speakable)
     throw RequestError(
-        fmt::format("{}: {} has control characters or is no UTF-8; choose another path", what, in_quotes(path)));
+        fmt::format("{}: {} has control characters or is not UTF-8; choose another path", what, in_quotes(path)));
 }
 
 }  // namespace meniscus::farm

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Texts as one word of the languages that farms are described in.
+// Quotes texts as one word of the languages of job files.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ std::string xml_text(std::string_view text);
 /// A string literal of JSON, and of JavaScript of any edition: ASCII only.
 std::string json_text(std::string_view text);
 
-/// Throws RequestError, which begins with `what`, for a path with control characters or that is no UTF-8: there are
+/// Throws RequestError, which begins with `what`, for a path with control characters or that is not UTF-8: there are
 /// engines that cannot be told of it.
 void require_printable_path(const std::string& what, std::string_view path);
 

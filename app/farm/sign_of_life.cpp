@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes and reads who a worker is; a process is known by its number and the time of its start.
+// Writes and reads a worker's identity; a process is identified by its number and the time of its start.
 #include "app/farm/sign_of_life.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The file in state/workers/ by which a worker shows that it lives, and who it is.
+// The file in state/workers/ by which a worker shows that it is running, and who it is.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +20,7 @@ std::string new_worker_name();
 /// state/workers/NAME.json, relative to the bundle.
 std::filesystem::path life_path(const std::string& worker);
 
-/// What stands in that file: where its worker runs, and after how many seconds it is dead if it does not touch it.
+/// What is in that file: where its worker runs, and after how many seconds it is dead if it does not touch it.
 std::string life_text(double lease);
 
 /// Now, by the clock of the file system; asked only if it must be known.
@@ -32,7 +32,7 @@ bool lives(const std::filesystem::path& folder, const std::string& worker, const
 /// The workers of a bundle that live, by name.
 std::vector<std::string> live_workers(const std::filesystem::path& folder, const FileClock& now);
 
-/// Now for those who are no workers: the time that the file system gives to a file in state/workers/ that vanishes at
+/// Now for those who are not workers: the time that the file system gives to a file in state/workers/ that vanishes at
 /// once; where none can be made, the clock of this machine.
 FileTime file_system_now(const std::filesystem::path& folder);
 

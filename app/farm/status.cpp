@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counts records with their files, and estimates from what live workers have made so far.
+// Counts records with their files, and estimates the time left from what running workers have made so far.
 #include "app/farm/status.h"
 
 #include <algorithm>

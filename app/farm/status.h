@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far a bundle is, from its folder alone: no queue needs to be asked.
+// The progress of a bundle, from its folder alone: no queue needs to be asked.
 #pragma once
 
 #include <cstdint>

@@ -36,13 +36,13 @@ std::span<const Frame> last(const std::vector<Frame>& frames) {
   return std::span(frames).last(std::min(frames.size(), kFaultsShown));
 }
 
-/// "2 workers live (a-1-2, b-3-4): about 5:00 min to go"
+/// "2 workers are running (a-1-2, b-3-4): about 5:00 min to go"
 std::string workers_line(const BundleStatus& status) {
   if (status.seconds_to_go == 0.0) return {};
-  if (status.workers.empty()) return "\nno worker lives\n";
+  if (status.workers.empty()) return "\nno worker is running\n";
   const std::size_t shown = std::min(status.workers.size(), kWorkersShown);
   return fmt::format("\n{} {} ({}{}): about {} to go\n", status.workers.size(),
-                     status.workers.size() == 1 ? "worker lives" : "workers live",
+                     status.workers.size() == 1 ? "worker is running" : "workers are running",
                      fmt::join(std::span(status.workers).first(shown), ", "),
                      shown < status.workers.size() ? ", ..." : "", duration(status.seconds_to_go));
 }
@@ -144,7 +144,7 @@ std::string status_metrics(const Bundle& bundle, const BundleStatus& status, con
   const std::filesystem::path whole = std::filesystem::absolute(folder).lexically_normal();
   const std::string name = label_text((whole.has_filename() ? whole : whole.parent_path()).filename().string());
   std::string text;
-  const Gauge frames(text, name, "frames", "Frames of a step by what became of them.");
+  const Gauge frames(text, name, "frames", "Frames of a step by their state.");
   for (const StepStatus& step : status.steps) {
     const std::array<std::pair<const char*, std::size_t>, 4> counts{{{"done", step.done},
                                                                      {"failed", step.failed.size()},
@@ -153,14 +153,14 @@ std::string status_metrics(const Bundle& bundle, const BundleStatus& status, con
     for (const auto& [state, count] : counts)
       frames.add(static_cast<double>(count), of_step(step) + fmt::format(",state=\"{}\"", state));
   }
-  const Gauge pace(text, name, "frame_seconds", "Mean time that a frame of a step took.");
+  const Gauge pace(text, name, "frame_seconds", "Mean time of a frame of a step.");
   for (const StepStatus& step : status.steps) pace.add(step.seconds_per_frame, of_step(step));
-  const Gauge alone(text, name, "alone_seconds", "Time that one worker would need for what is left of a step.");
+  const Gauge alone(text, name, "alone_seconds", "Time that one worker needs for the frames left of a step.");
   for (const StepStatus& step : status.steps) alone.add(step.seconds_left, of_step(step));
-  const Gauge step_to_go(text, name, "step_to_go_seconds", "Time that the workers that live need for a step.");
+  const Gauge step_to_go(text, name, "step_to_go_seconds", "Time that the running workers need for a step.");
   for (const StepStatus& step : status.steps) step_to_go.add(step.seconds_to_go, of_step(step));
-  Gauge(text, name, "to_go_seconds", "Time that the workers that live need for all steps.").add(status.seconds_to_go);
-  Gauge(text, name, "workers", "Workers that live.").add(static_cast<double>(status.workers.size()));
+  Gauge(text, name, "to_go_seconds", "Time that the running workers need for all steps.").add(status.seconds_to_go);
+  Gauge(text, name, "workers", "Workers that are running.").add(static_cast<double>(status.workers.size()));
   Gauge(text, name, "tasks", "Tasks of each step.").add(static_cast<double>(bundle.chunking.count));
   return text;
 }

@@ -26,7 +26,7 @@ bool is_blank(const DecodedImage& picture) {
 }
 
 std::string picture_fault(const std::filesystem::path& path, const Bundle& bundle) {
-  if (!is_png(path)) return "is no PNG file";
+  if (!is_png(path)) return "is not a PNG file";
   DecodedImage picture;
   try {
     picture = image_codec().decode(path.string());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Looks at every file that a bundle's frames consist of.
+// Checks every file of a bundle's frames.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds what is missing, has it made, and keeps the records.
+// Finds missing frames, has them made, and keeps the records.
 #include "app/farm/worker.h"
 
 #include <algorithm>
@@ -119,7 +119,7 @@ class Worker {
       if (batch.empty()) return;
       begin_ = std::chrono::steady_clock::now();
       first_ = true;
-      log_.take();  // what was said behind the last frame of a batch before
+      log_.take();  // what was said after the last frame of a batch before
       make_frames(bundle_, task.step, place_, batch, listener(task));
     }
   }
@@ -183,7 +183,7 @@ class Worker {
     }
     const std::string fault = record ? records_.fault(*record) : std::string("it is not made yet");
     if (fault.empty()) return 0;
-    why = fmt::format("step {}: {}; do that step first", before, fault);
+    why = fmt::format("step {}: {}; run that step first", before, fault);
     return kExitInput;
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes what is missing of a part of a bundle: the one worker behind every engine.
+// Makes the missing frames of a part of a bundle: the one worker that every engine runs.
 #pragma once
 
 #include <cstdint>

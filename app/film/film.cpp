@@ -151,7 +151,7 @@ Size pictures_of_gif(const BinaryFile& file) {
   while (at < file.size()) {
     const Size kind = number(file, at, 1);
     if (kind == kTrailer) {
-      if (at + 1 != file.size()) throw Error(fmt::format("goes on behind its end at byte {}", at));
+      if (at + 1 != file.size()) throw Error(fmt::format("continues after its end at byte {}", at));
       return count;
     }
     if (kind == kExtension) {
@@ -215,8 +215,8 @@ void check_film_size(const FilmEncoder& encoder, glm::ivec2 size) {
     throw UsageError(fmt::format("--size {}x{}: a film of this codec has at least {}x{}", size.x, size.y,
                                  encoder.least.x, encoder.least.y));
   if (size.x % encoder.unit.x == 0 && size.y % encoder.unit.y == 0) return;
-  throw UsageError(fmt::format("--size {}x{}: a film like this needs {}; so does not one of --chroma 444", size.x,
-                               size.y, encoder.unit.y == 1 ? "an even width" : "even numbers"));
+  throw UsageError(fmt::format("--size {}x{}: this film needs {}; one with --chroma 444 does not", size.x, size.y,
+                               encoder.unit.y == 1 ? "an even width" : "even numbers"));
 }
 
 FilmWriter::FilmWriter(const std::string& path, Existing existing, glm::ivec2 size, double frames_per_second,
@@ -228,7 +228,7 @@ FilmWriter::FilmWriter(const std::string& path, Existing existing, glm::ivec2 si
   std::array<int, 2> ends{-1, -1};
   // A socket rather than a pipe: writing to an encoder that died is then an error, and no signal.
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
-    throw OutputError(path, std::string("no way to ffmpeg: ") + std::strerror(errno));
+    throw OutputError(path, std::string("cannot connect to ffmpeg: ") + std::strerror(errno));
   pictures_ = ends[0];
   complaints_ = ::memfd_create("ffmpeg", MFD_CLOEXEC);
   posix_spawn_file_actions_t actions;
@@ -279,7 +279,7 @@ std::string FilmWriter::fault() const {
   if (WIFSIGNALED(status_)) return fmt::format("ffmpeg was ended by signal {}", WTERMSIG(status_));
   if (WEXITSTATUS(status_) != 0) return fmt::format("ffmpeg failed with exit code {}", WEXITSTATUS(status_));
   const std::string broken = film_fault(file_.temporary_path(), added_);
-  return broken.empty() ? "" : fmt::format("ffmpeg says nothing, but what it wrote {}", broken);
+  return broken.empty() ? "" : fmt::format("ffmpeg reported no error, but its file {}", broken);
 }
 
 void FilmWriter::add(std::span<const std::uint8_t> picture) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Films made of pictures by ffmpeg, and whether such a file is whole.
+// Films that ffmpeg encodes from pictures, and whether such a file is complete.
 #pragma once
 
 #include <cstdint>
@@ -47,7 +47,7 @@ class FilmWriter {
  private:
   void wait();
   void end_pictures();
-  std::string fault() const;  ///< why what the encoder has written is no film; empty if it is one
+  std::string fault() const;  ///< why what the encoder has written is not a film; empty if it is one
 
   OutputFile file_;
   FilmPixels pixels_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A table of codecs. What they can do is that of ffmpeg's encoders of the same names, as Debian builds them.
+// The table of codecs, with the limits of ffmpeg's encoders of the same names, as Debian builds them. What they can do
+// is that of ffmpeg's encoders of the same names, as Debian builds them.
 #include "app/film/film_format.h"
 
 #include <algorithm>
@@ -74,7 +75,7 @@ int rate_factor_of(const Codec& codec, const FilmFormat& format) {
   const int asked = format.rate_factor.value_or(codec.rate_factor);
   if (codec.worst == 0) throw UsageError(fmt::format("--crf {}: {} has no rate factor", asked, codec.name));
   if (asked < 0 || asked > codec.worst)
-    throw UsageError(fmt::format("--crf {}: of {} it is 0 (best) to {}", asked, codec.name, codec.worst));
+    throw UsageError(fmt::format("--crf {}: for {} give 0 (best) to {}", asked, codec.name, codec.worst));
   return asked;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A table of options in the order in which abbreviations are tried: the first that begins with the word is meant.
+// The table of options, in the order in which abbreviations are tried: the first that begins with the word is used.
 #include "app/msms/arguments.h"
 
 #include <array>
@@ -119,7 +119,7 @@ const Option& option_of(std::string_view word) {
   names.reserve(kOptions.size());
   for (const Option& option : kOptions) names.push_back(option.name);
   const std::string_view nearest = nearest_word(name, names);
-  throw UsageError(fmt::format("{} is no option{}; -h lists all", in_quotes(word),
+  throw UsageError(fmt::format("{} is not an option{}; -h lists all", in_quotes(word),
                                nearest.empty() ? "" : fmt::format(" (did you mean -{}?)", nearest)));
 }
 
@@ -143,7 +143,7 @@ Arguments parse_arguments(std::span<const char* const> given) {
     option.take(arguments, option.name, words);
   }
   if (arguments.all_components && !arguments.cavity_atoms.empty())
-    throw UsageError("-all_components and -one_cavity ask for different things; leave one of them away");
+    throw UsageError("-all_components and -one_cavity ask for different things; leave one of them out");
   return arguments;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Component 0, all of them, or the one that touches some spheres.
+// Chooses component 0, all of them, or the one that touches some spheres.
 #include "app/msms/chosen_surface.h"
 
 #include <algorithm>
@@ -70,7 +70,7 @@ std::uint32_t ChosenSurface::component_touching(const std::vector<std::uint32_t>
   if (!known || (!cavity && !outer))
     throw InputError(
         spheres.rows.file, 0,
-        fmt::format("find_first_rs_face: no place of the probe touches the spheres {} of -one_cavity; they "
+        fmt::format("find_first_rs_face: no position of the probe touches the spheres {} of -one_cavity; they "
                     "are numbered from 0 to {}",
                     fmt::join(numbers, ", "), spheres.rows.count - 1));
   return cavity ? *cavity : *outer;
@@ -85,10 +85,9 @@ std::vector<ReducedComponentSize> ChosenSurface::sizes() const {
 
 std::vector<AtomAreas> ChosenSurface::areas() const {
   if (chosen_.size() * computed_.surface.atoms.size() > kMostAreas)
-    throw CapacityError(
-        fmt::format("the areas of {} spheres in {} components are too many for one table; leave -af or "
-                    "-all_components away",
-                    computed_.surface.atoms.size(), chosen_.size()));
+    throw CapacityError(fmt::format(
+        "the areas of {} spheres in {} components are too many for one table; leave -af or -all_components out",
+        computed_.surface.atoms.size(), chosen_.size()));
   // Components that nobody asked for are one group, behind the others.
   const auto others = static_cast<std::uint32_t>(chosen_.size());
   std::vector<std::uint32_t> group(computed_.components.count, others);

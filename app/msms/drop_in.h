@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the drop-in programs have in common: the spheres they read, and the files they write.
+// What the drop-in programs share: the spheres they read, and the files they write.
 #pragma once
 
 #include <map>

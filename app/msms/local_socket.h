@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A plain blocking socket on this machine alone: local_socket_posix.cpp (Linux, macOS) and local_socket_windows.cpp.
+// A blocking socket on this machine alone: implemented in local_socket_posix.cpp and local_socket_windows.cpp.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ class LocalSocket {
   LocalSocket(LocalSocket&& other) noexcept : number_(other.number_) { other.number_ = kNone; }
   LocalSocket& operator=(LocalSocket&&) = delete;
 
-  /// Has somebody called within this time?
+  /// Has someone called within this time?
   bool has_caller(int milliseconds) const;
   /// The first that called; what it does not take or send within `seconds` fails.
   std::optional<LocalSocket> caller(int seconds) const;

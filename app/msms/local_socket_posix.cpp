@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sockets of Linux and macOS.
+// Implements local_socket.h for Linux and macOS.
 #include <cerrno>
 #include <cstring>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sockets of Windows.
+// Implements local_socket.h for Windows.
 #include <algorithm>
 #include <climits>
 #include <system_error>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program `meniscus-msms`: MSMS's command line, files and words for exact surfaces.
+// The program `meniscus-msms`: the command line, files and output of MSMS for exact surfaces.
 
 #include <chrono>
 #include <cstdint>

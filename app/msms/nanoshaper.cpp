@@ -50,7 +50,7 @@ constexpr double kLargestProbe = 100.0, kLargestCavity = 1e9;   // Å, Å³
 constexpr double kSmallestScale = 0.1, kLargestScale = 20.0;    // points per Å
 constexpr std::size_t kLargestSettings = std::size_t{1} << 20;  // bytes
 
-/// One line's value, and where it stands.
+/// One line's value, and where it is.
 struct Value {
   const TextFile& file;
   std::size_t line;
@@ -84,17 +84,17 @@ void pass_over(const Value&, ShaperSettings&) {}
 
 /// A file that there is not here, or atoms left out.
 void must_be_false(const Value& value, ShaperSettings&) {
-  if (value.truth()) value.refuse("false; what it asks for there is not here");
+  if (value.truth()) value.refuse("false; meniscus-nanoshaper does not have this feature");
 }
 
 template <const char* Word, const char* Instead>
 void must_be(const Value& value, ShaperSettings&) {
   if (value.text != Word) value.refuse(Instead);
 }
-constexpr char kSes[] = "ses", kOnlySes[] = "ses, the one surface that there is here";
-constexpr char kNormal[] = "normal", kOnlyNormal[] = "normal; pockets are what `meniscus pockets` finds";
-constexpr char kTrue[] = "true", kAlwaysTriangles[] = "true: triangles are all that there is here";
-constexpr char kFalse[] = "false", kNoPly[] = "false: the mesh is written in the form of MSMS and as OFF";
+constexpr char kSes[] = "ses", kOnlySes[] = "ses, the only surface that meniscus-nanoshaper has";
+constexpr char kNormal[] = "normal", kOnlyNormal[] = "normal; `meniscus pockets` finds pockets";
+constexpr char kTrue[] = "true", kAlwaysTriangles[] = "true; meniscus-nanoshaper always writes triangles";
+constexpr char kFalse[] = "false", kNoPly[] = "false; the mesh is written in the form of MSMS and as OFF";
 
 constexpr std::array kKeys{
     Key{"XYZR_FileName", [](const Value& v, ShaperSettings& s) { s.spheres = v.text; }},
@@ -247,7 +247,7 @@ ExitCode run(std::span<const char* const> words) {
   if (words.size() > 1 || path.starts_with('-')) throw UsageError("give one configuration file, or none; see --help");
   const ShaperSettings settings = read_shaper_settings(path);
   for (const std::string& key : settings.unknown_keys)
-    std::cerr << fmt::format("meniscus-nanoshaper: warning: {}: {} is no key of NanoShaper and changes nothing\n",
+    std::cerr << fmt::format("meniscus-nanoshaper: warning: {}: {} is not a key of NanoShaper and changes nothing\n",
                              escaped(path), in_quotes(key));
   const std::string vert = settings.root + "triangulatedSurf.vert", face = settings.root + "triangulatedSurf.face",
                     off = settings.root + "triangulatedSurf.off";

@@ -25,7 +25,7 @@ Writes the atoms of a molecule (PDB, mmCIF, PQR, GRO, XYZ; - or nothing: standar
   pdb_to_xyzrn  x y z radius 1 ATOM_RESIDUE_NUMBER
 
   -h      with hydrogens: radii of Bondi (1964); else united atoms, radii of Chothia (1976), hydrogens left out
-  -c      pdb_to_xyzrn: the chain behind the number, ATOM_RESIDUE_NUMBER_CHAIN
+  -c      pdb_to_xyzrn: the chain after the number, ATOM_RESIDUE_NUMBER_CHAIN
   --help  this help
 
 Water and ions are written too. Of several models the first is read, of alternate locations the most occupied.

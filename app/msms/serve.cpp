@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// There is one client, and whatever it has to wait for or we have has a limit.
+// Serves one client, with a limit on every wait and every size.
 #include "app/msms/serve.h"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ LocalSocket listening_on(std::uint16_t port) {
   std::optional<LocalSocket> listener = LocalSocket::listening_on(port);
   if (!listener)
     throw UsageError(
-        fmt::format("-socketPort {}: the port cannot be had: {}; try another", port, LocalSocket::last_error()));
+        fmt::format("-socketPort {}: the port is not available: {}; try another", port, LocalSocket::last_error()));
   return std::move(*listener);
 }
 
@@ -50,7 +50,7 @@ void receive(const LocalSocket& client, std::span<T, kExtent> values) {
   while (!bytes.empty()) {
     const std::ptrdiff_t got = client.receive(bytes);
     if (got == 0) throw InputError(kClient, 0, "closed the connection before it had sent all");
-    if (got < 0) throw InputError(kClient, 0, fmt::format("sends nothing more: {}", LocalSocket::last_error()));
+    if (got < 0) throw InputError(kClient, 0, fmt::format("stopped sending: {}", LocalSocket::last_error()));
     bytes = bytes.subspan(static_cast<std::size_t>(got));
   }
 }
@@ -58,7 +58,7 @@ void receive(const LocalSocket& client, std::span<T, kExtent> values) {
 void send(const LocalSocket& client, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const std::ptrdiff_t sent = client.send(bytes);
-    if (sent <= 0) throw OutputError(kClient, fmt::format("takes nothing more: {}", LocalSocket::last_error()));
+    if (sent <= 0) throw OutputError(kClient, fmt::format("stopped receiving: {}", LocalSocket::last_error()));
     bytes = bytes.subspan(static_cast<std::size_t>(sent));
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every command takes, as plain data read from the declared options: what help, manual and completion tell.
+// The options of every command as plain data, read from their declarations, for help, manual pages and completion.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ struct OptionEntry {
   std::string value;               ///< the word for its value; empty if it takes none
   std::string description;
   bool required = false;
-  bool value_optional = false;     ///< may stand without its value
+  bool value_optional = false;     ///< may have no value
   std::vector<std::string> words;  ///< values to propose; empty if they are not words
 
   /// Whether the value is a path.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds options that change nothing for want of another one, by a table of what each needs.
+// Finds options that have no effect because another one is missing, by a table of what each needs.
 #include "app/options/idle_options.h"
 
 #include <algorithm>
@@ -113,16 +113,16 @@ const std::vector<Need>& needs() {
        "files, do not"},
       {{"--codec", "--crf", "--bits", "--chroma"},
        [](const Asked& asked) { return !asked.has("--samples") || asked.is_film(); },
-       "the output is no film; name one, such as -o a.mp4",
+       "the output is not a film; name one, such as -o a.mp4",
        true},
       {{"--fps"},
        [](const Asked& asked) {
          return asked.has("--samples") ? asked.is_film() : !asked.has("--stride") || asked.is_run();
        },
-       "the output is no film"},
+       "the output is not a film"},
       {{"--clip", "--film-opacity"},
        [](const Asked& asked) { return !asked.given("--hide-surface"); },
-       "the surface is hidden, and what stands beside it is neither cut nor a film"},
+       "the surface is hidden, and shapes beside it are neither cut nor films"},
       {{"--cap-color", "--cap-hatching"},
        [](const Asked& asked) { return asked.given("--clip"); },
        "nothing is cut, so there are no caps; add --clip PLANE"},
@@ -181,10 +181,10 @@ const std::vector<Need>& needs() {
        "it is that of a mesh; add --mesh FILE"},
       {{"--unknown-element"},
        [](const Asked& asked) { return asked.name() != "info"; },
-       "all atoms are told of, with a guessed radius where the element is unknown"},
+       "all atoms are listed, with a guessed radius where the element is unknown"},
       {{"--force"},
        [](const Asked& asked) { return asked.name() != "preview" || asked.given("--record"); },
-       "it is for --record alone"}};
+       "it is only for --record"}};
   return kNeeds;
 }
 
@@ -221,7 +221,7 @@ std::vector<std::string> idle_options(const TakenOptions& options) {
       if (asked.given(option)) idle.emplace_back(option);
     if (idle.empty() || need.is_met(asked)) continue;
     const std::string sentence =
-        fmt::format("{} {} nothing to do: {}", fmt::join(idle, ", "), idle.size() == 1 ? "has" : "have", need.missing);
+        fmt::format("{} {} no effect: {}", fmt::join(idle, ", "), idle.size() == 1 ? "has" : "have", need.missing);
     if (need.is_refused) throw UsageError(sentence);
     sentences.push_back("note: " + sentence);
   }

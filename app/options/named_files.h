@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The files that a command names: what it reads is never replaced, and no two outputs are one file.
+// The files that a command names: what it reads is never replaced, and no two outputs are the same file.
 #pragma once
 
 #include <string>

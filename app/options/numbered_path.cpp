@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Puts numbers into file names.
+// Puts frame numbers into file names.
 #include "app/options/numbered_path.h"
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Adds options to a command as the table of properties declares them; the caller says only where values go.
+// Adds options to a command as the table of properties declares them; the caller only binds their values.
 #pragma once
 
 #include <concepts>
@@ -89,7 +89,7 @@ Meaning meaning_of(const std::string& text, std::string_view key, std::initializ
   return text.empty() ? *meanings.begin() : *(meanings.begin() + place_of(text, property_of(key)));
 }
 
-/// The heading of the help under which a property's option stands; empty: the help does not have it.
+/// The heading of the help under which a property's option is; empty: the help does not have it.
 std::string group_of(const Property& property);
 
 /// Understands an expression that is the value of an option. Throws SelectionError, which names the option.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Declares options by the table of properties, and sets the values of a scene from a scene file and from what was
-// typed.
+// Declares options by the table of properties, and sets the values of a scene from a scene file and from the command
+// line.
 #include "app/options/scene_options.h"
 
 #include <algorithm>
@@ -110,7 +110,7 @@ SceneOptions::SceneOptions(CLI::App& command, CommandBit bit, SceneCommand& into
   if ((bit & kForRuns) != 0) into.scene.frames.index_folder = cache_folder();
 }
 
-/// Those that say how the work is done; and trajectories that stand behind FILE.
+/// Those that say how the work is done; and trajectories that are after FILE.
 void SceneOptions::add_own_option(const Property& property) {
   PropertyOptions options(command_);
   const std::string_view key = property.key;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the words of a command line, and the scene file that they name, to one scene.
+// From a command line, and the scene file that it names, to one scene.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@
 
 namespace meniscus {
 
-/// How much is said about the oddities of a file: a line for every atom, a sentence for every kind, nothing.
+/// How much is said about unusual things in a file: a line for every atom, a sentence for every kind, nothing.
 enum class WarningDetail { full, summary, none };
 
 /// How a run of frames reports how far it is.
@@ -70,7 +70,7 @@ class SceneOptions {
 
   /// Sets the values of the scene: those of the scene file, then those of the command line; and completes it. named:
   /// words of an earlier command line, whose files the scene may name, too. Throws UsageError, CLI::ParseError,
-  /// SelectionError; InputError for a file that is no scene or names files that it may not.
+  /// SelectionError; InputError for a file that is not a scene or names files that it may not.
   void take(const std::vector<std::string>& named = {});
 
   /// Whether the command line or the scene file has a value of this property.
@@ -129,7 +129,7 @@ std::string scene_text_beside(const Scene& scene, const std::string& path);
 /// Where indices of frames and compiled kernels are kept: beside other caches of the user, or nowhere.
 std::string cache_folder();
 
-/// What `meniscus work` tells the programs it starts: from 0, which of the workers on this machine they belong to.
+/// What `meniscus work` passes to the programs it starts: their worker's number on this machine, from 0.
 inline constexpr const char* kWorkerVariable = "MENISCUS_WORKER";
 /// "off": compiled kernels are not kept beside other caches of the user.
 inline constexpr const char* kKernelVariable = "MENISCUS_KERNEL_CACHE";

@@ -74,13 +74,13 @@ std::string scene_help() {
   std::string page = R"(Examples:
   meniscus render 1tii.pdb --color chain --sticks ligand -o fig.png --save-scene fig.json
   meniscus render --scene fig.json                     the same picture
-  meniscus fig.json                                    likewise
-  meniscus render --scene fig.json --size 3840x2160    options count before the scene
-  meniscus render --scene fig.png                      of a picture (.png), next to its molecule
-  meniscus export povray --scene fig.json -o fig       what POV-Ray can show of it, or a message
+  meniscus fig.json                                    the same picture
+  meniscus render --scene fig.json --size 3840x2160    options override the scene
+  meniscus render --scene fig.png                      the scene in a picture (.png), next to its molecule
+  meniscus export povray --scene fig.json -o fig       the same figure for POV-Ray, or a message
 
-A scene is a JSON file: {"meniscus_scene": 1, SECTION: {KEY: VALUE, ...}, ..., "objects": [...]}. Paths are seen from
-its folder. What an option says once counts before the scene; what may be repeated is added to it. The keys, and the
+A scene is a JSON file: {"meniscus_scene": 1, SECTION: {KEY: VALUE, ...}, ..., "objects": [...]}. Paths are relative
+to its folder. Options on the command line override the scene; repeatable options are added to it. The keys, with the
 options whose values they take:
 
 )";
@@ -90,14 +90,14 @@ options whose values they take:
     page += fmt::format("  {:<26}{}\n", property->name(), property->long_option());
   }
   page += R"(
-objects is a list. Each has a "representation" (surface, sticks, balls, spheres, tube) and a "selection". The first
-surface is that of the molecule:
+"objects" is a list. Each object has a "representation" (surface, sticks, balls, spheres, tube) and a "selection".
+The first surface is that of the molecule. Its keys:
 
 )";
   for (const Property* property : scene_properties(is_surface))
     page += fmt::format("  {:<26}{}\n", property->name(), property->long_option());
   page += R"(
-All others are made of their own atoms alone, which need not be among those of molecule.select; as --object:
+All others consist of their own atoms alone, which may lie outside molecule.select. Their keys, as for --object:
 
 )";
   for (const ObjectKey& key : object_keys())

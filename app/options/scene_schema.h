@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What scene files may hold, for people and for editors of JSON.
+// The keys of scene files, for people and for editors of JSON.
 #pragma once
 
 #include <string>

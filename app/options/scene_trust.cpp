@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads scene files, and guards the files that they name.
+// Reads scene files, and checks the files that they name.
 #include "app/options/scene_trust.h"
 
 #include "app/options/named_files.h"

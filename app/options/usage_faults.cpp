@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the option that was meant.
+// Finds the option that was probably meant.
 #include "app/options/usage_faults.h"
 
 #include <algorithm>
@@ -20,13 +20,14 @@ struct ForeignWord {
 };
 
 // Of PyMOL, ChimeraX, VMD, POV-Ray, Blender, ffmpeg and ImageMagick.
-constexpr std::array<ForeignWord, 43> kForeignWords{{
+constexpr std::array<ForeignWord, 46> kForeignWords{{
     {"--colour", {"--color"}},
     {"--colors", {"--color"}},
     {"--color-by", {"--color"}},
     {"--bg", {"--background"}},
     {"--bg-color", {"--background"}},
     {"--bgcolor", {"--background"}},
+    {"--bg-colour", {"--background"}},
     {"--transparent", {"--background"}},
     {"--ao", {"--ambient-occlusion"}},
     {"--occlusion", {"--ambient-occlusion"}},
@@ -48,6 +49,8 @@ constexpr std::array<ForeignWord, 43> kForeignWords{{
     {"--ortho", {"--projection"}},
     {"--orthographic", {"--projection"}},
     {"--perspective", {"--projection"}},
+    {"--ray", {"--size"}},
+    {"--png", {"--output"}},
     {"--antialias", {"--samples"}},
     {"--aa", {"--samples"}},
     {"--transparency", {"--opacity"}},
@@ -113,7 +116,7 @@ std::string unknown_option_fault(const CLI::App& program, std::span<const char* 
       return fmt::format("{} is one argument too many for {}", in_quotes(word), command_path(command));
     return fmt::format("{} has no option {}{}", command_path(command), in_quotes(name), meant_option(command, name));
   }
-  return "there are words too many";
+  return "there are too many words";
 }
 
 }  // namespace meniscus

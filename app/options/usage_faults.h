@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is said about options that were not understood.
+// Messages about options that were not understood.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace meniscus {
 
-/// From now on the last of an option that may stand once counts, in this command and those added to it later.
+/// From now on the last of an option that may be given once counts, in this command and those added to it later.
 void let_the_last_count(CLI::App& program);
 
 /// The command whose options were being read when parsing ended: the innermost of those that were named.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The commands that move the camera and the time: views under a name, frames, keys of the camera, sizes of pictures.
+// The commands that move the camera and the time: named views, frames, keys of the camera, sizes of pictures.
 #include <algorithm>
 #include <numbers>
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rotations and shifts of a camera, written so that distances do not creep however long one drags.
+// Rotates and moves a camera in such a way that distances do not drift, however long one drags.
 #include "app/preview/camera_motion.h"
 #include "core/math/ball.h"
 

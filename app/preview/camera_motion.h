@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How mouse and keys move a camera about its target: pure functions, the same for window, page and recorded sessions.
+// How mouse and keys move a camera about its target: pure functions, shared by window, page and recorded sessions.
 #pragma once
 
 #include <numbers>
@@ -44,7 +44,7 @@ Camera centered(const Camera& camera, const glm::dvec3& point, std::span<const B
 Camera rolled(const Camera& camera, double angle);
 
 /// The same view by another projection: what lies in the plane of the target keeps its size. An orthographic camera
-/// stands outside of all `balls`, whichever way it turns, since it sees nothing behind its plane.
+/// is outside of all `balls`, whichever way it turns, since it sees nothing behind its plane.
 Camera projected(const Camera& camera, Projection projection, std::span<const Ball> balls);
 
 /// Looks the same way at all of `shown`, with a small margin, from outside of all `balls` if orthographic. There must

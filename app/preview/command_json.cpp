@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads and writes commands, joins two that follow each other, and complains about values by key.
+// Reads and writes commands, joins two that follow each other; errors about values name the key.
 #include "app/preview/command_json.h"
 
 #include <algorithm>
@@ -128,7 +128,7 @@ void print_reply(const std::string& path, std::size_t line, const nlohmann::json
 
 namespace {
 
-/// A value as it may stand in a message: short, and in one line.
+/// A value as it may be in a message: short, and in one line.
 std::string shown(const nlohmann::json& value) {
   constexpr std::size_t kLongest = 60;
   return shortened(value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace), kLongest);
@@ -164,7 +164,7 @@ double CommandReader::number(const char* key, double lowest, double highest) con
 }
 
 int CommandReader::integer(const char* key, int lowest, int highest) const {
-  if (highest < lowest) fail(key, "left out, for there is nothing yet that it could name");
+  if (highest < lowest) fail(key, "left out: there is nothing yet that it could name");
   const double number = value(key).is_number_integer() ? value(key).get<double>() : lowest - 1.0;
   if (!(number >= lowest && number <= highest)) fail(key, fmt::format("a whole number from {} to {}", lowest, highest));
   return static_cast<int>(number);

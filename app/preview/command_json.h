@@ -19,7 +19,7 @@
 
 namespace meniscus {
 
-/// A command or a reply as one line of text, without a line end; bytes that are no UTF-8 are replaced.
+/// A command or a reply as one line of text, without a line end; bytes that are not UTF-8 are replaced.
 std::string json_line(const nlohmann::json& json);
 
 /// The text under "command"; empty if there is none.
@@ -29,7 +29,7 @@ std::string command_word(const nlohmann::json& command);
 std::string sentence_of(const std::string& error, const std::string& word);
 
 /// Does the command only ask: state, stats, choices, render_command, export_state, or a pick that does not wait?
-/// Anybody may, and nobody records it.
+/// Any client may send it, and it is not recorded.
 bool is_question(const nlohmann::json& command);
 
 /// What a command will change, from the least to the most.
@@ -60,13 +60,13 @@ class CommandLog {
   std::ofstream stream_;
 };
 
-/// A command of a file, and the line it stands in.
+/// A command of a file, and the line it is in.
 struct WrittenCommand {
   std::size_t line = 0;  ///< from 1
   nlohmann::json command;
 };
 
-/// The commands of a file, empty lines left out. Throws InputError, naming the line that is no JSON.
+/// The commands of a file, empty lines left out. Throws InputError, naming the line that is not JSON.
 std::vector<WrittenCommand> read_commands(const std::string& path);
 
 /// Throws InputError, naming the line, if the command was refused; else prints the reply as a line.
@@ -124,7 +124,7 @@ class CommandReader {
   bool flag_or(bool other, const char* key) const { return has(key) ? flag(key) : other; }
 
  private:
-  std::string shown_word() const;  // as it may stand in a message
+  std::string shown_word() const;  // as it may be in a message
   [[noreturn]] void fail(const char* key, const std::string& wanted) const;
 
   const nlohmann::json& command_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table, and the commands of the session itself: undo and redo, keys, the end.
+// The table of commands, and those of the session itself: undo and redo, keys, the end.
 #include "app/preview/commands.h"
 
 #include <algorithm>
@@ -92,7 +92,7 @@ const Command& row_of(const CommandReader& command) {
     std::vector<std::string_view> words;
     for (const Command& known : table) words.push_back(known.word);
     throw RequestError(
-        fmt::format("{} is no command; there are {}", in_quotes(command.word()), fmt::join(words, ", ")));
+        fmt::format("{} is not a command; the commands are {}", in_quotes(command.word()), fmt::join(words, ", ")));
   }
   command.expect_only(row->keys);
   return *row;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of all commands of a preview: their words, their keys, what becomes of undo, and what carries them out.
+// The table of all commands of a preview: their words, their keys, their undo, and the functions that run them.
 #pragma once
 
 #include <string_view>

@@ -43,7 +43,7 @@ ExportTarget target_of(const CommandReader& command, const std::filesystem::path
   ExportTarget target{export_path(folder, command.text("path")),
                       command.flag_or(false, "force") ? Existing::replace : Existing::refuse};
   if (target.existing == Existing::refuse && std::filesystem::exists(target.path))
-    throw RequestError(target.path.string() + " exists already; let it be replaced, or give another name");
+    throw RequestError(target.path.string() + " exists already; allow replacing it, or give another name");
   return target;
 }
 
@@ -65,7 +65,7 @@ Json written(const ExportedView& view, Format format, const MakePictureDevice& m
              const ExportWatch& watch) {
   Json reply{{"path", target.path.string()}};
   if (format == Format::blender && !view.figure.figure.plain())
-    reply["note"] = "without cuts and what stands beside the surface; meniscus export has options for these";
+    reply["note"] = "without cuts and shapes beside the surface; meniscus export has options for these";
   if (format == Format::png) export_picture(view, make_device, target, watch);
   if (format == Format::povray) reply["render_with"] = export_povray(view, target, watch);
   if (format == Format::blender) export_blender(view, target, watch);

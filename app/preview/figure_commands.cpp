@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The commands that say what is shown: parts of the surface, what is drawn beside it, cuts.
+// The commands that change what is shown: parts of the surface, what is drawn beside it, cuts.
 #include <array>
 #include <string>
 #include <utility>

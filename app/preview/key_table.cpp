@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Letters are taken as typed, great or small, so that they are where the user's keyboard has them.
+// The keys of a preview: letters are matched as typed, in either case, so that they follow the user's keyboard.
 #include "app/preview/key_table.h"
 
 #include <algorithm>
@@ -25,8 +25,8 @@ constexpr KeyHelp kHelp[] = {
     {"right drag, middle drag, shift + left drag", "move"},
     {"wheel", "zoom at the cursor"},
     {"+  -", "zoom"},
-    {"click", "tell about the atom"},
-    {"double click", "centre what is there"},
+    {"click", "show the atom's data"},
+    {"double click", "centre on this point"},
     {"r", "the first view"},
     {"z  y", "undo, redo"},
     {"o", "orthographic / perspective"},
@@ -37,11 +37,11 @@ constexpr KeyHelp kHelp[] = {
     {"l", "lines"},
     {"g", "legend"},
     {"space", "play / pause"},
-    {",  .", "frame before / after"},
+    {",  .", "previous / next frame"},
     {"e", "export this view"},
     {"p", "panel"},
     {"h", "this help"},
-    {"q  Esc", "leave the window"},
+    {"q  Esc", "close the window"},
 };
 
 Json turned(double dx, double dy) { return {{"command", "orbit"}, {"dx", kTurn * dx}, {"dy", kTurn * dy}}; }

@@ -54,7 +54,8 @@ void read_scale(const CommandReader& command, ColorScheme& color) {
   if (command.has("map")) {
     color.map = parse_color_map(command.text("map"));
     color.own_map.reset();
-    if (!color.map) throw RequestError("color: " + in_quotes(command.text("map")) + " is no map; see meniscus colors");
+    if (!color.map)
+      throw RequestError("color: " + in_quotes(command.text("map")) + " is not a map; see meniscus colors");
   }
   if (command.has("range")) {
     const std::string text = command.text("range");
@@ -75,7 +76,7 @@ const NumberFile& numbers_at_first(const ColorScheme& first) {
 ColorScheme scheme_of(const CommandReader& command, const ColorScheme& before, const ColorScheme& first) {
   const std::string word = command.text("scheme");
   const std::optional<ColorScheme> scheme = parse_color_scheme(word);
-  if (!scheme) throw RequestError("color: " + in_quotes(word) + " is none of " + color_scheme_words());
+  if (!scheme) throw RequestError("color: " + in_quotes(word) + " is not one of " + color_scheme_words());
   ColorScheme color = *scheme;
   color.rules = command.has("rules") ? rules_of(command) : before.rules;
   if (color.uses_file() && numbers_at_first(first).empty())
@@ -198,7 +199,7 @@ Outcome set_legend(const CommandReader& command, PreviewState state, const Surro
     style.place = static_cast<LegendStyle::Place>(command.choice("place", property_of("legend.place")));
   const ColorScheme color = state.told_scheme();
   if (state.legend && color.by == ColorScheme::By::fixed && color.rules.empty())
-    throw RequestError("legend: there is nothing to explain where all is of one colour; choose another scheme first");
+    throw RequestError("legend: there is nothing to explain: everything has one colour; choose another scheme first");
   return {.state = std::move(state), .renewal = Renewal::legend, .frames_all = true};
 }
 

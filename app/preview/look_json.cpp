@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colours and switches of the look, to and from JSON.
+// Converts colours and switches of the look to and from JSON.
 #include "app/preview/look_json.h"
 
 #include <algorithm>
@@ -31,10 +31,10 @@ std::vector<const LookNumber*> live_numbers() {
 std::string json_key(const LookNumber& number) { return std::string(property_of(number.key).name()); }
 
 glm::vec3 background_of(const std::string& text) {
-  if (text == "white") return glm::vec3(1.0f);
-  if (text == "black") return glm::vec3(0.0f);
-  const std::optional<glm::vec3> color = parse_hex_color(text);
-  if (!color) throw RequestError("look: \"background\" is " + in_quotes(text) + "; it must be white, black or #rrggbb");
+  const std::optional<glm::vec3> color = parse_color(text);
+  if (!color)
+    throw RequestError("look: \"background\" is " + in_quotes(text) +
+                       "; it must be a colour's name such as grey, or #rrggbb");
   return *color;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All that commands of a preview change, as it was before each step, and as a scene that `meniscus render` draws.
+// The state that commands of a preview change, with the steps before it, and as a scene that `meniscus render` draws.
 #pragma once
 
 #include <array>
@@ -28,9 +28,9 @@ namespace meniscus {
 /// A figure, whatever its size. Commands change it, undo and redo replace it.
 struct PreviewFigure {
   Camera camera;
-  bool overview = true;  ///< all is shown, as long as nobody moved the camera
+  bool overview = true;  ///< all is shown, until the camera is moved
   SurfaceKind kind = SurfaceKind::ses;
-  double probe_radius = 1.4;      ///< Å; one that nobody sees while the surface has no probe
+  double probe_radius = 1.4;      ///< Å; without effect while the surface has no probe
   std::optional<Selection> show;  ///< atoms whose part of the surface is drawn; nothing: all
   ColorScheme color;
   bool patch_kinds = false;  ///< coloured by kind of patch, whatever the scheme (figure 2 of Krone et al. 2010)

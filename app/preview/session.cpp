@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Carries out commands, and keeps a live view up to date: first a draft, and once nothing moves the full picture.
+// Carries out commands, and keeps a live view current: first a draft, and the full picture when nothing moves.
 #include "app/preview/session.h"
 
 #include <algorithm>

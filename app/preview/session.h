@@ -42,7 +42,7 @@ class PreviewSession {
   /// after an error nothing has changed. The commands: app/preview/commands.md. Throws GpuError only: then all is lost.
   nlohmann::json apply(const nlohmann::json& command);
 
-  /// Calls `sink` with every command from now on that was carried out and is no mere question (is_question).
+  /// Calls `sink` with every command from now on that was carried out and is not a mere question (is_question).
   void record(std::function<void(const nlohmann::json&)> sink) { sink_ = std::move(sink); }
 
   /// The picture of the state: see ViewCache. A new one may come with render and with apply (pick).

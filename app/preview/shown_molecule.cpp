@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes anew what another state needs, and keeps the rest; draws the legend around a hole for the molecule.
+// Computes again what another state needs, and keeps the rest; draws the legend around a hole for the molecule.
 #include "app/preview/shown_molecule.h"
 
 #include <algorithm>
@@ -86,7 +86,7 @@ std::vector<Ball> sampled_balls(const TrajectoryPositions& trajectory, const Str
   return sampled;
 }
 
-/// before: beside the surface so far, of which only colours are changed where no shapes are to be made anew.
+/// before: beside the surface so far, of which only colours are changed where no shapes are to be made again.
 std::shared_ptr<const BesideSurface> beside_of(const Structure& marked, const PreviewFigure& figure, bool only_colors,
                                                const std::shared_ptr<const BesideSurface>& before) {
   const ColorScheme scheme = figure.told_scheme();
@@ -99,7 +99,7 @@ std::shared_ptr<const BesideSurface> beside_of(const Structure& marked, const Pr
 std::size_t count_of(const std::vector<bool>& shown, const PreviewFigure& figure, const ShownMolecule& molecule) {
   const auto count = static_cast<std::size_t>(std::ranges::count(shown, true));
   if (count > 0) return count;
-  throw RequestError(fmt::format("of the surface of {} nothing would be left; {}", in_quotes(figure.show->text()),
+  throw RequestError(fmt::format("nothing would be left of the surface of {}; {}", in_quotes(figure.show->text()),
                                  figure.show->why_none(molecule.atoms_in_view())));
 }
 
@@ -158,7 +158,7 @@ ShownMolecule::Made ShownMolecule::made(const PreviewFigure& figure, Renewal ren
   Made made{{}, marked_, beside_};
   if (renewal < Renewal::legend) return made;
   if (!structure_.instances.empty() && !(figure.figure.plain() && figure.color.opacities.empty()))
-    throw RequestError("copies of one surface (--instances) are shown whole and opaque; leave --instances away");
+    throw RequestError("copies of one surface (--instances) are shown whole and opaque; leave --instances out");
   require_colors_shared(structure_, figure.color);
   if (renewal >= Renewal::colors) made.coloring = color_atoms(structure_, figure.color);
   if (renewal >= Renewal::shapes) {
@@ -168,7 +168,7 @@ ShownMolecule::Made ShownMolecule::made(const PreviewFigure& figure, Renewal ren
         throw RequestError("this molecule cannot be read again, so nothing can be drawn beside its surface");
       made.marked = std::make_shared<const Structure>(read_shown_(figure.figure, frame));
       if (made.marked->atoms.size() != atoms().size())
-        throw InputError(structure_.file, 0, "has other atoms than when the preview began; begin it anew");
+        throw InputError(structure_.file, 0, "has other atoms than when the preview began; start the preview again");
     }
   }
   if (!made.marked)

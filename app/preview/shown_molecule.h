@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The molecule as a state of the preview shows it: the atoms of a frame, their colours, what stands beside them; and
-// the legend, laid out once for a size.
+// The molecule as a state of the preview shows it: the atoms of a frame, their colours, the shapes beside them; and the
+// legend, laid out once for a size.
 #pragma once
 
 #include <cstddef>
@@ -56,13 +56,13 @@ struct TrajectoryPositions {
 /// (FigureRequest::ask_for); so they are those that `meniscus render` would draw. Throws InputError.
 using ReadShown = std::function<Structure(const FigureRequest& figure, std::size_t frame)>;
 
-/// What another state needs to have made anew, from the least to the most; each includes those before it.
+/// What another state needs to have made again, from the least to the most; each includes those before it.
 enum class Renewal {
   nothing,  ///< only the camera, or what no picture shows
   legend,
   cuts,
   colors,
-  shapes,  ///< what stands beside the surface
+  shapes,  ///< what is drawn beside the surface
   frame    ///< all of it, for other atoms
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws what is not there yet; exposed areas are computed on a thread while pictures go on.
+// Draws missing pictures; exposed areas are computed on a thread meanwhile.
 #include "app/preview/view_cache.h"
 
 #include <algorithm>

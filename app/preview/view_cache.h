@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a state to its picture: the last one is kept, surfaces while only looks change, and areas once they are known.
+// From a state to its picture: keeps the last picture, surfaces while only looks change, and areas once they are known.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +28,7 @@ struct AtomsInView {
   SurfaceKind kind = SurfaceKind::ses;
   double probe_radius = 0.0;               ///< Å
   const std::vector<Ball>& balls;          ///< grown by growth_of() the kind
-  std::shared_ptr<const Surface> surface;  ///< theirs, complete, if somebody has it already
+  std::shared_ptr<const Surface> surface;  ///< theirs, complete, if someone has it already
 };
 
 /// Exact areas per frame, kind of surface and probe radius, from the complete surface on the CPU in a thread of its
@@ -63,12 +63,12 @@ enum class Quality {
   full    ///< as exported
 };
 
-/// Every function gets the state that is shown and its molecule; states are told apart by their revisions.
+/// Every function gets the state that is shown and its molecule; states are distinguished by their revisions.
 class ViewCache {
  public:
   explicit ViewCache(std::unique_ptr<ViewRenderer> renderer) : renderer_(std::move(renderer)) {}
 
-  /// Hands the renderer what another state has made anew. moves: the balls of the surface too.
+  /// Hands the renderer what another state has made again. moves: the balls of the surface too.
   void take(const PreviewState& state, const ShownMolecule& molecule, Renewal renewal, bool moves);
 
   /// Draws, unless this very picture is there already. stop: asked now and then; if true, the picture is given up:
@@ -88,7 +88,7 @@ class ViewCache {
   glm::ivec2 size() const;
   bool draws_on_cpu() const { return renderer_->draws_on_cpu(); }
 
-  /// What a pixel of the picture at rest shows, drawn anew if need be.
+  /// What a pixel of the picture at rest shows, drawn again if need be.
   std::optional<PickedPoint> pick(const PreviewState& state, const ShownMolecule& molecule, glm::ivec2 pixel);
 
   /// Å², of an atom of the surface: see ExposedAreas::of(). wanted: else only if it is known or cheap.
@@ -101,7 +101,7 @@ class ViewCache {
   glm::ivec2 molecule_size() const { return renderer_->size(); }
   double grown_by() const { return renderer_->grown_by(); }
   double milliseconds() const { return milliseconds_; }
-  /// Of the last picture that was no draft: nobody waits for the stages of those.
+  /// Of the last picture that was not a draft; stages of drafts are not measured.
   const std::vector<StageTime>& stages() const { return stages_; }
 
  private:

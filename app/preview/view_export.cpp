@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exports a view on a thread of its own, which can be asked how far it is, and cancelled.
+// Exports a view on a thread of its own, which reports its progress and can be cancelled.
 #include "app/preview/view_export.h"
 
 #include <algorithm>
@@ -132,7 +132,7 @@ nlohmann::json ExportJob::told() {
 
 namespace {
 
-/// The complete surface, of copies one for each group of atoms that stand together, and what computed it.
+/// The complete surface, of copies one for each group of atoms that are together, and what computed it.
 std::pair<std::vector<SurfaceObject>, std::string> complete_surfaces(const ExportedView& view,
                                                                      const ExportWatch& watch) {
   SurfaceRequest request;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a session needs of the program around it, and "Export this view": as a picture, a scene, a file for Blender or a
-// camera.
+// "Export this view" as a picture, a scene, a file for Blender or a camera, and the callbacks that a session needs from
+// the program.
 #pragma once
 
 #include <cstdint>
@@ -29,8 +29,8 @@
 
 namespace meniscus {
 
-/// Told of an export while it is made: the word for its stage and the share of that which is done, from 0 to 1. What it
-/// throws ends the export, which leaves nothing behind.
+/// Called while an export is made, with the name of its stage and the finished share of it, from 0 to 1. Anything it
+/// throws ends the export, which leaves nothing.
 using ExportWatch = std::function<void(const char* stage, double share)>;
 
 /// Works on a thread of its own from the beginning. The other functions are for one thread.
@@ -39,7 +39,7 @@ class ExportJob {
   /// The reply to the export; what it throws is that of result().
   using Work = std::function<nlohmann::json(const ExportWatch& watch)>;
 
-  /// path: where it goes, for those who ask.
+  /// path: of the output, for replies.
   ExportJob(std::string path, Work work);
   /// Ends it, and waits for that.
   ~ExportJob();
@@ -115,7 +115,7 @@ struct OpenedScene {
   int frame = 0;  ///< of a file of several models, from 0
 };
 
-/// What a session needs of the program around it; all of it may be missing.
+/// Optional callbacks that the program gives to a session.
 struct SessionContext {
   ReadShown read_shown;
   std::optional<Scene> scene;     ///< that the preview began with; nothing: it writes no scenes

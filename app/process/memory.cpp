@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Asks the system and its control groups for limits, and remembers when memory was short.
+// Reads limits of the system and its control groups, and remembers when memory was short.
 #include "app/process/memory.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Memory of this process: how much it may use, and what happens where it gets too little.
+// The memory of this process: how much it may use, and what happens when it runs out.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which error ends the program with which code.
+// Maps errors to exit codes.
 #include "app/process/program_error.h"
 
 #include <filesystem>

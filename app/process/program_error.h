@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program's exit codes, and the error for options that make no sense together.
+// The program's exit codes, and the error for options that exclude each other.
 #pragma once
 
 #include <exception>
@@ -19,7 +19,7 @@ enum ExitCode : int {
   kExitOutput = 6,
   kExitNotClosed = 7,
   kExitIncomplete = 8,  ///< a run of frames is done, but its trajectory ends in mid-frame
-  kExitStopped = 9,     ///< a worker was told to stop; the same command goes on where it stopped
+  kExitStopped = 9,     ///< a worker was asked to stop; the same command goes on where it stopped
 };
 
 /// The code a program ends with because of this error.

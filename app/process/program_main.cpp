@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The first and the last steps of a program, in their order; errors become a line for people and an exit code.
+// Runs the first and the last steps of a program in their order; errors become one line and an exit code.
 #include "app/process/program_main.h"
 
 #include <atomic>
@@ -43,7 +43,7 @@ std::string sentence(const std::exception& error) {
   const ExitCode code = exit_code_of(error);
   if (code == kExitInternal) return fmt::format("internal: {}; please report this", error.what());
   if (code == kExitCapacity && !dynamic_cast<const Error*>(&error))
-    return fmt::format("the machine gives no more memory or threads: {}", error.what());
+    return fmt::format("the system has no more memory or threads: {}", error.what());
   return error.what();
 }
 
@@ -57,7 +57,7 @@ ExitCode report_with_memory() {
   } catch (const std::exception& error) {
     return say(exit_code_of(error), sentence(error));
   } catch (...) {
-    return say(kExitInternal, "internal: an exception of a library; please report this");
+    return say(kExitInternal, "internal: unexpected exception of a library; please report this");
   }
 }
 
@@ -72,7 +72,7 @@ ExitCode report_without_memory() noexcept {
 /// An exception that would leave a function which promises to throw none is no current one: nobody can ask what it is.
 ExitCode report_unnamed_error() noexcept {
   if (memory_ran_out()) return report_without_memory();
-  system_process::say("meniscus: error: internal: an exception where none may be; please report this\n");
+  system_process::say("meniscus: error: internal: unexpected exception; please report this\n");
   return kExitInternal;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every program of ours does before its own work and behind it, with its standard streams among that.
+// What each of our programs does before and after its own work, with its standard streams among that.
 #pragma once
 
 #include <functional>

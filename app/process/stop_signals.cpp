@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the thread does that hears of a stop, and what it calls before.
+// Runs the thread that waits for a stop, and calls what was registered.
 #include "app/process/stop_signals.h"
 
 #include <mutex>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What happens when the program is told to stop: by Ctrl-C, by a queue, by the end of the terminal.
+// Handles requests to stop: Ctrl-C, a queue's signal, the end of the terminal.
 #pragma once
 
 #include <functional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a program asks an operating system about itself: system_process_posix.cpp (Linux, macOS) and
-// system_process_windows.cpp answer.
+// The process as the operating system has it: system_process_posix.cpp (Linux, macOS) and system_process_windows.cpp
+// implement it.
 #pragma once
 
 #include <cstdint>

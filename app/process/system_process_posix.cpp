@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Processes of Linux and macOS.
+// Implements system_process.h for Linux and macOS.
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -104,7 +104,7 @@ void tell(int signal) {
 void await_stop(void (*stopped)(int signal)) {
   std::signal(SIGXFSZ, SIG_IGN);
   if (::pipe(told.data()) != 0)
-    throw CapacityError(std::string("the system gives no pipe for signals: ") + std::strerror(errno));
+    throw CapacityError(std::string("the system cannot make a pipe for signals: ") + std::strerror(errno));
   for (const int end : told) ::fcntl(end, F_SETFD, FD_CLOEXEC);
   struct sigaction action {};
   action.sa_handler = tell;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Processes of Windows.
+// Implements system_process.h for Windows.
 #include <array>
 #include <atomic>
 #include <csignal>
@@ -92,7 +92,7 @@ BOOL WINAPI take_event(DWORD event) {
 void await_stop(void (*stopped)(int signal)) {
   when_stopped = stopped;
   if (!::SetConsoleCtrlHandler(take_event, TRUE))
-    throw CapacityError("the system does not tell of Ctrl-C: error " + std::to_string(::GetLastError()));
+    throw CapacityError("the system cannot report Ctrl-C: error " + std::to_string(::GetLastError()));
 }
 
 ProcessorTime processor_time() {

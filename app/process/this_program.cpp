@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keeps the words that main() got, and looks for files from the program's own place: no path of the machine that built
-// it is kept.
+// Keeps the words that main() got, and finds files from the program's own place: no path of the machine that built it
+// is kept.
 #include "app/process/this_program.h"
 
 #include <filesystem>

@@ -21,7 +21,7 @@ namespace meniscus {
 
 /// A row for each atom used, in file order: index,model,chain,residue,number,icode,name,element,class,radius and the
 /// columns. `index` is the place in the file, from 0; radius in Å, areas in Å². RFC 4180 with plain line feeds: text
-/// with a comma or a quote stands in quotes; control characters are escaped. Each row begins with `prefix`.
+/// with a comma or a quote is in quotes; control characters are escaped. Each row begins with `prefix`.
 std::string atom_csv_header(const std::vector<AreaColumn>& columns);
 std::string atom_csv_rows(const Structure& structure, const std::vector<AreaColumn>& columns,
                           const std::string& prefix = "");

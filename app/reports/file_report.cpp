@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Prints assemblies line by line, and what the first and the last frame of a trajectory tell.
+// Prints assemblies line by line, and data of the first and the last frame of a trajectory.
 #include "app/reports/file_report.h"
 
 #include <cmath>

@@ -10,7 +10,7 @@ namespace meniscus {
 /// On stdout.
 void print_assemblies(const Structure& structure);
 
-/// Prints atoms, frames, times, the box of the first frame, and where the file is cut short; oddities go to stderr.
+/// Prints atoms, frames, times, the box of the first frame, and where the file is cut short; warnings go to stderr.
 void print_trajectory(Trajectory& trajectory);
 
 }  // namespace meniscus

@@ -91,7 +91,7 @@ std::string synopsis(const CommandEntry& command) {
   return text + (command.commands.empty() ? "\n" : " \\fICOMMAND\\fR\n");
 }
 
-/// The examples come first in a footer; what else it says stands behind an empty line.
+/// The examples come first in a footer; what else it says is behind an empty line.
 std::string examples_and_details(const std::string& footer) {
   if (footer.empty()) return {};
   const std::size_t gap = footer.find("\n\n");

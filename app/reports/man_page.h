@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Manual pages in the macros of man(7), made of what the help tells.
+// Manual pages in the macros of man(7), made from the help.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace meniscus {
 
-/// What stands in the margins of every page.
+/// What is in the margins of every page.
 struct ManMargins {
   std::string date;     ///< 2026-11-22
   std::string version;  ///< "meniscus 0.1.0"

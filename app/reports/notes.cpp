@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lines for people: one a fact, none if quiet.
+// Prints notes for people: one line per fact, none if quiet.
 #include "app/reports/notes.h"
 
 #include <algorithm>
@@ -100,7 +100,8 @@ void tell_built(const SceneCommand& command, const Molecule& molecule) {
 
 void tell_grown_radii(const SceneCommand& command, double grown_by) {
   if (grown_by > 0.0)
-    say(command, fmt::format("spheres meet in one point; radii grown by up to {:.2g} Å tell them apart", grown_by));
+    say(command,
+        fmt::format("spheres that meet in one point were separated by radii grown by up to {:.2g} Å", grown_by));
 }
 
 Molecule build_and_tell(const SceneCommand& command, Structure structure) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a command says on stderr while it works.
+// The notes that a command prints on standard error.
 #pragma once
 
 #include <optional>
@@ -18,8 +18,8 @@ namespace meniscus {
 
 /// Of a picture without a pixel of the molecule.
 inline constexpr const char* kShowsNothing =
-    "warning: the picture shows nothing: no ray meets a part of the surface that --show and --clip leave; where does "
-    "the camera look?";
+    "warning: the picture shows nothing: no ray meets a part of the surface that --show and --clip leave; check where "
+    "the camera looks";
 
 /// A line on stderr, unless quiet. Control characters are escaped.
 void say(const SceneCommand& command, const std::string& line);

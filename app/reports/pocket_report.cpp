@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes what was found as tables and JSON, looks for what they do not show, and colours the atoms around pockets.
+// Writes pockets as tables and JSON, looks for hints to give, and colours the atoms around pockets.
 #include "app/reports/pocket_report.h"
 
 #include <algorithm>

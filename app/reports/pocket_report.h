@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `meniscus pockets` tells: tables, JSON, rows of pockets and of atoms, hints on what to try next, and a scene.
+// The output of `meniscus pockets`: tables, JSON, rows of pockets and of atoms, hints on what to try next, and a scene.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The loop over frames.
+// Runs the loop over frames.
 #include "app/reports/run_frames.h"
 
 #include <algorithm>
@@ -44,7 +44,7 @@ struct EmptyPictures {
   std::string sentence() const {
     return fmt::format(
         "warning: {} of the pictures {} nothing (first: frame {}): no ray meets a part of the surface that --show "
-        "leaves; where does the camera look?",
+        "leaves; check where the camera looks",
         with_thousands(count), count == 1 ? "shows" : "show", first);
   }
 };

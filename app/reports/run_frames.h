@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the frames of a run, several at once, goes on after one that fails, and tells it all in their order.
+// Makes the frames of a run, several at once, continues after one that fails, and reports all in their order.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a run of frames tells how far it is: a bar, plain lines, JSON lines, or the lines of OpenJD.
+// The progress of a run of frames: a bar, plain lines, JSON lines, or the lines of OpenJD.
 #pragma once
 
 #include <chrono>

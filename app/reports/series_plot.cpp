@@ -37,7 +37,7 @@ struct PlotAxis {
     for (double n = std::ceil(low / step - 1e-9); n * step <= high + 1e-9 * step; n += 1) ticks.push_back(n * step);
     return ticks;
   }
-  /// -0 is no number for people.
+  /// -0 is not a number for people.
   std::string label(double tick) const { return fmt::format("{:.{}f}", tick == 0.0 ? 0.0 : tick, decimals); }
   double part(double value) const { return (value - low) / (high - low); }
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes the completion of each shell from the tree of commands. In all of them the words before the cursor are
-// followed down the tree; what may stand there is the options of that command, its commands, the words of an option, or
+// followed down the tree; what may be there is the options of that command, its commands, the words of an option, or
 // a path.
 #include "app/reports/shell_completion.h"
 
@@ -73,7 +73,7 @@ std::string bash_values(const CommandEntry& command) {
   return lines;
 }
 
-/// What may stand where no value is due.
+/// What may be where no value is due.
 std::string bash_words(const CommandEntry& command) {
   std::vector<std::string> options, words = command_names(command);
   for (const OptionEntry& option : options_of(command))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Adds up the numbers of all objects and lays them out.
+// Adds up the numbers of all objects and formats them.
 #include "app/reports/surface_report.h"
 
 #include <algorithm>

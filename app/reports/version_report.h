@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which program this is, and of what it is made: for reports of faults.
+// The version of this program and of its libraries, for bug reports.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace meniscus {
 std::string version_line();
 
 /// That, and lines about compiler, system, libraries as they are loaded, and the GL driver that auto would take. What
-/// cannot be found is told in its line. Reads CUDA_VISIBLE_DEVICES like --device.
+/// cannot be found is reported in its line. Reads CUDA_VISIBLE_DEVICES like --device.
 std::string version_report();
 
 /// What to cite: the program as BibTeX, and the paper whose method it continues. As CITATION.cff has it.

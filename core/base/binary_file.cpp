@@ -3,6 +3,7 @@
 #include "core/base/binary_file.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <optional>
@@ -22,15 +23,24 @@ constexpr std::uint64_t kTail = 4096;
 using system_file::State;
 
 [[noreturn]] void unreadable(const std::string& path, int error) {
-  throw InputError(path, 0, std::string("cannot be read: ") + std::strerror(error));
+  throw InputError(
+      path, 0,
+      std::string("cannot be read: ") + std::strerror(error) + (error == ENOENT ? advice_on_pdb_code(path) : ""));
 }
 
 }  // namespace
 
+std::string advice_on_pdb_code(std::string_view word) {
+  const auto is_letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
+  if (word.size() != 4 || word[0] < '1' || word[0] > '9' || !std::ranges::all_of(word, is_letter)) return "";
+  return fmt::format("; {0} is a PDB code, not a file; download https://files.rcsb.org/download/{0}.cif.gz first",
+                     word);
+}
+
 BinaryFile::BinaryFile(const std::string& path, Contents contents) : path_(path) {
   const bool atoms = contents == Contents::atoms;
   const std::filesystem::path file = path_of_text(path);
-  // Asked before opening, because to open a pipe waits for somebody who writes to it.
+  // Asked before opening, because to open a pipe waits for someone who writes to it.
   std::optional<State> state = system_file::state_of(file);
   if (!state) unreadable(path, errno);
   if (state->kind == State::Kind::folder)

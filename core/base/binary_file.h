@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A file of any size read at any place, as bytes or as lines, which notices when somebody writes to it meanwhile.
+// A file of any size read at any place, as bytes or as lines, which notices when someone writes to it meanwhile.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,7 @@ class BinaryFile {
   /// Time of the last change when it was opened, in nanoseconds; for comparing.
   std::int64_t modified() const { return modified_; }
 
-  /// Reads exactly these bytes. Throws InputError: behind the end, a fault of the disk.
+  /// Reads exactly these bytes. Throws InputError: after the end, a fault of the disk.
   void read(std::uint64_t offset, std::span<std::byte> bytes) const;
 
   /// Throws InputError if the file was changed since it was opened, other than by appending. To be called behind reads,
@@ -47,10 +47,10 @@ class BinaryFile {
   int descriptor_ = -1;
   std::uint64_t size_ = 0, current_size_ = 0;
   std::int64_t modified_ = 0, current_modified_ = 0;
-  std::vector<std::byte> tail_;  ///< what stands before the end, to tell appending from writing anew
+  std::vector<std::byte> tail_;  ///< what is before the end, to tell appending from writing again
 };
 
-/// The number that stands at `bytes`, which need not be aligned.
+/// The number that is at `bytes`, which need not be aligned.
 template <typename Number>
 Number number_at(const std::byte* bytes, std::endian order) {
   std::array<std::byte, sizeof(Number)> copy;
@@ -67,7 +67,7 @@ class FileLines {
 
   /// The next line begins at this offset. What of the block lies behind it stays.
   void seek(std::uint64_t offset);
-  /// The next line without its end; false behind the last one. A line longer than a block is given in pieces. It holds
+  /// The next line without its end; false after the last one. A line longer than a block is given in pieces. It holds
   /// until the next call. Throws InputError as BinaryFile::read.
   bool next(std::string_view& line);
 
@@ -87,5 +87,8 @@ class FileLines {
 
 /// The line without the CR of CR LF.
 std::string_view without_return(std::string_view line);
+
+/// "; 1ubq is a PDB code, not a file; download ..." for a word that looks like a code of the PDB, else empty.
+std::string advice_on_pdb_code(std::string_view word);
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Constants that everything shares: the index that points at nothing, and units of foreign files.
+// Constants that everything shares: the index that means none, and the units of other programs' files.
 #pragma once
 
 #include <cstdint>

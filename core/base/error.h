@@ -14,7 +14,7 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Input that cannot be read or makes no sense: "file:line: what, value, what to do". Line 0: the file as a whole.
+/// Input that cannot be read or is not valid: "file:line: what, value, what to do". Line 0: the file as a whole.
 class InputError : public Error {
  public:
   InputError(const std::string& file, std::size_t line, const std::string& what)
@@ -22,7 +22,7 @@ class InputError : public Error {
 };
 
 /// A selection that cannot be understood. what(): a sentence, a line with the expression, a line with a caret under the
-/// place; all of it may be printed as it is.
+/// place; it may be printed as it is.
 class SelectionError : public Error {
  public:
   SelectionError(const std::string& sentence, const std::string& picture)
@@ -34,7 +34,7 @@ class SelectionError : public Error {
   std::string sentence_, picture_;
 };
 
-/// A wish that cannot be met as it stands: options that make no sense together, a picture too small for its legend.
+/// A request that cannot be met: options that exclude each other, a picture too small for its legend.
 class RequestError : public Error {
  public:
   using Error::Error;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files packed with gzip, and what is said of files that are too large.
+// Files packed with gzip, and the error for files that are too large.
 #pragma once
 
 #include <cstddef>

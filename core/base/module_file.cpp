@@ -32,7 +32,7 @@ fs::path path_of(const ModuleFile& module) {
   for (const fs::path& path :
        {program / module.name, program / "../lib/meniscus" / module.name, fs::path(module.built)})
     if (fs::exists(path, none)) return path;
-  throw Error(fmt::format("{} need {} beside the program, and it is not there", module.purpose, module.name));
+  throw Error(fmt::format("{} need {} next to the program, but it is missing", module.purpose, module.name));
 }
 
 }  // namespace
@@ -45,7 +45,7 @@ void* load_from_module(const ModuleFile& module, const char* function) {
   if (address) return address;
   const char* const why = ::dlerror();
   throw CapacityError(
-      fmt::format("{} need {}, and it cannot be loaded: {}", module.purpose, module.name, why ? why : path.c_str()));
+      fmt::format("{} need {}, which cannot be loaded: {}", module.purpose, module.name, why ? why : path.c_str()));
 }
 
 void refuse_module(const ModuleFile& module) {

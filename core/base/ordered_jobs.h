@@ -27,7 +27,7 @@ class OrderedJobs {
     for (const Worker& worker : workers_) threads_.emplace_back([this, &worker] { work(worker); });
   }
 
-  /// Waits for the jobs that are being done; those that nobody has begun are dropped.
+  /// Waits for the jobs that are being done; those that have not begun are dropped.
   ~OrderedJobs() {
     {
       const std::lock_guard lock(mutex_);

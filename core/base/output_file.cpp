@@ -60,7 +60,7 @@ void refuse_unsuitable_target(const fs::path& target, Existing existing) {
   const std::optional<State> state = system_file::state_of_entry(target);
   if (!state) return;
   if (state->kind == State::Kind::folder) throw OutputError(text, "is a folder; give the name of a file");
-  if (state->kind == State::Kind::other) throw OutputError(text, "is no regular file");
+  if (state->kind == State::Kind::other) throw OutputError(text, "is not a regular file");
   if (existing == Existing::refuse) throw OutputError(text, "exists already; use --force to replace it");
 }
 
@@ -235,7 +235,7 @@ OutputFolder::OutputFolder(fs::path folder, Existing existing) : folder_(std::mo
   if (std::error_code ignored; !fs::is_directory(folder_, ignored)) {
     remove_created_folders();
     throw OutputError(text_of_path(folder_),
-                      "is no folder and cannot be made one" + (error ? ": " + error.message() : ""));
+                      "is not a folder, and no folder can be made there" + (error ? ": " + error.message() : ""));
   }
 }
 
@@ -258,7 +258,7 @@ void OutputFolder::remove_created_folders() {
 OutputFile& OutputFolder::file(const std::string& name) {
   const fs::path plain = path_of_text(name), path = folder_ / plain;
   if (plain.empty() || name == "." || name == ".." || plain != plain.filename())
-    throw OutputError(text_of_path(path), "is no plain file name");
+    throw OutputError(text_of_path(path), "is not a plain file name");
   return *files_.emplace_back(std::make_unique<OutputFile>(path, existing_));
 }
 

@@ -76,8 +76,9 @@ bool parse_quickly(std::string_view field, double unit, double& coordinate) {
 double parse_radius(const TextFile& file, std::size_t line, std::string_view field, std::string_view columns) {
   double radius = 0.0;
   if (!parse_number(field, radius)) {
-    throw InputError(file.path, line,
-                     fmt::format("radius is {}, not a finite number; a line is: {}", in_quotes(field), columns));
+    throw InputError(
+        file.path, line,
+        fmt::format("radius is {}, not a finite number; the expected line is: {}", in_quotes(field), columns));
   }
   if (radius < 0.0) throw InputError(file.path, line, fmt::format("radius is {} Å; it must not be negative", radius));
   if (radius > kLargestRadius) {

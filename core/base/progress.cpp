@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counting with a rate limit, and the two ways to show the count.
+// Counts progress at a limited rate, and shows it as a bar or as plain lines.
 #include "core/base/progress.h"
 
 #include <algorithm>

@@ -18,9 +18,9 @@ struct StageTime {
   double milliseconds = 0.0;
 };
 
-/// Who pays for the times of work that another device does on the side.
+/// Which stage counts the time of work that another device does in parallel.
 enum class StageTiming {
-  rough,  ///< nobody waits: what a stage has started may be paid by a later one that needs it; sums are right
+  rough,  ///< no waiting: work of one stage may count for a later one that needs it; sums are right
   exact   ///< that device is idle at both ends of each stage, which costs a round trip each
 };
 

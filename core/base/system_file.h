@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What Meniscus asks an operating system about files: system_file_posix.cpp (Linux, macOS) and system_file_windows.cpp
-// answer.
+// Files as the operating system has them: system_file_posix.cpp (Linux, macOS) and system_file_windows.cpp implement
+// it.
 #pragma once
 
 #include <cstddef>
@@ -52,7 +52,7 @@ bool sync(const std::filesystem::path& path);
 /// Makes a rename durable, as far as the file system can.
 void sync_folder(const std::filesystem::path& folder);
 
-/// Gives a file another name, under which nothing may be, even if somebody takes it at this moment.
+/// Gives a file another name, under which nothing may be, even if someone takes it at this moment.
 bool rename_to_free(const std::filesystem::path& from, const std::filesystem::path& to);
 /// Gives a file another name; what is there is replaced at once.
 bool rename_over(const std::filesystem::path& from, const std::filesystem::path& to);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files of Linux and macOS.
+// Implements system_file.h for Linux and macOS.
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>

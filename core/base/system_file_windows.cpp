@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files of Windows.
+// Implements system_file.h for Windows.
 #include <fcntl.h>
 #include <io.h>
 #include <process.h>

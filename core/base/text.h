@@ -23,7 +23,7 @@ std::string shortened(std::string_view text, std::size_t bytes);
 std::string in_quotes(std::string_view text);
 
 /// The text in lines of at most `width` letters, broken at blanks; all but the first begin with `indent` blanks, which
-/// count for no width. A longer word stands in a line of its own.
+/// count for no width. A longer word is in a line of its own.
 std::string wrapped(std::string_view text, std::size_t width, std::size_t indent = 0);
 
 /// 5469 -> "5,469".

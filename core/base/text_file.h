@@ -31,7 +31,7 @@ std::string read_file_bytes(const std::string& path, std::size_t largest = std::
 /// brackets alone would exhaust the stack.
 inline constexpr int kDeepestJson = 64;
 
-/// Do arrays and objects stand in each other more than kDeepestJson levels deep? The text need not be JSON.
+/// Do arrays and objects are in each other more than kDeepestJson levels deep? The text need not be JSON.
 bool is_nested_too_deep(std::string_view json);
 
 /// Goes through the lines of a text.
@@ -39,7 +39,7 @@ class LineReader {
  public:
   explicit LineReader(std::string_view text) : rest_(text) {}
 
-  /// The next line, without its end; false behind the last one.
+  /// The next line, without its end; false after the last one.
   bool next(std::string_view& line) {
     if (rest_.empty()) return false;
     const std::size_t end = rest_.find('\n');

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// System calls that signals interrupt are made again.
+// Repeats system calls that a signal interrupted.
 #pragma once
 
 #include <cerrno>

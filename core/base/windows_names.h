@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Comes before all else on Windows, whose header takes names away that geometry uses: TBB includes it.
+// Included before all else on Windows: removes macros of windows.h, which TBB includes, whose names geometry uses.
 #pragma once
 
 #define WIN32_LEAN_AND_MEAN

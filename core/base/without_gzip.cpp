@@ -6,8 +6,7 @@
 namespace meniscus {
 
 std::string unpack_gzip(const std::string& path, const std::string&, std::size_t) {
-  throw InputError(
-      path, 0, "is packed with gzip, which this build does not read, for it was made without zlib; unpack it first");
+  throw InputError(path, 0, "is packed with gzip, and this build was made without zlib; unpack it first");
 }
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// In the place of module_file.cpp where the library is built alone: modules belong to the program.
+// Replaces module_file.cpp where the library is built alone: modules belong to the program.
 #include <fmt/format.h>
 
 #include "core/base/error.h"

@@ -82,7 +82,7 @@ struct CameraKey {
 
 /// Goes through its keys smoothly: the target and the logarithms of distance, angle and height along cubic Hermite
 /// curves with the slopes of Catmull and Rom (1974) for uneven steps, the axes of the view along the spherical
-/// quadrangles of Shoemake (1987). Still before the first key and behind the last.
+/// quadrangles of Shoemake (1987). Still before the first key and after the last.
 class CameraPath {
  public:
   /// keys: at least one, frames rising, all of one projection.

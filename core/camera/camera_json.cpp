@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads and writes cameras and their paths as JSON, with complaints that name the key.
+// Reads and writes cameras and their paths as JSON; errors name the key.
 #include "core/camera/camera_json.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ constexpr double kLargestFrame = 1e9;
 
 using Json = nlohmann::ordered_json;
 
-/// A value as it may stand in a message: short, and without control characters.
+/// A value as it may be in a message: short, and without control characters.
 std::string shown(const Json& value) {
   constexpr std::size_t kLongest = 100;
   return shortened(value.dump(), kLongest);
@@ -81,7 +81,7 @@ Json to_json(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }
 }  // namespace
 
 Camera parse_camera(std::string_view text, const std::string& file) {
-  if (is_nested_too_deep(text)) throw InputError(file, 0, "camera: is nested too deep to be one");
+  if (is_nested_too_deep(text)) throw InputError(file, 0, "camera: the JSON is nested too deep");
   Json json;
   try {
     json = Json::parse(text);
@@ -137,7 +137,7 @@ std::string camera_json(const Camera& camera) { return camera_object(camera).dum
 
 CameraPath parse_camera_path(std::string_view text, const std::string& file) {
   const auto fail = [&](const std::string& what) { throw InputError(file, 0, "camera path: " + what); };
-  if (is_nested_too_deep(text)) fail("is nested too deep to be one");
+  if (is_nested_too_deep(text)) fail("the JSON is nested too deep");
   const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
   if (!json.is_object() || !json.contains("keys") || !json["keys"].is_array() || json["keys"].empty())
     fail(R"(must be {"keys":[{"frame":0,"camera":{...}},...]})");
@@ -150,7 +150,7 @@ CameraPath parse_camera_path(std::string_view text, const std::string& file) {
     if (!(std::abs(frame) <= kLargestFrame)) fail(where + fmt::format(": the frame is beyond {:.0f}", kLargestFrame));
     keys.push_back({frame, parse_camera(entry["camera"].dump(), fmt::format("{}: {}", file, where))});
     if (keys.size() == 1) continue;
-    if (!(keys[keys.size() - 2].frame < frame)) fail(where + ": frames must rise from key to key");
+    if (!(keys[keys.size() - 2].frame < frame)) fail(where + ": frame numbers must increase from key to key");
     if (keys.front().camera.projection != keys.back().camera.projection)
       fail(where + ": all keys must have the same projection");
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cameras and paths of cameras as JSON: of files, scenes and bundles.
+// Cameras and camera paths as JSON, for files, scenes and bundles.
 #pragma once
 
 #include <string>

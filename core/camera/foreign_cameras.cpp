@@ -56,13 +56,13 @@ class ForeignReader {
 
   double number(std::string_view word, const char* of) const {
     double value = 0.0;
-    if (!parse_number(word, value)) fail(fmt::format("{} is no finite number of {}", in_quotes(word), of));
+    if (!parse_number(word, value)) fail(fmt::format("{} is not a finite number of {}", in_quotes(word), of));
     return value;
   }
 
   /// The numbers from `words[first]` on as the three rows of rotation and translation.
   RigidMotion motion(const std::vector<std::string_view>& words, std::size_t first, const char* of) const {
-    if (words.size() < first + kMatrixNumbers) fail(fmt::format("{} has less than its 12 numbers", of));
+    if (words.size() < first + kMatrixNumbers) fail(fmt::format("{} has fewer than 12 numbers", of));
     RigidMotion result;
     for (int row = 0; row < 3; ++row) {
       for (int column = 0; column < 3; ++column) result.rotation[column][row] = number(words[first++], of);
@@ -72,7 +72,7 @@ class ForeignReader {
     return result;
   }
 
-  /// Rounded as it was written; anything else is no rotation.
+  /// Rounded as it was written; anything else is not a rotation.
   glm::dmat3 rotation(const glm::dmat3& m, const char* of) const {
     constexpr double kRounding = 1e-3;
     const glm::dmat3 product = glm::transpose(m) * m;
@@ -80,7 +80,7 @@ class ForeignReader {
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) deviation = std::max(deviation, std::abs(product[i][j] - (i == j ? 1.0 : 0.0)));
     if (!(deviation <= kRounding) || glm::determinant(m) < 0.0)
-      fail(fmt::format("the matrix of {} is no rotation", of));
+      fail(fmt::format("the matrix of {} is not a rotation", of));
     const glm::dvec3 x = glm::normalize(m[0]), z = glm::normalize(glm::cross(x, m[1]));
     return {x, glm::cross(z, x), z};
   }
@@ -93,7 +93,7 @@ class ForeignReader {
     });
     if (words.size() != kViewNumbers)
       fail(
-          fmt::format("this is neither JSON, nor the 18 numbers of PyMOL's get_view (there are {} words), nor "
+          fmt::format("this is not a camera: expected JSON, the 18 numbers of PyMOL's get_view (here are {} words), or "
                       "ChimeraX's `view matrix`",
                       words.size()));
     double v[kViewNumbers];
@@ -126,10 +126,12 @@ class ForeignReader {
     for (; place + kMatrixNumbers < words.size() && words[place].starts_with('#'); place += 1 + kMatrixNumbers) {
       const RigidMotion model = motion(words, place + 1, "ChimeraX's models");
       if (models && !near(*models, model))
-        fail("ChimeraX has moved its models apart; one camera cannot stand for all: reset their places first");
+        fail(
+            "ChimeraX has moved its models relative to each other, which one camera cannot show; reset their positions "
+            "first");
       models = model;
     }
-    if (place != words.size()) fail(fmt::format("{} is no part of ChimeraX's `view matrix`", in_quotes(words[place])));
+    if (place != words.size()) fail(fmt::format("{} is not part of ChimeraX's `view matrix`", in_quotes(words[place])));
     if (models) {
       const glm::dmat3 back = glm::transpose(models->rotation);
       camera = {back * camera.rotation, back * (camera.translation - models->translation)};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cameras of other programs, and which of them a file holds.
+// Cameras of PyMOL and ChimeraX, and how a file's kind of camera is recognized.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ struct Camera;
 
 /// A camera in the words of this program (parse_camera), of PyMOL (the 18 numbers of get_view, with or without
 /// set_view(...) around them) or of ChimeraX (`view matrix`: camera and 12 numbers, with or without models behind
-/// them), told apart by content. PyMOL's clipping planes are not taken. A placement of models that all have alike is
+/// them), distinguished by content. PyMOL's clipping planes are not taken. A placement of models that all have alike is
 /// undone, so that the camera fits the coordinates of their files. ChimeraX tells no angle: its default of 30 degrees
 /// between the left and the right edge, which `aspect` (width / height) makes one between the lower and the upper.
 /// Throws InputError naming `file`.

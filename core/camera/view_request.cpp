@@ -25,7 +25,7 @@ using Frame = ViewDirection::Frame;
 struct NamedDirection {
   std::string_view name;
   ViewDirection direction;
-  bool has_opposite;  ///< may stand behind a minus sign
+  bool has_opposite;  ///< may be behind a minus sign
 };
 
 constexpr std::array<NamedDirection, 14> kDirections{{

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From where and how large a molecule is wanted in a picture: sides by name, turns, a camera.
+// A request for a view: a side by name, turns, a zoom, or a camera.
 #pragma once
 
 #include <optional>
@@ -22,7 +22,7 @@ struct RigidMotion;
 /// The side of a molecule that is turned to the viewer.
 struct ViewDirection {
   enum class Frame {
-    file,      ///< axes of the file's coordinates: the viewer stands on that side of them
+    file,      ///< axes of the file's coordinates: the viewer is on that side of them
     inertia,   ///< principal axes of the atoms' centres, longest first; the third is that of the default view
     symmetry,  ///< along the symmetry axis of an assembly
     beside     ///< at a right angle to it, which is up in the picture
@@ -72,7 +72,7 @@ struct ViewRequest {
   Projection projection = Projection::perspective;  ///< of that default camera
   std::optional<ViewDirection> direction;           ///< of it; nothing: the broad side
   std::vector<Turn> turns;                          ///< of what either camera sees, about the middle of it
-  std::optional<Selection> zoom_to;                 ///< atoms that shall fill the picture; nothing: all that are shown
+  std::optional<Selection> zoom_to;                 ///< atoms that should fill the picture; nothing: all that are shown
 
   glm::ivec2 size() const { return {width, height}; }
   double aspect() const { return static_cast<double>(width) / height; }
@@ -81,7 +81,7 @@ struct ViewRequest {
 /// What is before a camera.
 struct ViewedBalls {
   std::span<const Ball> shown;         ///< at least one
-  std::span<const Ball> framed;        ///< those that shall fill the picture; at least one
+  std::span<const Ball> framed;        ///< those that should fill the picture; at least one
   std::optional<glm::dvec3> symmetry;  ///< axis of an assembly, needed if the direction is along or beside it
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds numbers, ranges and names of what a structure is coloured by.
+// Finds the numbers, ranges and class names by which a structure is coloured.
 #include "core/color/color_key.h"
 
 #include <algorithm>
@@ -139,12 +139,12 @@ ScaleWords words_of(By by) {
     case By::charge:
       throw InputError(structure.file, 0, "has no partial charges to colour by; PQR files have them");
     case By::rmsf:
-      throw RequestError("--color rmsf needs a run of frames to take the fluctuations from: add --frames all");
+      throw RequestError("--color rmsf measures fluctuations over frames; add --frames all");
     case By::buried:
       throw RequestError("buried areas colour the whole surface; choose --color buried, or another colour for EXPR");
     case By::hydrophobicity:
       throw InputError(structure.file, 0,
-                       "has no amino acids, which the hydrophobicity scale is for; choose another --color");
+                       "has no amino acids, so the hydrophobicity scale does not apply; choose another --color");
     default:
       throw InputError(scheme.file.path, 0, "all numbers are missing; there is nothing to colour by");
   }
@@ -168,10 +168,10 @@ std::array<double, 2> automatic_range(const std::vector<double>& defined, By by)
 void count_classes(ColorScale& scale, const std::vector<double>& defined, const std::string& file) {
   const std::set<double> different(defined.begin(), defined.end());
   if (different.size() > kCategoricalCount) {
-    throw InputError(file, 0,
-                     fmt::format("has {} different numbers to colour by, the categorical map {} colours; choose "
-                                 "another --map",
-                                 with_thousands(different.size()), kCategoricalCount));
+    throw InputError(
+        file, 0,
+        fmt::format("has {} different numbers, but the categorical map has {} colours; choose another --map",
+                    with_thousands(different.size()), kCategoricalCount));
   }
   scale.classes.assign(different.begin(), different.end());
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What colours mean: the scale of a scheme of numbers, the names of a scheme of classes, as legends and exporters take
-// it.
+// The meaning of colours: the scale of numbers or the list of classes of a scheme, for legends and
+// exporters.
 #pragma once
 
 #include <optional>
@@ -30,7 +30,7 @@ struct ColorClass {
   glm::vec3 color{0.0f};
 };
 
-/// What a legend says: a scale, or classes, or both where rules stand beside a scale, or neither for one fixed colour.
+/// What a legend says: a scale, or classes, or both where rules are beside a scale, or neither for one fixed colour.
 struct ColorKey {
   std::string title;  ///< "chain", "element", ...; the scale has its own
   std::optional<ColorScale> scale;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What colours mean, as JSON.
+// The meaning of colours as JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

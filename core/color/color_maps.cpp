@@ -57,7 +57,7 @@ constexpr ColorMapMetadata kMaps[] = {
      "J. R. Nunez, C. R. Anderton and R. S. Renslow, PLoS ONE 13, e0199239 (2018), CC BY 4.0; sampled"},
     {ColorMap::magma, "magma", "N. J. Smith and S. van der Walt, matplotlib 1.5 (2015), CC0 1.0"},
     {ColorMap::blue_white_red, "blue-white-red", "linear between its three colours"},
-    {ColorMap::red_white_blue, "red-white-blue", "the same, turned: red is negative, as electrostatics is drawn"},
+    {ColorMap::red_white_blue, "red-white-blue", "the reverse: red is negative, as is usual for electrostatics"},
     {ColorMap::blues, "blues",
      "C. A. Brewer, ColorBrewer 2.0 (2013), Apache 2.0; light, without its palest and darkest"},
     {ColorMap::ylorrd, "ylorrd",

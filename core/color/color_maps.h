@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colour maps that people with any colour vision can put in order, the scales of numbers that lie on them, and volume
-// maps that colour points of a surface by such a scale.
+// Colour maps that people with any colour vision can order, scales that map numbers to them, and volume maps that
+// colour points of a surface by such a scale.
 #pragma once
 
 #include <array>
@@ -54,7 +54,7 @@ glm::vec3 mapped_color(ColorMap map, double t);
 /// How many colours a map of steps has, each of which stands for a class of numbers; 0: colours run into each other.
 std::size_t map_steps(ColorMap map);
 
-/// What atoms without a number get unless told otherwise: a grey #808080, which no map comes near, but #cc79a7 with
+/// What atoms without a number get unless set otherwise: a grey #808080, which no map comes near, but #cc79a7 with
 /// cividis, which goes through grey, and ConSurf's own yellow for grades of too few data.
 glm::vec3 default_missing_color(ColorMap map);
 

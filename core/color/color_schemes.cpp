@@ -41,7 +41,7 @@ constexpr ColorSchemeMetadata kSchemes[] = {
     {"hydrophobicity", By::hydrophobicity,
      "hydropathy of the amino acid; blue-white-red, -4.5 (arginine, blue) to 4.5 (isoleucine, red)",
      "J. Kyte and R. F. Doolittle, J. Mol. Biol. 157, 105 (1982)"},
-    {"element-cpk", By::element_cpk, "chemical element in the colours of models",
+    {"element-cpk", By::element_cpk, "chemical element in the usual (CPK) colours",
      "after the models of R. B. Corey, L. Pauling and W. L. Koltun; metals and tones are our own"},
     {"index", By::index, "place in the file, from 0; viridis", ""},
     {"radial", By::radial, "distance from the middle of all atoms in Å, for capsids; viridis", ""},
@@ -91,8 +91,8 @@ bool ColorScheme::changes_with_frames() const {
 void ColorScheme::set_numbers(const NumberFile& numbers) {
   if (numbers.by_frame && map == ColorMap::categorical && !own_map)
     throw RequestError(
-        "--map categorical gives each number of a picture a colour of its own, which would change from "
-        "frame to frame; choose another map");
+        "--map categorical gives each number of a picture its own colour, which would change from frame to frame; "
+        "choose another --map");
   if (by != By::rmsf) file = numbers;  // its own were measured
   if (by == By::file) frames_range = numbers.range_of_frames();
   for (ColorRule& rule : rules) {
@@ -143,10 +143,10 @@ ColorRule parse_color_rule(std::string_view text) {
   const std::string_view word = equals == std::string_view::npos ? text : text.substr(equals + 1);
   std::optional<ColorScheme> paint = parse_color_scheme(word);
   if (equals == std::string_view::npos || !paint)
-    throw RequestError(fmt::format("{} is none of {}", in_quotes(word), color_scheme_words()));
+    throw RequestError(fmt::format("{} is not one of {}", in_quotes(word), color_scheme_words()));
   if (paint->by == By::kind || paint->by == By::component)
     throw RequestError(
-        fmt::format("{} is nothing that single atoms have; it colours the whole surface", in_quotes(word)));
+        fmt::format("{} cannot colour some of the atoms; it colours the whole surface", in_quotes(word)));
   return {parse_selection(text.substr(0, equals)), *std::move(paint)};
 }
 
@@ -169,7 +169,7 @@ OpacityRule parse_opacity_rule(std::string_view text) {
   const std::string_view number = equals == std::string_view::npos ? text : text.substr(equals + 1);
   double opacity = 0.0;
   if (!parse_number(number, opacity) || !(opacity >= 0.0 && opacity <= 1.0)) {
-    throw RequestError(fmt::format("{} is no opacity from 0 (hidden) to 1 (covers all), as in 'chain A=0.4' or 0.4",
+    throw RequestError(fmt::format("{} is not an opacity from 0 (hidden) to 1 (opaque), as in 'chain A=0.4' or 0.4",
                                    in_quotes(number)));
   }
   OpacityRule rule;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// By what atoms are coloured: by what they are, by a number they have, or one colour for all.
+// Colour schemes: by a property of the atoms, by a number, or one colour for all.
 #pragma once
 
 #include <array>
@@ -113,11 +113,11 @@ std::string scheme_word(const ColorScheme& color);
 /// All words parse_color_scheme reads, for messages: "element, chain, ..., a name such as red, or #rrggbb".
 std::string color_scheme_words();
 
-/// Reads "EXPR=red": split at the last "=", and what stands behind it is read as parse_color_scheme does. Throws
-/// RequestError for what is no colour or cannot be a rule's, SelectionError.
+/// Reads "EXPR=red": split at the last "=", and what is behind it is read as parse_color_scheme does. Throws
+/// RequestError for what is not a colour or cannot be a rule's, SelectionError.
 ColorRule parse_color_rule(std::string_view text);
 
-/// The rules' expressions that mean none of these atoms, so that someone may be told.
+/// The rules' expressions that select none of these atoms, for warnings.
 std::vector<std::string> rules_without_atoms(const Structure& structure, const ColorScheme& scheme);
 
 /// Reads "EXPR=0.4", split at the last "=", or "0.4" for all atoms. Throws RequestError for a number outside [0, 1],

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The colours of a surface, as picture, POV-Ray scene and Blender file share them.
+// The colours of a surface, shared by pictures, POV-Ray scenes and Blender files.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colours of things that have names, and colours by their names: elements, residue types, classes, those of CSS.
+// Colours by name: of elements, residue types and classes, and those of CSS.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ constexpr glm::vec3 color_from_hex(std::uint32_t hex) {
 /// So many colours differ; categorical_color() begins again after them.
 inline constexpr std::size_t kCategoricalCount = 21;
 
-/// The n-th class: M. Okabe and K. Ito, "Color Universal Design" (2008), told apart with any colour vision. Black is
+/// The n-th class: M. Okabe and K. Ito, "Color Universal Design" (2008), distinguished with any colour vision. Black is
 /// left out, it hides the shape. Beyond seven come the same hues paler, then darker.
 glm::vec3 categorical_color(std::size_t n);
 

@@ -38,12 +38,12 @@ class RampReader {
   void add(std::size_t line, const std::optional<double>& place, std::string_view color) {
     const auto fail = [&](const std::string& what) { throw InputError(file_.path, line, what); };
     const std::optional<glm::vec3> read = parse_color(color);
-    if (!read) fail(fmt::format("{} is no colour; write #rrggbb, #rgb or a name such as red", in_quotes(color)));
+    if (!read) fail(fmt::format("{} is not a colour; write #rrggbb, #rgb or a name such as red", in_quotes(color)));
     if (ramp_.colors.size() == kMostColors) fail(fmt::format("a map has at most {} colours", kMostColors));
     if (!ramp_.colors.empty() && place.has_value() == ramp_.places.empty())
-      fail("some colours have a place, others not");
+      fail("some colours have a position, others do not");
     if (place && !ramp_.places.empty() && !(*place > ramp_.places.back()))
-      fail(fmt::format("the place {:g} does not lie behind {:g}; places rise", *place, ramp_.places.back()));
+      fail(fmt::format("the position {:g} does not follow {:g}; positions must increase", *place, ramp_.places.back()));
     if (place) ramp_.places.push_back(*place);
     ramp_.colors.push_back(*read);
   }
@@ -61,7 +61,7 @@ class RampReader {
       if (double number = 0.0; fields.size() == 2 && parse_number(fields[0], number)) place = number;
       if (fields.size() > 2 || (fields.size() == 2 && !place))
         throw InputError(file_.path, lines.number(),
-                         fmt::format("{} is neither a colour nor a place and a colour", in_quotes(trimmed(line))));
+                         fmt::format("{} is neither a colour nor a position and a colour", in_quotes(trimmed(line))));
       add(lines.number(), place, fields.back());
     }
   }
@@ -73,9 +73,10 @@ class RampReader {
     for (const nlohmann::json& entry : list) {
       const bool pair = entry.is_array() && entry.size() == 2 && entry[0].is_number() && entry[1].is_string();
       if (!pair && !entry.is_string())
-        throw InputError(file_.path, 0,
-                         fmt::format("entry {} is neither a colour such as \"#ff0000\" nor a pair of a place and one",
-                                     ramp_.colors.size() + 1));
+        throw InputError(
+            file_.path, 0,
+            fmt::format("entry {} is neither a colour such as \"#ff0000\" nor a pair of a position and a colour",
+                        ramp_.colors.size() + 1));
       add(0, pair ? std::optional(entry[0].get<double>()) : std::nullopt,
           pair ? entry[1].get<std::string>() : entry.get<std::string>());
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// GPU memory: buffers that kernels read and write, or only fetch as texels, and words of several that come back in one
+// GPU memory: buffers that kernels read and write or fetch as texels, and words of several buffers in one
 // read.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reading and writing the user's wish for a device, and matching it with those of the machine, without GL.
+// Parses and prints a user's choice of a device, and matches it with the devices of a machine, without GL.
 #include "core/gpu/device_choice.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ std::optional<int> parse_index(std::string_view text) {
   return index;
 }
 
-/// UUID or PCI address: hexadecimal digits and what stands between them.
+/// UUID or PCI address: hexadecimal digits and what is between them.
 bool looks_like_a_name(std::string_view text) {
   if (lower(text).starts_with(kUuidPrefix)) text.remove_prefix(kUuidPrefix.size());
   const auto fits = [](unsigned char c) { return std::isxdigit(c) || c == '-' || c == ':' || c == '.'; };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// EGL device enumeration and context creation, as NVIDIA and Mesa both document it for machines without a display.
+// Lists EGL devices and creates contexts, as NVIDIA and Mesa both document it for machines without a display.
 #include "core/gpu/egl_context.h"
 
 #include <algorithm>
@@ -24,9 +24,9 @@ std::vector<EGLDeviceEXT> query_devices() {
         "this EGL cannot list devices (EGL_EXT_device_base or EGL_EXT_platform_device is missing); a newer GL "
         "driver is needed");
   EGLint count = 0;
-  if (!eglQueryDevicesEXT(0, nullptr, &count)) throw GpuError("EGL refused to list devices");
+  if (!eglQueryDevicesEXT(0, nullptr, &count)) throw GpuError("EGL cannot list devices");
   std::vector<EGLDeviceEXT> devices(static_cast<std::size_t>(count));
-  if (count > 0 && !eglQueryDevicesEXT(count, devices.data(), &count)) throw GpuError("EGL refused to list devices");
+  if (count > 0 && !eglQueryDevicesEXT(count, devices.data(), &count)) throw GpuError("EGL cannot list devices");
   devices.resize(static_cast<std::size_t>(count));
   return devices;
 }
@@ -136,7 +136,7 @@ EglContext::EglContext(const DeviceChoice& choice) {
 bool EglContext::try_device(const DeviceAttempt& attempt, const std::string& kernel_folder, std::string& why_not) {
   const GlDevice& device = attempt.device;
   const auto devices = query_devices();
-  if (static_cast<std::size_t>(device.egl_index) >= devices.size()) return why_not = "it went away", false;
+  if (static_cast<std::size_t>(device.egl_index) >= devices.size()) return why_not = "it disappeared", false;
   const EGLDisplay display = eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[device.egl_index], nullptr);
   if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr))
     return why_not = fmt::format("EGL cannot open it (error 0x{:x})", eglGetError()), false;
@@ -179,7 +179,7 @@ bool EglContext::adopt_context(void* display, void* context, const std::string& 
 
 EglContext::EglContext(const ForeignContext& sibling) {
   if (!epoxy_has_egl_extension(sibling.display, "EGL_KHR_surfaceless_context") || !eglBindAPI(EGL_OPENGL_API))
-    throw GpuError("this display cannot draw beside its windows (EGL_KHR_surfaceless_context is missing)");
+    throw GpuError("this display cannot draw outside its windows (EGL_KHR_surfaceless_context is missing)");
   const EGLContext context = create_context(sibling.display, config_of(sibling.display, sibling.context),
                                             sibling.context, sibling.tells_resets);
   if (context == EGL_NO_CONTEXT)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Program binaries (OpenGL 4.5, section 7.5) behind the text that they were made of, with a checksum.
+// Stores program binaries (OpenGL 4.5, section 7.5) after the text that they were compiled from, with a checksum.
 #include "core/gpu/kernel_files.h"
 
 #include <unistd.h>
@@ -40,7 +40,7 @@ std::string bytes_of(Number number) {
   return {reinterpret_cast<const char*>(&number), sizeof number};
 }
 
-/// What stands in front of the binary: whatever it was made of.
+/// What is in front of the binary: whatever it was made of.
 std::string head_of(const std::string& driver, std::string_view text) {
   return fmt::format("meniscus kernel 1\n{}{}\n{}", driver, text.size(), text);
 }

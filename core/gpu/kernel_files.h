@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Kernels as the driver has compiled them, kept in files for the next run.
+// Keeps kernels that the driver has compiled in files for the next run.
 #pragma once
 
 #include <cstdint>

@@ -89,7 +89,7 @@ enum class ScanKind {
 /// Both kernels and their scratch memory. Needs a current GL context.
 class PrefixSum {
  public:
-  /// kind: that which suits the device, if not told.
+  /// kind: that which suits the device, if not set.
   explicit PrefixSum(ProgramCache& programs, std::optional<ScanKind> kind = {}) : programs_(programs), kind_(kind) {}
 
   /// Replaces each of the first `count` words by the sum of those before it; words[count] becomes the sum of all.

@@ -4,7 +4,7 @@
 // Each stage of gpu_shaders/ declares them once, in its parameters.glsl; a kernel has them as `layout(std140, binding =
 // ...) uniform Parameters { ... params; }`, and Program::set() hands one over whole. So a name that is wrong does not
 // compile, and a block that was forgotten is an error. (With single uniforms both went unnoticed; and zink, which makes
-// variants of kernels for their values, started variants for earlier ones: Mesa 22.3.) Their members stand where std140
+// variants of kernels for their values, started variants for earlier ones: Mesa 22.3.) Their members are where std140
 // (OpenGL 4.5, section 7.6.2.2) wants them by order alone: vectors of doubles first, of three floats followed by one
 // more, then of two, then single ones. Tests ask the driver for their places.
 #pragma once

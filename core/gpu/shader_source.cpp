@@ -30,7 +30,7 @@ class Expander {
  public:
   Expander(const ShaderFinder& find, const ShaderDefines& defines) : find_(find), defines_(defines) {}
 
-  /// epilogue: a file to put behind the last line, or nothing.
+  /// epilogue: a file to put after the last line, or nothing.
   ShaderSource expand(std::string_view path, std::string_view epilogue) {
     const auto text = find_(path);
     if (!text) throw GpuError(fmt::format("{}: no such shader", path));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From an embedded shader file with includes to the one text a GL compiler wants, and from its log back to file names.
+// Expands an embedded shader file with its includes into one text for GL, and maps a compiler's log back to files.
 #pragma once
 
 #include <functional>

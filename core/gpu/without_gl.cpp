@@ -9,7 +9,7 @@ WorkProof::~WorkProof() = default;
 KernelFiles::~KernelFiles() = default;
 
 EglContext::EglContext(const DeviceChoice&) {
-  throw GpuError("this build has no GL, for it was made without epoxy; choose the CPU");
+  throw GpuError("this build was made without epoxy and has no GL; choose the CPU");
 }
 EglContext::~EglContext() = default;
 

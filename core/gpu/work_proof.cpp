@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An atomic counter, copies of indirect group counts, and their comparison with what the host started.
+// Counts finished groups with an atomic counter, and compares them with the groups that the host started.
 #include "core/gpu/work_proof.h"
 
 #include <algorithm>
@@ -59,9 +59,8 @@ void WorkProof::verify(std::span<const Piece> pieces) {
     if (groups.started != groups.finished) {
       require_living_context();
       throw GpuError(
-          fmt::format("the GPU left work undone without saying so: of {} groups of its kernels {} came to their end; "
-                      "nothing that it "
-                      "computed is used; run again, or on another --device",
+          fmt::format("the GPU dropped work without reporting an error: of {} kernel groups {} finished; its results "
+                      "are discarded; run again, or choose another --device",
                       groups.started, groups.finished));
     }
   }

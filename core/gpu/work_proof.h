@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proof that the GPU did what it was told: groups started against groups that came to the end of their kernel.
+// Proof that the GPU did its work: the groups that were started against those that reached the end of their kernel.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// sRGB (IEC 61966-2-1): from and to linear light, from gathered light to the screen, and the profile that pictures
-// carry.
+// sRGB (IEC 61966-2-1): conversion from and to linear light, screen colours of gathered light, and the profile that
+// pictures carry.
 #pragma once
 
 #include <cstddef>

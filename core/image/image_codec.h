@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures to bytes and back, by OpenImageIO, which is loaded when the first picture is.
+// Encodes and decodes pictures with OpenImageIO, which is loaded when the first picture is made.
 //
 // OpenImageIO brings two hundred libraries, a quarter of a second and a hundred megabytes before main(); most commands
 // make no picture. So what needs it is a module of its own (openimageio_codec.cpp), found beside the program.

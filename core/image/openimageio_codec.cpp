@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The module that speaks OpenImageIO: one function is seen from outside.
+// The module that wraps OpenImageIO: it exports one function.
 #include <cstddef>
 #include <stdexcept>
 #include <string_view>

@@ -227,7 +227,7 @@ std::optional<std::string> png_note(const std::filesystem::path& path, std::stri
   while (file.read(head.data(), head.size())) {
     const std::uint32_t length = word_at(head.data());
     const std::string_view kind(head.data() + 4, 4);
-    if (kind == "IDAT" || kind == "IEND") return {};  // ours stand before the pixels
+    if (kind == "IDAT" || kind == "IEND") return {};  // ours are before the pixels
     if (kind == "iTXt" && length <= kLongestNote) {
       std::string content(length, '\0');
       if (!file.read(content.data(), length)) return {};

@@ -56,7 +56,7 @@ inline constexpr std::string_view kSceneNote = "Meniscus scene";
 bool is_png(const std::filesystem::path& path);
 
 /// The uncompressed text that a PNG file has under this key (iTXt; Portable Network Graphics, W3C 2003, section
-/// 11.3.4.5); nothing if it has none or is no PNG file.
+/// 11.3.4.5); nothing if it has none or is not a PNG file.
 std::optional<std::string> png_note(const std::filesystem::path& path, std::string_view key);
 
 }  // namespace meniscus

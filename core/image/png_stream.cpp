@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One stream of libdeflate, which takes a third of the time of zlib; of large pictures parts by zlib.
+// Compresses a PNG stream with libdeflate, in a third of the time of zlib; large pictures in parts, with zlib.
 #include "core/image/png_stream.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ constexpr int kUsualLevel = 6;
 /// A whole stream of zlib's format (RFC 1950).
 Bytes compressed(const Bytes& rows, int level) {
   const std::unique_ptr<libdeflate_compressor, CompressorDeleter> compressor(::libdeflate_alloc_compressor(level));
-  if (!compressor) throw CapacityError("no memory to compress a picture");
+  if (!compressor) throw CapacityError("not enough memory to compress a picture");
   Bytes result(::libdeflate_zlib_compress_bound(compressor.get(), rows.size()));
   result.resize(::libdeflate_zlib_compress(compressor.get(), rows.data(), rows.size(), result.data(), result.size()));
   return result;
@@ -39,7 +39,7 @@ Bytes compressed_part(std::span<const std::uint8_t> part, std::span<const std::u
   constexpr int kNoHeader = -15, kMostMemory = 9;
   z_stream stream{};
   if (::deflateInit2(&stream, level, Z_DEFLATED, kNoHeader, kMostMemory, Z_DEFAULT_STRATEGY) != Z_OK)
-    throw CapacityError("no memory to compress a picture");
+    throw CapacityError("not enough memory to compress a picture");
   const std::unique_ptr<z_stream, decltype(&::deflateEnd)> end(&stream, &::deflateEnd);
   if (!before.empty()) ::deflateSetDictionary(&stream, before.data(), static_cast<uInt>(before.size()));
   constexpr std::size_t kMarker = 16;  // of the part's end

@@ -52,7 +52,7 @@ class BallGrid {
     });
   }
 
-  /// Calls visit(first, last) for the rows of cells around a point: among the balls that stand in order() from `first`
+  /// Calls visit(first, last) for the rows of cells around a point: among the balls that are in order() from `first`
   /// to before `last`, taken together, are all whose centres are within `reach`.
   template <typename Visit>
   void for_each_row_near(const glm::dvec3& point, double reach, Visit&& visit) const {

@@ -16,7 +16,7 @@
 
 namespace meniscus {
 
-/// Axis-parallel, both corners included, in Å; empty at first.
+/// Axis-parallel, both corners included, in Å; initially empty.
 struct Box {
   glm::dvec3 low{std::numeric_limits<double>::infinity()};
   glm::dvec3 high{-std::numeric_limits<double>::infinity()};
@@ -32,7 +32,7 @@ struct Box {
   }
 };
 
-/// Boxes around things, which are then asked in the order of their nearness to a point.
+/// Boxes around objects, which are then visited in the order of their nearness to a point.
 class BoxTree {
  public:
   explicit BoxTree(std::span<const Box> boxes) : order_(boxes.size()) {
@@ -77,7 +77,7 @@ class BoxTree {
   struct Node {
     Box box;
     std::uint32_t first = 0, last = 0;  // into order_
-    std::uint32_t second_child = 0;     // 0: a leaf; the first child stands behind its parent
+    std::uint32_t second_child = 0;     // 0: a leaf; the first child is behind its parent
   };
 
   void build(std::span<const Box> boxes, std::uint32_t first, std::uint32_t last) {

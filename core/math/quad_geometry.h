@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shared geometry functions once more, compiled in quadruple precision for decisions that double leaves in doubt.
+// The shared geometry functions in quadruple precision, for decisions that double precision leaves in doubt.
 #pragma once
 
 #include <cfloat>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A rotation and a translation: where a copy of a molecule stands.
+// A rotation and a translation: the position of a copy of a molecule.
 #pragma once
 
 #include <glm/mat3x3.hpp>

@@ -23,7 +23,7 @@
 
 namespace meniscus {
 
-/// Numbers that are not negative stand in the same order as their bits.
+/// Numbers that are not negative are in the same order as their bits.
 inline std::int64_t ordered_bits(double number) { return std::bit_cast<std::int64_t>(number); }
 inline double from_ordered_bits(std::int64_t bits) { return std::bit_cast<double>(bits); }
 

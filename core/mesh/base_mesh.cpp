@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the meshes that even ones begin with, and contracts a fine one to few triangles.
+// Makes the base meshes of even ones, and contracts a fine mesh to few triangles.
 #include "core/mesh/base_mesh.h"
 
 #include <algorithm>
@@ -73,7 +73,7 @@ class Contraction {
   /// Marks the vertices of contact faces that can be drawn together, and finds where to.
   void find_discs() {
     middle_.resize(surface_.faces.size());
-    std::vector<std::uint32_t> first(surface_.faces.size() + 1, 0);  // triangles of a face stand together
+    std::vector<std::uint32_t> first(surface_.faces.size() + 1, 0);  // triangles of a face are together
     for (const std::uint32_t f : coarse_.face) ++first[f + 1];
     std::partial_sum(first.begin(), first.end(), first.begin());
     tbb::parallel_for(std::size_t{0}, middle_.size(), [&](std::size_t f) {

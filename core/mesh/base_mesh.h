@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The closed meshes that even ones begin with: something to be split and collapsed until it is even.
+// The closed meshes from which even ones are made by splitting and collapsing edges.
 #pragma once
 
 #include <cstdint>
@@ -41,7 +41,7 @@ TriangleMesh coarse_mesh(const Surface& surface, const SurfaceWalk& walk, double
 /// that are discs become their middles, saddles between two such ones edges, unless the mesh would not be closed, or of
 /// another topology, without them. Closed, vertices on the exact surface, components and their Euler characteristics
 /// those of the surface. No bound on how far triangles are from it; some may cross. walk: nothing barred. Throws
-/// OpenSurfaceError where the coarse mesh is no manifold.
+/// OpenSurfaceError where the coarse mesh is not a manifold.
 BaseMesh contracted_mesh(const Surface& surface, const SurfaceWalk& walk, const TriangleMesh& coarse);
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The points on the borders of a surface: taken once, shared by the two faces of each border.
+// Sample points on the borders of a surface: taken once and shared by the two faces of each border.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An independent look at the areas and volumes of a surface: those of its triangles.
+// An independent check of the areas and volumes of a surface: those of its triangles.
 #pragma once
 
 namespace meniscus {

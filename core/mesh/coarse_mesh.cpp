@@ -101,7 +101,7 @@ class CoarseMeshing {
     return found;
   }
 
-  /// Halves the long segments around faces that are no polygons of the simple kinds; false if that was done before.
+  /// Halves the long segments around faces that are not polygons of the simple kinds; false if that was done before.
   bool sample_finer(const std::vector<std::uint32_t>& hard) {
     bool any = false;
     for (const std::uint32_t f : hard) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mesh beside its surface: areas and volumes that come from triangles alone, and how far points are from its
-// triangles.
+// Compares a mesh with its surface: areas and volumes of the triangles alone, and distances of points from
+// them.
 #pragma once
 
 #include <array>

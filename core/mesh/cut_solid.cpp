@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cuts triangles, fills the section between them, and parts it by atoms.
+// Cuts triangles, fills the section between them, and divides it among atoms.
 #include "core/mesh/cut_solid.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A solid of triangles cut by one plane, and closed again by triangles in it.
+// A solid of triangles, cut by one plane and closed again by triangles in that plane.
 #pragma once
 
 #include <array>

@@ -155,7 +155,8 @@ class EvenMeshing {
       if (bad.empty()) break;
       if (attempt == (contracted_ ? RemeshTuning::contracted_attempts : RemeshTuning::attempts))
         throw OpenSurfaceError(
-            fmt::format("no even mesh was found: {} triangles stay in others' way or too far away; ask for a finer one",
+            fmt::format("no even mesh was found: {} triangles still cross others or lie too far from the surface; ask "
+                        "for a finer one",
                         bad.size()));
       for (Ball& place : watched) place.radius *= RemeshTuning::wider;
       for (const std::uint32_t t : bad) watched.push_back(around(mesh_->placed(t)));
@@ -248,8 +249,9 @@ class EvenMeshing {
       const double off = std::abs(sums[c].volume - component.volume);
       if (same && (mesh.tolerance == 0.0 || options_.tolerance_at || off <= mesh.tolerance * component.area + 1e-9))
         continue;
-      throw OpenSurfaceError(fmt::format(
-          "component {} has {:.6g} Å³, its even mesh another volume; ask for a finer one", c, component.volume));
+      throw OpenSurfaceError(
+          fmt::format("component {} has {:.6g} Å³, but its even mesh has another volume; ask for a finer one", c,
+                      component.volume));
     }
   }
 
@@ -267,10 +269,10 @@ class EvenMeshing {
 
 FineMesh even_mesh(const Surface& surface, const EvenMeshOptions& options) {
   if (options.density != 0.0 && !(options.density >= kSmallestDensity && options.density <= kLargestDensity))
-    throw Error(fmt::format("mesh density: {} vertices per Å², give {} to {}", options.density, kSmallestDensity,
+    throw Error(fmt::format("mesh density: {} vertices per Å²; give {} to {}", options.density, kSmallestDensity,
                             kLargestDensity));
   if (options.density == 0.0 && !(options.tolerance > 0.0 && std::isfinite(options.tolerance)))
-    throw Error(fmt::format("mesh tolerance: {} Å, give a number above 0", options.tolerance));
+    throw Error(fmt::format("mesh tolerance: {} Å; give a number above 0", options.tolerance));
   // Where creases crowd, triangles that have to end at them may find no place; without that they are smaller there.
   for (const Beginning beginning : beginnings(surface, options)) {
     try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes how long edges are to be, and how near triangles to the surface, at any place.
+// Computes the wanted length of edges and distance from the surface, at any place.
 #include "core/mesh/even_sizes.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long the edges of an even mesh are to be, how near its triangles to the surface, and the numbers this depends on.
+// The wanted edge lengths of an even mesh, its distance from the surface, and the numbers that these depend on.
 #pragma once
 
 #include <array>
@@ -65,7 +65,7 @@ struct RemeshTuning {
   /// No collapse of two vertices with more edges together, no flip to one with as many: stars of long triangles.
   static constexpr std::uint32_t most_edges = 24;
   /// While a coarse mesh is refined, a vertex that would come nearer than this share of the edge to one that is there
-  /// is not made.
+  /// is no made.
   static constexpr double nearest_new_vertex = 0.2;
   /// A foot farther below the middle of an edge than this share of its length is on another sheet.
   static constexpr double deepest_foot = 0.35;
@@ -123,7 +123,7 @@ struct RemeshTuning {
   /// The base's tolerance, in those of the result: it is remeshed. Where it is kept to, the second.
   static constexpr double coarser_base = 2.0, kept_base = 0.9;
   /// How often all begins again, with an eye on the places where triangles crossed, and from which attempt on these
-  /// keep to the base, which is as near as promised then; contact faces that are points are no base to keep to.
+  /// keep to the base, which is as near as promised then; contact faces that are points are not a base to keep to.
   static constexpr int attempts = 6, first_frozen = 2, contracted_attempts = 2;
   /// How these places grow with each attempt.
   static constexpr double wider = 1.7;

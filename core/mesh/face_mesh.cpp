@@ -229,8 +229,7 @@ void part_doubled_edges(FaceMesh& mesh) {
   for (const auto& [a, b] : mesh.rim_edges) rim.insert(ordered(a, b));
   int round = 0;
   for (bool again = true; again; ++round) {
-    if (round == kPartingRounds)
-      throw OpenSurfaceError("edges of the mesh cannot be told apart; give another tolerance");
+    if (round == kPartingRounds) throw OpenSurfaceError("edges of the mesh coincide; give another tolerance");
     std::map<Edge, Edge> seen;  // by name: the first edge found
     for (const auto& [a, b] : rim) seen.try_emplace(ordered(named(a), named(b)), Edge(a, b));
     std::set<Edge> doubled;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangles of one face, bounded by samples of its borders: maps to the plane that keep angles, points to put inside,
+// Triangles of one face between samples of its borders: conformal maps to the plane, points inside,
 // triangles.
 #pragma once
 

@@ -17,7 +17,7 @@ class FaceFilling {
   FaceFilling(const Surface& surface, const EdgeRule& rule, BorderSamples& samples);
 
   /// Fills these faces of the surface into `meshes`, one for each face of the surface; a face whose border was sampled
-  /// finer is filled anew if it was filled before. What shrunk to a point or to one line has no triangles.
+  /// finer is filled again if it was filled before. What shrunk to a point or to one line has no triangles.
   /// Throws OpenSurfaceError where borders cross.
   void fill(std::vector<std::uint32_t> faces, std::vector<FaceMesh>& meshes);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A change of a few triangles of a mesh that has not been made: what it would make, take away, and where its vertex
-// goes.
+// A change of a few triangles that has not been made: what it would make and remove, and where its vertex would
+// go.
 #pragma once
 
 #include <cstdint>

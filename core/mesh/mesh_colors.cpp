@@ -155,7 +155,8 @@ CapAtoms::CapAtoms(std::vector<Ball> atoms, double probe_radius, std::vector<std
         for (const Ball& ball : atoms_) largest_ = std::max(largest_, ball.radius);
         return largest_ + probe_radius_ + kNextAtoms;
       }()) {
-  if (atoms_.empty() || part_.size() != atoms_.size()) throw Error("caps: each of some atoms has a part");
+  if (atoms_.empty() || part_.size() != atoms_.size())
+    throw Error("caps: the number of atoms and that of their parts differ");
   has_parts_ = std::ranges::any_of(part_, [this](std::uint32_t p) { return p != part_[0]; });
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether an even mesh is as near to its surface as asked, and the surface to the mesh.
+// Checks that an even mesh is as near to its surface as asked, and the surface to the mesh.
 #pragma once
 
 #include <array>

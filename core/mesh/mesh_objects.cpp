@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes meshes as fine as asked for, and guesses beforehand how many triangles they get.
+// Makes meshes of the requested fineness, and estimates beforehand how many triangles they have.
 #include "core/mesh/mesh_objects.h"
 
 #include <algorithm>
@@ -42,7 +42,7 @@ std::vector<TriangleMesh> mesh_objects(std::span<const SurfaceObject> objects, d
     meshes.push_back(shown_part(tessellate(object.surface, {tolerance, true}), object.coloring));
     any = any || !meshes.back().triangles.empty();
   }
-  if (!any && !may_be_empty) throw RequestError("nothing of the surface is shown, so there is no mesh to write");
+  if (!any && !may_be_empty) throw RequestError("no part of the surface is shown, so there is no mesh to write");
   return meshes;
 }
 

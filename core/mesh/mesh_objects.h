@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The meshes of a molecule's objects: how fine they are to be, in Å or by a camera, and how many triangles that makes.
+// The meshes of a molecule's objects: their fineness, in Å or by a camera, and the number of triangles it gives.
 #pragma once
 
 #include <cstddef>

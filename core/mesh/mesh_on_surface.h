@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mesh whose vertices lie on an exact surface and may move along it while it is remeshed, and how good its triangles
-// are.
+// A mesh whose vertices lie on an exact surface and move along it during remeshing, and the quality of its
+// triangles.
 #pragma once
 
 #include <algorithm>

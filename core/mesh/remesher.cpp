@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Goes over the edges and vertices of a mesh on a surface: splits, collapses, flips and moves what is not as wanted.
+// Passes over the edges and vertices of a mesh on a surface: splits, collapses, flips and moves them.
 #include "core/mesh/remesher.h"
 
 #include <algorithm>

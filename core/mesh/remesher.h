@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Passes over a mesh on a surface that make its edges as long as wanted and its triangles even.
+// Passes that give a mesh on a surface the wanted edge lengths and even triangles.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cuts a closed mesh by one plane after the other, parts what is left into surface and caps, and joins both again.
+// Cuts a closed mesh by one plane after another, divides what is left into surface and caps, and joins both again.
 #include "core/mesh/section_mesh.h"
 
 #include <algorithm>

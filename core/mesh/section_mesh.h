@@ -55,7 +55,7 @@ struct CappedMesh {
   std::vector<std::uint32_t> cap_plane;  ///< of the last triangles: into the planes
 };
 
-/// No planes: the whole surface. Else the object must stand in one place, not moved. one_color: caps have no borders
+/// No planes: the whole surface. Else the object must be in one place, not moved. one_color: caps have no borders
 /// where colours of atoms change. tolerance: Å. Throws as tessellate() and cut_mesh() do.
 CappedMesh capped_mesh(const SurfaceObject& object, std::span<const ClipPlane> planes, bool one_color,
                        double tolerance);

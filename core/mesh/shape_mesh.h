@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shapes beside a surface, and pockets, as objects with meshes for exports that know nothing but meshes.
+// Shapes beside a surface, and pockets, as objects with meshes, for exporters that write only meshes.
 #pragma once
 
 #include <span>

@@ -124,7 +124,7 @@ SurfaceWalk::Look SurfaceWalk::look_at_torus(const glm::dvec3& x, std::uint32_t 
     if (beyond > worst) worst = beyond, found.crossed = &side;
   }
   if (found.crossed || !surface_.spindle(torus)) return found;
-  // The tube of a spindle past its axis is no part of the surface, and on its other side is the other piece.
+  // The tube of a spindle past its axis is not part of the surface, and on its other side is the other piece.
   const bool second = torus.piece(face - torus.first_face) == 1;
   found.lost = (tube > 0.0) != second || torus.radius * length < probe * inwards;
   return found;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a point near a surface to the point of the surface below it, from face to face without a search.
+// Projects a point near a surface onto it, walking from face to face without a search.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct SurfacePoint {
 };
 
 /// Projects along the line to the nearest place of the probe's centre: the cones, wedges and tetrahedra over the
-/// patches (theorem 1) tile the solid below the surface, their walls stand on the borders, so whoever is beyond a wall
+/// patches (theorem 1) tile the solid below the surface, their walls are on the borders, so whoever is beyond a wall
 /// goes on with the face on its other side. Points have to be nearer to the surface than its radii of curvature.
 class SurfaceWalk {
  public:

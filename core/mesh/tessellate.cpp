@@ -354,10 +354,10 @@ class Tessellation {
 
 TriangleMesh tessellate(const Surface& surface, const MeshOptions& options) {
   if (!(options.tolerance > 0.0) || !std::isfinite(options.tolerance)) {
-    throw Error(fmt::format("mesh tolerance: {} Å, give a number above 0", options.tolerance));
+    throw Error(fmt::format("mesh tolerance: {} Å; give a number above 0", options.tolerance));
   }
   if (!(options.edge >= 0.0) || !std::isfinite(options.edge)) {
-    throw Error(fmt::format("mesh edges: {} Å, give a number above 0, or 0 for those of the tolerance", options.edge));
+    throw Error(fmt::format("mesh edges: {} Å; give a number above 0, or 0 for those of the tolerance", options.edge));
   }
   TriangleMesh mesh = Tessellation(surface, options).run();
   return_free_memory();
@@ -365,7 +365,7 @@ TriangleMesh tessellate(const Surface& surface, const MeshOptions& options) {
     throw OpenSurfaceError(fmt::format("the mesh at {} Å is not closed; give another tolerance", mesh.tolerance));
   }
   if (const std::vector<std::string> found = differences(surface, mesh); !found.empty()) {
-    throw OpenSurfaceError(fmt::format("the mesh at {} Å is not that of the surface: {}; give another tolerance",
+    throw OpenSurfaceError(fmt::format("the mesh at {} Å does not match the surface: {}; give another tolerance",
                                        mesh.tolerance, found.front()));
   }
   return mesh;

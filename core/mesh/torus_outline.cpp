@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-// A row on the axis has no length, and the quotient of that and its step is no number: it has no parts.
+// A row on the axis has no length, and the quotient of that and its step is not a number: it has no parts.
 int whole_parts(double parts) { return parts < 1e6 ? static_cast<int>(std::ceil(parts)) : 0; }
 
 /// Collects the rim of a torus face in walking order; every visit of a point is a point of its own.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Takes short edges out of a mesh by collapses under the link condition, and flat triangles by flips.
+// Removes short edges from a mesh by collapses under the link condition, and flat triangles by flips.
 #include "core/mesh/weld.h"
 
 #include <algorithm>

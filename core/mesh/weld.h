@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Edges too short and triangles too flat for the numbers of a file are taken out of a mesh, which stays closed.
+// Removes edges too short and triangles too flat for the numbers of a file; the mesh stays closed.
 #pragma once
 
 #include <array>

@@ -83,7 +83,7 @@ void add_on_faces(const Surface& s, const PlaceSteps& steps, const Box& bounds, 
   }
 }
 
-/// Without those that stand where an earlier one does.
+/// Without those that are where an earlier one does.
 std::vector<glm::dvec3> without_doubles(const std::vector<glm::dvec3>& places) {
   const BallGrid grid(places, 1.0);
   std::vector<bool> kept(places.size(), true);

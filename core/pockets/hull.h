@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The solid that a large probe rolls over, how deep a point lies in it, and places of that probe around a molecule.
+// The solid that a large probe rolls over: the depth of a point in it, and positions of that probe around a molecule.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ namespace meniscus {
 struct Surface;
 
 /// The solid of a solvent-excluded surface with its cavities filled. A larger probe has a larger hull, for a ball is a
-/// union of smaller ones. Probes that overlap one outside count as outside, though they may stand behind a door that is
+/// union of smaller ones. Probes that overlap one outside count as outside, though they may be behind a door that is
 /// too narrow for them.
 class Hull {
  public:

@@ -117,7 +117,7 @@ class PocketFinder {
     return parts;
   }
 
-  /// Atoms that float in a pocket are no part of it.
+  /// Atoms that float in a pocket are not part of it.
   void add_islands(std::vector<Part>& parts) const {
     const Surface& s = found_.surface;
     const std::vector<bool> reached = reached_from_outside(s);
@@ -190,12 +190,14 @@ const char* Pocket::kind() const {
 }
 
 std::string pocket_fault(const PocketRequest& request) {
-  if (!(request.probe_radius > 0.0)) return "--probe: pockets are what a probe fills; it must be above 0 Å";
+  if (!(request.probe_radius > 0.0))
+    return "--probe: give a radius above 0 Å; pockets are the space that the probe fills";
   if (!(request.large_probe_radius > request.probe_radius))
-    return fmt::format("--large-probe: {} Å is not above the small probe's {} Å, so nothing lies between the two",
+    return fmt::format("--large-probe: {} Å must be above the small probe's {} Å; pockets lie between the two",
                        request.large_probe_radius, request.probe_radius);
-  if (!(request.trim >= 0.0)) return fmt::format("--trim: {} Å is negative", request.trim);
-  if (!(request.tolerance > 0.0)) return fmt::format("--mouth-tolerance: {} Å is not above 0", request.tolerance);
+  if (!(request.trim >= 0.0)) return fmt::format("--trim: {} Å is negative; give 0 or more", request.trim);
+  if (!(request.tolerance > 0.0))
+    return fmt::format("--mouth-tolerance: {} Å; give a number above 0", request.tolerance);
   return {};
 }
 

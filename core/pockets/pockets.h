@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pockets, tunnels and cavities of a molecule: what a small probe can fill of the solid that a large one rolls over.
+// Pockets, tunnels and cavities of a molecule: what a small probe can fill in the solid that a large one rolls over.
 #pragma once
 
 #include <cstddef>

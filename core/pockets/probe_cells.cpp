@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Drops cubes whose every point is inside one grown ball, or too near to the large probe; far from all atoms many at
-// once.
+// Drops cubes that lie inside one grown ball or too near to the large probe; far from all atoms many at once.
 #include "core/pockets/probe_cells.h"
 
 #include <algorithm>
@@ -111,7 +110,7 @@ class CellFinder {
     const double reach = region.reach() + kRounding;
     for (const std::uint32_t a : region.near)
       if (glm::distance(region.middle, atoms_[a].center) < atoms_[a].radius + probe_radius_ - reach) return true;
-    // A small probe that touches no atom is no farther from a large one that stands on the only atom near than by the
+    // A small probe that touches no atom is no farther from a large one that is on the only atom near than by the
     // difference of their radii, and none from one if no atom is near. Cells reach farther by the finest's diagonal.
     const double large = hull_.surface().probe_radius;
     return region.near.size() <= 1 && !hull_.has_cavities() &&

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where in a molecule a small probe may be that stays inside of a hull: cells of a lattice that miss no such place.
+// The positions of a small probe inside a hull: cells of a lattice that miss none of them.
 #pragma once
 
 #include <cstddef>

@@ -13,17 +13,16 @@ constexpr std::string_view kLegend = "Legend", kLabels = "Labels";
 constexpr auto kTable = of_commands(
     for_render | for_preview,
     std::to_array<Property>({
-        flag("legend.shown", "--legend",
-             "Explain the colours at the right (of tall pictures: below); the molecule is framed beside the legend")
+        flag("legend.shown", "--legend", "Show a legend of the colours, at the right or, in tall pictures, below")
             .in(kLegend, kShared | live)
             .in_short_help(),
-        new_file("legend.file", "--legend-file", "FILE", "Write the legend as a picture of its own")
+        new_file("legend.file", "--legend-file", "FILE", "Write the legend as a separate picture")
             .in(kLegend, in_scene)
             .of(for_render),
         text("legend.title", "--legend-title", "TEXT", "Title of the legend; '' for none")
             .initially("by the colours")
             .in(kLegend, kShared | live),
-        text("legend.size", "--legend-size", "SIZE", "Height of its letters: pixels, 8pt or 3mm")
+        text("legend.size", "--legend-size", "SIZE", "Height of the letters: pixels, 8pt or 3mm")
             .from(6, 1000)
             .initially("a thirtieth of the shorter side")
             .in(kLegend, kShared | live),
@@ -32,30 +31,30 @@ constexpr auto kTable = of_commands(
             .initially("auto")
             .in(kLegend, kShared | live | rare),
 
-        text("annotations.panel", "--panel", "TEXT", "Letter of the panel, at the top left")
+        text("annotations.panel", "--panel", "TEXT", "Letter of the panel, such as a, at the top left")
             .in(kLabels, kShared)
             .in_short_help(),
         text("annotations.scale_bar", "--scale-bar", "Å",
-             "Scale bar of this length in Å at the bottom left, or of a round length (auto); with a perspective camera "
-             "it is true at the camera's target")
+             "Draw a scale bar of this length, or of a round one (auto). With a perspective camera it is true at the "
+             "camera's target")
             .proposes("auto")
             .initially("auto")
             .in(kLabels, kShared | value_optional)
             .in_short_help(),
         text("annotations.labels", "--label", "EXPR=TEXT",
-             "Write TEXT beside the middle of these atoms, with a line to it, in front of everything. Repeatable")
+             "Write TEXT at these atoms, with a line to their centre. Repeatable")
             .in(kLabels, kShared | repeatable)
             .in_short_help(),
         flag("annotations.time_stamp", "--time-stamp",
-             "Write the time of each frame in ns at the top right, or its number where there are no times")
+             "Write the time of each frame in ns, or its number if it has no time")
             .in(kLabels, kShared)
             .of(for_render),
         file("annotations.curve", "--curve", "FILE.csv",
-             "Draw numbers of the run (from surface --csv-series) as a curve at the bottom right, with a mark at each "
-             "frame")
+             "Draw a curve of the run from a CSV table, with a mark at each frame. meniscus surface --csv-series "
+             "writes such tables")
             .in(kLabels, kShared)
             .of(for_render),
-        text("annotations.curve_column", "--curve-column", "NAME", "Column of --curve")
+        text("annotations.curve_column", "--curve-column", "NAME", "Column of the table to draw")
             .initially("the first after the time")
             .in(kLabels, kShared | rare)
             .of(for_render)

@@ -15,15 +15,15 @@ constexpr auto kTable = of_commands(
     for_render | for_preview,
     std::to_array<Property>({
         word("look.preset", "--preset", "WORD",
-             "Look on which the other options of light and lines build, in any order: publication (shade, thin lines, "
-             "colours as given), cover (studio light, highlights), flat (constant colours and lines), soft (matt, no "
-             "lines), classic (studio light alone). Where colours show numbers or a legend explains them, light "
-             "changes only their lightness")
+             "Look: publication, cover, flat, soft or classic. publication: shade, thin lines, colours as given; "
+             "cover: studio light, highlights; flat: constant colours and lines; soft: matt, no lines; classic: studio "
+             "light alone. Other options of light and lines change single values of it. Where colours show numbers or "
+             "a legend explains them, light changes only their lightness")
             .one_of("publication|cover|flat|soft|classic")
             .initially("publication")
             .in(kLight, kLook)
             .in_short_help(),
-        text("look.light", "--light", "X,Y,Z", "Direction towards the lamp: right, up, towards the viewer")
+        text("look.light", "--light", "X,Y,Z", "Direction towards the lamp, as X,Y,Z: right, up, to the viewer")
             .initially("-0.45,0.65,0.75")
             .in(kLight, kLook),
         number("look.light_strength", "--light-strength", "F", "Strength of the lamp, 0 to 10")
@@ -32,42 +32,41 @@ constexpr auto kTable = of_commands(
             .slider("Lamp", 2)
             .in(kLight, kLook),
         number("look.ambient", "--ambient", "F",
-               "Share of light that comes evenly from everywhere, 0 to 1; with 1 colours are exactly those given")
+               "Share of light that comes evenly from all sides, 0 to 1. With 1, colours are exactly those given")
             .from(0, 1)
             .in(kLight, kLook | of_objects),
         number("look.roughness", "--roughness", "F",
-               "Roughness, from wax (0), which darkens towards its edges, to chalk (1)")
+               "Roughness of the material, from 0 (wax, darker at edges) to 1 (chalk)")
             .from(0, 1)
             .in(kLight, kLook | of_objects),
         number("look.specular", "--specular", "F", "Strength of highlights, 0 (none) to 1")
             .from(0, 1)
             .in(kLight, kLook | of_objects),
-        number("look.shininess", "--shininess", "F",
-               "Specular exponent, 1 to 1000; a larger one makes smaller highlights")
+        number("look.shininess", "--shininess", "F", "Specular exponent, 1 to 1000; larger gives smaller highlights")
             .from(1, 1000)
             .in(kLight, kLook | of_objects),
         number("look.ambient_occlusion", "--ambient-occlusion", "F",
-               "Strength of the shade in pockets and clefts, 0 (none) to 1; only what the picture shows casts shade")
+               "Shade in pockets and clefts, 0 (none) to 1. Only what the picture shows casts shade")
             .from(0, 1)
             .slider("Shade", 1)
             .in(kLight, kLook)
             .in_short_help(),
         number("look.ambient_occlusion_radius", "--ambient-occlusion-radius", "Å",
-               "Farthest distance that shade is cast, in Å")
+               "Largest distance at which shade is cast, in Å")
             .from(0.1, 1000)
             .in(kLight, kLook),
         text("look.silhouettes", "--silhouettes", "WIDTH",
-             "Width of black lines around what stands in front and between chains: pixels, 0.5pt or 0.2mm; 0: no lines")
+             "Width of black outlines: pixels, 0.5pt or 0.2mm; 0: no lines. They are drawn around whatever is in "
+             "front, and between chains")
             .from(0, 16)
             .slider("Lines", 6)
             .in(kLines, kLook)
             .in_short_help(),
-        text("look.outer_lines", "--outer-lines", "WIDTH", "Width of the outline of the whole")
+        text("look.outer_lines", "--outer-lines", "WIDTH", "Width of the outline around the whole molecule")
             .from(0, 16)
             .initially("--silhouettes")
             .in(kLines, kLook | rare),
-        text("look.inner_lines", "--inner-lines", "WIDTH",
-             "Width of lines where something stands in front of something else")
+        text("look.inner_lines", "--inner-lines", "WIDTH", "Width of lines where one part is in front of another")
             .from(0, 16)
             .initially("--silhouettes")
             .in(kLines, kLook | rare),
@@ -76,30 +75,29 @@ constexpr auto kTable = of_commands(
             .initially("--silhouettes")
             .in(kLines, kLook | rare),
         number("look.depth_cue", "--depth-cue", "F",
-               "How much the farthest atoms fade into the background (into white where it is transparent), 0 to 1. "
+               "Fade of the farthest atoms into the background, 0 to 1. A transparent background counts as white. "
                "Presets do not fade where colours show numbers or a legend explains them")
             .from(0, 1)
             .slider("Depth", 1)
             .in(kLight, kLook),
         flag("look.linear_alpha", "--linear-alpha",
-             "Make the edges of transparent .png and .tif for programs that blend in linear light; without it they "
-             "look right on a page")
+             "Make transparent edges for programs that blend in linear light. Without it .png and .tif pictures look "
+             "right on a page")
             .in("Picture", kLook | rare),
-        text("look.material", "--material", "WORD", "Material of the surface, in the words of the renderer")
+        text("look.material", "--material", "WORD", "Material of the surface")
             .in(kLight, kShared)
             .of(for_povray | for_path_tracers),
-        flag("look.comments", "--comments",
-             "Write a comment before each patch: convex, toroidal or concave, and the atoms that it touches")
+        flag("look.comments", "--comments", "Write a comment before each patch: its kind and its atoms")
             .in("Output", kShared)
             .of(for_povray),
         word("povray.material", "--material", "WORD",
-             "Material that the scene begins with: opaque, ghost, glass, wax or flat; the scene has all of them")
+             "Material at first: opaque, ghost, glass, wax or flat. The scene contains all of them")
             .one_of("opaque|ghost|glass|wax|flat")
             .initially("opaque")
             .in(kLight)
             .of(for_povray),
         word("path_tracers.material", "--material", "WORD",
-             "Material of the surface: matte, plastic, glass or wax; what is shown beside it is matte")
+             "Material of the surface: matte, plastic, glass or wax. Shapes beside it are matte")
             .one_of("matte|plastic|glass|wax")
             .initially("matte")
             .in(kLight)

@@ -14,97 +14,98 @@ constexpr auto kTable = of_commands(
     kForFigures | for_mesh,
     std::to_array<Property>({
         camera("camera.from", "--camera", "FILE",
-               "Camera as JSON, in a file or typed here; or PyMOL's get_view or ChimeraX's view matrix")
+               "Camera: JSON, PyMOL's get_view or ChimeraX's view matrix. A file, or the text itself")
             .initially("shows everything")
             .in(kCamera, kShared | live)
             .in_short_help(),
-        word("camera.projection", "--projection", "WORD",
-             "Projection of the default camera: perspective or orthographic")
+        word("camera.projection", "--projection", "WORD", "Projection of the camera: perspective or orthographic")
             .one_of("perspective|orthographic")
             .initially("perspective")
             .in(kCamera, kShared | live)
             .excludes("camera.from"),
         text("camera.view", "--view", "SIDE",
-             "Side that faces the viewer: front (the broad side), back, top, bottom, right, left; x, y, z: axes of the "
-             "file; 1, 2, 3: axes of inertia, longest first; symmetry: along the axis of --assembly, symmetry-side: "
-             "with that axis upright. A minus sign in front turns to the opposite side")
+             "Side that faces the viewer: front, back, top, bottom, right or left. front: the broad side; x, y, z: "
+             "axes of the file; 1, 2, 3: axes of inertia, longest first; symmetry: along the axis of --assembly; "
+             "symmetry-side: with that axis upright. A minus sign before it shows the opposite side")
             .initially("front")
             .in(kCamera, kShared | live)
             .in_short_help()
             .excludes("camera.from"),
         text("camera.turn", "--turn", "AXISANGLE",
-             "Turn the molecule about an axis of the picture, in degrees: y90, x-30, z45 (x points right, y up, z to "
-             "the viewer). Repeatable, in this order")
+             "Turn the molecule about an axis by degrees: y90, x-30, z45. x points right, y up, z to the viewer. "
+             "Repeatable, applied in this order")
             .in(kCamera, kShared | live | repeatable)
             .in_short_help(),
         text("camera.zoom_to", "--zoom-to", "EXPR", "Fill the picture with these atoms")
             .initially("all that --show leaves")
             .in(kCamera, kShared | live)
             .in_short_help(),
-        file("camera.path", "--camera-path", "FILE", "Key frames of a moving camera as JSON: frame, camera")
+        file("camera.path", "--camera-path", "FILE", "JSON file of key frames (frame, camera) of a moving camera")
             .in(kCamera, kShared)
             .of(kForFigures & ~for_preview)
             .excludes("camera.from|camera.view|camera.turn|camera.zoom_to"),
         number("camera.turntable", "--turntable", "TURNS",
-               "Turns of the camera around the molecule's middle over the run; negative: the other way round")
+               "Turns of the camera around the molecule over the run. Negative numbers turn the other way")
             .in(kCamera, kShared)
             .in_short_help()
             .of(kForFigures & ~for_preview),
-        text("camera.follow", "--follow", "EXPR", "Move the camera with the middle of these atoms")
+        text("camera.follow", "--follow", "EXPR", "Move the camera with the centre of these atoms")
             .in(kCamera, kShared)
             .of(kForFigures & ~for_preview),
-        new_file("camera.save", "--save-camera", "FILE", "Write the camera used, as JSON for --camera")
+        new_file("camera.save", "--save-camera", "FILE", "Save the camera as JSON, for --camera")
             .in(kCamera)
             .of(for_render | for_povray | for_path_tracers),
 
-        text("image.size", "--size", "WxH", "Size in pixels")
+        text("image.size", "--size", "WxH", "Size of the picture in pixels")
             .initially("1280x960")
             .in(kPicture, kShared | live)
             .in_short_help()
             .of(kForFigures | for_mesh | for_bench),
-        text("image.width", "--width", "LENGTH", "Width of the picture: 85mm, 8.5cm, 3.5in, 1000px; the height follows")
+        text("image.width", "--width", "LENGTH", "Width of the picture: 85mm, 8.5cm, 3.5in or 1000px")
             .in(kPicture, kShared | live)
             .in_short_help()
             .excludes("image.size"),
-        text("image.height", "--height", "LENGTH",
-             "Height of the picture in the same units; the width follows unless it is given")
+        text("image.height", "--height", "LENGTH", "Height of the picture in the same units")
             .in(kPicture, kShared | live)
             .excludes("image.size"),
-        number("image.dpi", "--dpi", "N", "Dots per inch, for lengths and for programs that print")
+        number("image.dpi", "--dpi", "N", "Resolution of the picture in dots per inch")
             .from(1, 1e5)
             .initially("300 for lengths")
             .in(kPicture, kShared | live),
-        count("image.samples", "--samples", "N", "Rays per pixel; the first goes through its centre")
+        count("image.samples", "--samples", "N", "Rays per pixel, for smooth edges")
             .from(1, 1024)
             .initially("9")
             .in(kPicture, kShared | live)
             .in_short_help()
             .of(for_render | for_preview),
-        text("image.background", "--background", "COLOR", "transparent, white, black or #rrggbb")
+        text("image.background", "--background", "COLOR",
+             "Background: transparent, white, black, or a colour (grey, #rrggbb)")
             .proposes("transparent|white|black")
             .initially("transparent")
             .in(kPicture, kShared | live)
             .in_short_help()
             .of(for_render | for_preview),
-        flag("image.aovs", "--aovs", "Add Z, N.xyz, P.xyz, atom, kind and component of each pixel's centre to an .exr")
+        flag("image.aovs", "--aovs",
+             "Add depth, normals, positions and atoms to an .exr. Channels: Z, N.xyz, P.xyz, atom, kind and component "
+             "at each pixel's centre")
             .in(kPicture, kShared)
             .of(for_render),
         text("image.extent", "--extent", "WORD",
-             "Compute on the GPU only what this view needs: visible (the same picture, pixel for pixel); complete "
-             "(everything, by the same method); paper (as Krone et al. 2010 select it: deep clefts may have holes)")
+             "Part of the surface that the GPU computes: visible, complete or paper. visible: what this view needs, "
+             "for the same picture; complete: everything, by the same method; paper: as Krone et al. 2010 select it, "
+             "where deep clefts may have holes")
             .proposes("visible|complete|paper")
             .in(kPicture, kShared)
             .of(for_render),
-        flag("picture.stats", "--stats",
-             "With --extent: print what each group of stages found, and its time, on standard error")
+        flag("picture.stats", "--stats", "With --extent: print counts and times of each group of stages")
             .in(kPicture, rare)
             .of(for_render),
-        flag("picture.provenance", "--provenance",
-             "Store the command line in .png, .tif, .jpg and .exr, so that the picture can be made again")
+        flag("picture.provenance", "--provenance", "Store the command line in the picture (.png, .tif, .jpg, .exr)")
             .in(kPicture, in_bundle)
             .of(for_render),
-        flag("picture.no_provenance", "--no-provenance",
-             "Do not store the program's version and the scene (all of these options, without folders)")
+        flag(
+            "picture.no_provenance", "--no-provenance",
+            "Do not store the scene and the version in the picture. The scene is all of these options, without folders")
             .in(kPicture, in_bundle)
             .of(for_render),
     }));

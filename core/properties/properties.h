@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Everything that a user can choose, declared once: options and their help, scene keys, bundles and the preview's
-// controls follow from these tables.
+// The tables of everything that a user can choose: options and their help, scene keys, bundles and the preview's
+// controls follow from them.
 #pragma once
 
 #include <span>

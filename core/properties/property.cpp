@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Derives from a property what its help says, which words it has, and what its value is in scene files.
+// Derives the help, the words and the values in scene files of a property.
 #include "core/properties/property.h"
 
 #include <algorithm>

@@ -10,69 +10,60 @@ namespace {
 constexpr std::string_view kOutput = "Output", kSession = "Session";
 
 constexpr auto kTable = std::to_array<Property>({
-    flag("report.json", "--json", "Print one JSON object instead of a table").in(kOutput).in_short_help(),
-    new_file("report.csv_atoms", "--csv", "FILE",
-             "Write areas of atoms, a row each; -: to standard output, and nothing else there")
+    flag("report.json", "--json", "Print JSON instead of a table").in(kOutput).in_short_help(),
+    new_file("report.csv_atoms", "--csv", "FILE", "Write areas, one row per atom. -: to standard output")
         .in(kOutput)
         .in_short_help(),
-    new_file("report.csv_residues", "--csv-residues", "FILE", "Write areas of residues, a row each; - as above")
+    new_file("report.csv_residues", "--csv-residues", "FILE", "Write areas, one row per residue. -: to standard output")
         .in(kOutput)
         .in_short_help(),
     new_file("report.csv_series", "--csv-series", "FILE",
-             "Write areas, volume and cavities of a run, a row a frame; - as above")
+             "Write areas, volume and cavities of a run, one row per frame. -: to standard output")
         .in(kOutput)
         .in_short_help(),
     new_file("report.csv_cavities", "--csv-cavities", "FILE",
-             "Write the cavities of each frame of a run, a row each: number, birth and end, volume, area, place, "
-             "residues around; - as above")
+             "Write the cavities of a run, one row per cavity and frame. Columns: number, birth and end, volume, area, "
+             "place, residues around; -: to standard output")
         .in(kOutput),
-    new_file("report.plot", "--plot", "FILE", "Draw areas and volumes of a run as curves over time, as SVG")
-        .in(kOutput),
+    new_file("report.plot", "--plot", "FILE", "Draw areas and volumes of a run as curves (SVG)").in(kOutput),
     new_file("report.gradients", "--gradients", "FILE",
-             "Write the exact derivatives of areas and volumes with respect to positions of atoms, a row each; - as "
-             "above")
+             "Write derivatives of areas and volumes, one row per atom. They are exact, with respect to the atom's "
+             "position; -: to standard output")
         .in(kOutput),
-    text("report.context", "--context", "EXPR",
-         "Also report the areas of --select in the presence of these atoms, and the difference: what is buried")
-        .in(kOutput),
-    new_file("report.csv_pockets", "--csv", "FILE",
-             "Write pockets, a row each; -: to standard output, and nothing else there")
+    text("report.context", "--context", "EXPR", "Report the area of --select that these atoms bury").in(kOutput),
+    new_file("report.csv_pockets", "--csv", "FILE", "Write one row per pocket. -: to standard output")
         .in(kOutput)
         .in_short_help(),
     new_file("report.pocket_mesh", "--mesh", "FILE",
-             "Write the pockets as closed meshes, each in its colour: PLY, OBJ, GLB, 3MF, STL, OFF or VTP by the "
-             "file's ending; of a run with # for the number")
+             "Write the pockets as closed meshes, each in its colour. Endings: .ply, .obj, .glb, .3mf, .stl, .off, "
+             ".vtp; for frames with # for the number")
         .in(kOutput)
         .in_short_help(),
-    new_file(
-        "report.pocket_figure", "--figure", "FILE",
-        "Write a scene for render, export and preview: atoms around pockets in colours, ligands as sticks; likewise")
+    new_file("report.pocket_figure", "--figure", "FILE",
+             "Write a scene that colours the atoms around pockets. For render, export and preview; ligands are sticks")
         .in(kOutput),
 
     text("preview.serve", "--serve", "[PORT]",
-         "Open no window; serve a page for browsers on 127.0.0.1, at this port or at any free one")
+         "Serve a web page instead of a window, on 127.0.0.1. PORT: by default any free one")
         .in(kSession, live | value_optional)
         .in_short_help(),
-    file("preview.commands", "--commands", "FILE", "Run these commands first, one JSON object a line")
+    file("preview.commands", "--commands", "FILE", "Run commands from this file first, one JSON object per line")
         .in(kSession, live),
-    new_file("preview.record", "--record", "FILE", "Write every command to this file, for --commands")
+    new_file("preview.record", "--record", "FILE", "Record all commands in this file, for --commands")
         .in(kSession, live),
-    new_file("preview.output_folder", "--output-dir", "FOLDER", "Folder of exports").initially(".").in(kSession, live),
+    new_file("preview.output_folder", "--output-dir", "FOLDER", "Folder for exports").initially(".").in(kSession, live),
 
-    count("bench.runs", "--runs", "N", "Timed runs of each; the median is shown")
+    count("bench.runs", "--runs", "N", "Number of timed runs; the median is shown")
         .from(1, 1e6)
         .initially("5")
         .in("Options"),
     flag("bench.numbers", "--numbers",
-         "Compute only what areas and volumes need, without the clip planes of pictures and exports")
+         "Time only what areas and volumes need. Clip planes of pictures and exports are left out")
         .in("Options"),
-    flag("bench.baseline", "--baseline",
-         "Also time Sanner's sequential rolling probe (reduced surface alone, one thread)")
+    flag("bench.baseline", "--baseline", "Also time Sanner's rolling probe (reduced surface, one thread)")
         .in("Options"),
-    flag("bench.paper", "--paper",
-         "Time whole frames instead, ray casting included, as in table 1 of the paper: complete and visible")
-        .in("Options"),
-    new_file("help.man", "--man", "FOLDER", "Write all pages as manual pages into this folder").in("Options"),
+    flag("bench.paper", "--paper", "Time whole frames with ray casting, as in table 1 of the paper").in("Options"),
+    new_file("help.man", "--man", "FOLDER", "Write all pages as man pages into this folder").in("Options"),
     flag("help.scene_schema", "--scene-schema", "Print the JSON schema of scene files").in("Options"),
 });
 

@@ -17,17 +17,17 @@ constexpr std::string_view kSurface = "Surface", kColour = "Colour", kFigure = "
 constexpr auto kTable = of_commands(
     kForFigures,
     std::to_array<Property>({
-        flag("surface.shown", "--hide-surface", "Draw only what is shown beside the surface")
+        flag("surface.shown", "--hide-surface", "Hide the surface; show only what is beside it")
             .in(kFigure, kSeen | live | negated),
-        text(
-            "surface.interface", "--interface", "A:B",
-            "Open the contact of two groups like a book, both sides facing the viewer, coloured by buried area: chains "
-            "(A:B, A,C:B) or EXPR:EXPR")
+        text("surface.interface", "--interface", "A:B",
+             "Open the contact of two groups like a book: A:B, A,C:B or EXPR:EXPR. Both sides face the viewer and are "
+             "coloured by buried area")
             .in(kSurface, kSeen)
             .in_short_help()
             .of((kForFigures & ~for_preview) | for_mesh),
         word("surface.kind", "--surface", "KIND",
-             "ses: solvent-excluded; sas: solvent-accessible; vdw: van der Waals, without a probe")
+             "Kind of surface: ses, sas or vdw. ses: solvent-excluded; sas: solvent-accessible; vdw: van der Waals, "
+             "without a probe")
             .one_of("ses|sas|vdw")
             .initially("ses")
             .in(kSurface, kSeen | live | of_surfaces)
@@ -39,33 +39,34 @@ constexpr auto kTable = of_commands(
             .in_short_help()
             .of(kForRuns | for_bench),
         text("surface.show", "--show", "EXPR",
-             "Compute the surface of all atoms used, but draw and export only the part of these")
+             "Show only the surface of these atoms. It is still computed with all atoms")
             .in(kSurface, kShared | live | of_surfaces)
             .in_short_help()
             .of(kForFigures | for_mesh | for_pockets),
         text("surface.by", "--by", "WORD",
-             "Several objects: chain, model, class (polymer, ligand, ...) or residue: each a surface of its own, as if "
-             "it were alone; component: each closed part of the one surface")
+             "Split into objects: by chain, model, class, residue or component. chain, model, class (polymer, ligand, "
+             "...), residue: each has a surface as if it were alone; component: each closed part of the one surface")
             .proposes("chain|model|class|residue|component")
             .in(kSurface, kSeen)
             .in_short_help()
             .of(kForParts),
         word("surface.cavities", "--cavities", "WORD",
-             "keep them; drop: only what can be reached from outside; only: cavities and what lies in them")
+             "Cavities: keep, drop or only. drop: leave out what cannot be reached from outside; only: cavities and "
+             "what lies in them")
             .one_of("keep|drop|only")
             .initially("keep")
             .in(kSurface, kSeen)
             .of(kForParts),
         text("surface.device", "--device", "DEVICE",
-             "auto (a GPU if there is one, else cpu), gpu, gpu:N (or UUID, PCI address), software (OpenGL without a "
-             "GPU), or cpu")
+             "Device: auto, gpu, gpu:N, software or cpu. auto: a GPU if there is one, else cpu; N: a number, UUID or "
+             "PCI address; software: OpenGL without a GPU")
             .proposes("auto|gpu|software|cpu")
             .initially("auto")
             .in(kDevice)
             .in_short_help()
             .of(kForRuns | for_bench),
         flag("surface.require_gpu", "--require-gpu",
-             "Fail (exit code 4) where there is no hardware GPU, instead of using the CPU or software OpenGL")
+             "Fail with exit code 4 if there is no hardware GPU. Without it the CPU or software OpenGL is used")
             .in(kDevice)
             .of(kForRuns | for_bench),
         count("surface.threads", "--threads", "N", "Number of CPU threads")
@@ -73,64 +74,65 @@ constexpr auto kTable = of_commands(
             .initially("all")
             .in(kDevice)
             .of((kForRuns & ~for_preview) | for_bench),
-        flag("surface.verify", "--verify", "Compute on GPU and CPU, mesh, and report every difference")
+        flag("surface.verify", "--verify", "Compute on GPU and CPU, and report every difference")
             .in(kDevice, in_bundle)
             .of(for_surface | for_render | kForExports | for_mesh | for_atoms | for_bench),
 
         text("surface.color", "--color", "SCHEME",
-             "Colour scheme: element, element-cpk (darker), chain, copy (of an assembly), residue (type), kind (of "
-             "patch), component, a colour (red, #rrggbb); or by a number: bfactor, occupancy, charge, hydrophobicity "
-             "(Kyte & Doolittle 1982), index, radial (for capsids); meniscus colors explains them. EXPR=COLOR colours "
-             "some atoms, as in 'ligand=orange'. Repeatable; the last counts")
+             "Colour: a scheme, a colour (red, #rrggbb), or EXPR=COLOR. Schemes: element, element-cpk (darker), chain, "
+             "copy (of an assembly), residue (type), kind (of patch), component; by a number: bfactor, occupancy, "
+             "charge, hydrophobicity (Kyte & Doolittle 1982), index, radial (for capsids). EXPR=COLOR colours some "
+             "atoms, as in 'ligand=orange'. Repeatable; the last one counts. meniscus colors explains the schemes")
             .initially("element")
             .in(kColour, kSeen | live | repeatable | of_objects)
             .in_short_help()
             .of(kForColours),
         file("surface.color_by_file", "--color-by-file", "NUMBERS",
-             "Colour by numbers from a file: one for each atom of FILE or each atom used; lines of chain, residue and "
-             "number; or a CSV table, such as meniscus surface --csv-residues writes. nan, ? or - mean missing")
+             "Colour by numbers from a file. One number per atom of FILE or per atom used; lines of chain, residue and "
+             "number; or a CSV table, such as meniscus surface --csv-residues writes. nan, ? and - mean missing")
             .in(kColour, kSeen | live)
             .in_short_help()
             .of(kForColours),
-        text("surface.color_column", "--color-column", "NAME", "Column of that table")
+        text("surface.color_column", "--color-column", "NAME", "Column of the table of --color-by-file")
             .in(kColour, kSeen | live)
             .of(kForColours)
             .needs("surface.color_by_file"),
         file("surface.color_map_file", "--color-map-file", "FILE",
-             "Colour each point of the surface by a volume map, such as a potential from APBS: OpenDX (.dx), Gaussian "
-             "cube, CCP4/MRC; needs --color-range. Its --map is red-white-blue unless you choose another")
+             "Colour by a volume map, such as a potential from APBS. Formats: OpenDX (.dx), Gaussian cube, CCP4/MRC. "
+             "Needs --color-range; the default --map is red-white-blue")
             .in(kColour, kSeen)
             .in_short_help()
             .of(kForColours)
             .excludes("surface.color_by_file"),
-        number("surface.map_offset", "--map-offset", "Å",
-               "Sample the volume map this far outside the surface, along its normal; centres of solvent lie at 1.4")
+        number(
+            "surface.map_offset", "--map-offset", "Å",
+            "Distance outside the surface at which the map is sampled, in Å. Centres of solvent molecules lie at 1.4")
             .from(-20, 20)
             .initially("0")
             .in(kColour, kSeen | rare)
             .of(kForColours)
             .needs("surface.color_map_file"),
         text("surface.map", "--map", "MAP",
-             "Colour map of numbers: viridis, cividis, magma, blue-white-red (default for hydrophobicity), "
-             "red-white-blue (default for charge: negative is red), blues and ylorrd (light), consurf (grades 1 to 9), "
-             "categorical (each number has its own colour)")
+             "Colour map for numbers, such as viridis or blue-white-red. Others: cividis, magma, red-white-blue "
+             "(default for charge: negative is red), blues and ylorrd (light), consurf (grades 1 to 9), categorical "
+             "(each number has its own colour). blue-white-red is the default for hydrophobicity")
             .initially("viridis")
             .in(kColour, kSeen | live | of_objects)
             .in_short_help()
             .of(kForColours),
         file("surface.map_file", "--map-file", "FILE",
-             "A colour map of your own: lines with a colour, or a position and a colour; or a JSON list of them")
+             "File of a colour map: one colour per line, or a position and a colour. A JSON list of them is read, too")
             .in(kColour, kSeen | live)
             .of(kForColours),
         text("surface.color_range", "--color-range", "LO:HI",
-             "Numbers at the ends of the colour map, or auto: the smallest and the largest (charge is symmetric about "
-             "0, hydrophobicity has -4.5:4.5)")
+             "Numbers at the ends of the colour map, or auto. auto: the smallest and the largest; for charge symmetric "
+             "about 0, for hydrophobicity -4.5:4.5")
             .initially("auto")
             .in(kColour, kSeen | live | of_objects)
             .in_short_help()
             .of(kForColours),
         text("surface.missing_color", "--missing-color", "COLOR",
-             "Colour of atoms without a number, and of points outside the volume map")
+             "Colour of atoms without a number and points outside the map")
             .initially("#808080; cividis #cc79a7; consurf #ffff96")
             .in(kColour, kSeen | live | of_objects)
             .of(kForColours),
@@ -141,29 +143,27 @@ constexpr auto kTable = of_commands(
             .in(kColour, kShared)
             .of(kForColours),
         text("surface.opacity", "--opacity", "EXPR=N",
-             "Opacity from 0 (hidden) to 1: EXPR=0.4 for some atoms, or a number alone for all. Repeatable; the last "
-             "counts")
+             "Opacity from 0 (hidden) to 1: a number, or EXPR=0.4 for some atoms. Repeatable; the last one counts")
             .in(kFigure, kSeen | live | repeatable | of_objects)
             .in_short_help(),
         flag("surface.film_opacity", "--film-opacity",
-             "Make transparent surfaces denser where the line of sight grazes them, like a thin film")
+             "Make transparent surfaces denser at grazing angles, like a thin film")
             .in(kFigure, kSeen | live | of_surfaces),
         text("surface.clip", "--clip", "PLANE",
-             "Keep the part of the surface where this holds, with exact caps: x<20, 1,1,0>35 (a direction), or "
-             "depth>0.5 along the line of sight (0 nearest, 1 farthest). Repeatable; all apply")
+             "Cut by a plane with exact caps: x<20, 1,1,0>35 or depth>0.5. The part where this holds is kept. depth "
+             "runs along the line of sight from 0 (nearest) to 1 (farthest). Repeatable; all apply")
             .in(kFigure, kSeen | live | repeatable | of_surfaces)
             .in_short_help(),
         text("surface.cap_color", "--cap-color", "COLOR",
-             "Colour of caps: atom (that of the nearest atom) or a colour (red, #rrggbb)")
+             "Colour of caps: atom (that of the nearest) or a colour (red, #rrggbb)")
             .initially("atom")
             .in(kFigure, kSeen | live | of_surfaces),
-        number("surface.cap_hatching", "--cap-hatching", "Å", "Distance in Å between dark lines on caps; 0: no lines")
+        number("surface.cap_hatching", "--cap-hatching", "Å", "Distance of dark lines on caps, in Å; 0: no lines")
             .from(0, 1000)
             .initially("0")
             .in(kFigure, kSeen | live | of_surfaces),
 
-        text("figure.sticks", "--sticks", "EXPR",
-             "Draw the bonds of these atoms as sticks. Repeatable; may name atoms outside --select")
+        text("figure.sticks", "--sticks", "EXPR", "Draw these atoms as sticks, also outside --select. Repeatable")
             .in(kBeside, in_bundle | live | repeatable)
             .in_short_help()
             .of(kForFigures | for_mesh),
@@ -176,7 +176,8 @@ constexpr auto kTable = of_commands(
             .in_short_help()
             .of(kForFigures | for_mesh),
         text("figure.tube", "--tube", "EXPR",
-             "Draw the backbone of these atoms as a tube, helices as ribbons, strands as arrows")
+             "Draw the backbone of these atoms as a cartoon: tubes, ribbons, arrows. Helices are ribbons, strands are "
+             "arrows")
             .in(kBeside, in_bundle | live | repeatable)
             .in_short_help()
             .of(kForFigures | for_mesh),
@@ -185,46 +186,45 @@ constexpr auto kTable = of_commands(
             .initially("0.25; 0.15 between balls")
             .in(kBeside, kSeen | live)
             .of(kForFigures | for_mesh),
-        number("shapes.tube_radius", "--tube-radius", "Å", "Radius of tubes in Å; ribbons and arrows scale with it")
+        number("shapes.tube_radius", "--tube-radius", "Å", "Radius of tubes in Å. Ribbons and arrows scale with it")
             .from(0.001, 10)
             .initially("0.3")
             .in(kBeside, kSeen | live)
             .of(kForFigures | for_mesh),
         text("figure.object", "--object", "JSON",
-             "Draw one more object with its own colour, opacity, material and cuts, as in a scene file: "
-             "'{\"representation\": \"surface\", \"selection\": \"chain B\", \"color\": \"red\"}'. Repeatable")
+             "Draw one more object with its own look, as JSON of a scene file. Such as '{\"representation\": "
+             "\"surface\", \"selection\": \"chain B\", \"color\": \"red\"}'. Repeatable")
             .in(kBeside, in_bundle | live | repeatable),
 
         // Beyond the largest probe every atom neighbours every other; large probes in mouths become more with the
         // inverse of their tolerance.
         number("pockets.large_probe", "--large-probe", "Å",
-               "Radius of the probe that rolls over the mouths, in Å; a larger one finds wider, shallower pockets")
+               "Radius of the probe that rolls over the mouths, in Å. A larger one finds wider, shallower pockets")
             .from(1e-3, 100)
             .initially("4")
             .in(kSurface)
             .of(for_pockets),
-        number(
-            "pockets.trim", "--trim", "Å",
-            "Depth below the large probe's surface at which pockets begin, in Å; more separates neighbours that meet "
-            "there")
+        number("pockets.trim", "--trim", "Å",
+               "Depth at which pockets begin below the large probe's surface, in Å. More separates neighbours that "
+               "meet there")
             .from(0, 100)
             .initially("1")
             .in(kSurface)
             .of(for_pockets),
-        number("pockets.min_volume", "--min-volume", "Å³", "Leave out smaller pockets")
+        number("pockets.min_volume", "--min-volume", "Å³", "Smallest volume of a pocket")
             .from(0, 1e9)
-            .initially("30: a molecule of water")
+            .initially("30: one molecule of water")
             .in(kSurface)
             .in_short_help()
             .of(for_pockets),
         number("pockets.mouth_tolerance", "--mouth-tolerance", "Å",
-               "Farthest that a mouth may lie outside its place, in Å; less takes longer")
+               "Largest error of a mouth's position, in Å; less takes longer")
             .from(1e-3, 1)
             .initially("0.1")
             .in(kSurface)
             .of(for_pockets),
         text("pockets.ligand", "--ligand", "EXPR",
-             "Atoms that are taken out first, and whose places are reported; none: leave them in")
+             "Atoms to take out first, whose places are reported; none: leave all in")
             .initially("ligand")
             .in(kSurface)
             .in_short_help()

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pairs cavities by the probes at rest in them.
+// Matches cavities by the probes at rest in them.
 #include "core/queries/cavity_tracks.h"
 
 #include <algorithm>

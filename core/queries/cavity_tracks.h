@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cavities of one surface after another, followed: which of them is which of those before.
+// Follows cavities from one surface to the next: which cavity is which.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shapes beside a surface with their colours, as pictures and exporters take them.
+// Shapes beside a surface with their colours, for pictures and exporters.
 #pragma once
 
 #include "core/color/coloring.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two surfaces of the same atoms, primitive by primitive.
+// Compares two surfaces of the same atoms, primitive by primitive.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces and copies of them: as one surface, moved row by row, and whether they keep clear of each other.
+// Surfaces and their copies joined into one surface, row by row, and whether copies keep clear of each other.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ struct SurfaceObject;
 /// is still empty. Throws CapacityError when a table gets more rows than an index can count.
 void append(Surface& whole, const Surface& part, const RigidMotion& motion = {});
 
-/// One object with every copy of every given one, in order, standing where they stand. A single object with a single
+/// One object with every copy of every given one, in order, standing where they are. A single object with a single
 /// copy that is not moved passes through as it is. Colours, opacities and atoms follow, the hidden stay hidden;
 /// either all objects are coloured by patch kind, alike, or none is. No objects: an empty one. Throws CapacityError.
 SurfaceObject merged(std::vector<SurfaceObject> objects);
@@ -59,7 +59,7 @@ inline ConcavePatch moved(ConcavePatch patch, const RigidMotion& motion) {
   return patch;
 }
 
-/// Balls that stand at several places.
+/// Balls that are at several places.
 struct CopiedBalls {
   std::span<const Ball> balls;
   std::span<const RigidMotion> motions;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Feet of perpendiculars on spheres, tori and circles, and which of them the surface has.
+// Finds feet of perpendiculars on spheres, tori and circles, and those that lie on the surface.
 #include "core/queries/distance.h"
 
 #include <algorithm>
@@ -177,7 +177,7 @@ struct SurfaceDistance::Index {
     return next;
   }
 
-  // Where a probe may be that stands against an atom, two, or three.
+  // Where a probe may be that is against an atom, two, or three.
   Tables<3> list_accessible() const {
     Tables<3> t;
     for (const ConvexPatch& patch : s.convex)

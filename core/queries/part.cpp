@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Copies the rows of the components that stay and renumbers what points at them.
+// Copies the rows of the components that stay, and renumbers the references to them.
 #include "core/queries/part.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Some closed parts of a surface as a surface of their own: without its cavities, or one component alone.
+// Some closed parts of a surface as a surface of their own, such as the surface without its cavities.
 #pragma once
 
 #include <cstdint>

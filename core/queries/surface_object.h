@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A surface as a thing in a picture or an export: its name, its colours, and where its copies stand.
+// A surface as an object of a picture or an export: its name, its colours, and the positions of its copies.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct SurfaceObject {
   Surface surface;
   Coloring coloring;                ///< one colour per surface.atoms
   std::vector<std::uint32_t> atom;  ///< per surface.atoms: index into Structure::atoms
-  /// Where the surface stands; the first is usually the identity. Copies share everything else.
+  /// Where the surface is; the first is usually the identity. Copies share everything else.
   std::vector<RigidMotion> copies{RigidMotion{}};
   bool whole = true;  ///< no part of the surface of its atoms is left out
 };

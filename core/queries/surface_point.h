@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is known of a point in closed form: the curvature of the patch it lies on, and whether it lies in the solvent.
+// Properties of a point in closed form: the curvature of its patch, and whether it lies in the solvent.
 #pragma once
 
 #include <cstdint>

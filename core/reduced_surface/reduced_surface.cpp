@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decision weights and swallowed atoms: the two conventions every way of finding the reduced surface shares.
+// Computes decision weights and finds swallowed atoms: two conventions that all ways to the reduced surface share.
 #include "core/reduced_surface/reduced_surface.h"
 
 #include <algorithm>

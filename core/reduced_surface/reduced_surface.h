@@ -70,7 +70,7 @@ double decided_within(double roundoff, std::size_t ties, double protruding);
 /// The decision weight of a fixed probe where probes cut each other: grown by 1e-12 to 1.5e-12 Å only. Two probes may
 /// be as near as 1e-6 Å, and growth moves the plane between them by its ratio to their distance; through it run the
 /// axes of spindle circles, which do not move. Copies about a symmetry axis have such probes, and their exact ties
-/// remain broken: quadruple precision tells weights apart that differ by far less.
+/// remain broken: quadruple precision distinguishes weights that differ by far less.
 double probe_decision_weight(double probe_radius, std::size_t index);
 
 /// Atoms whose SAS ball lies in that of an atom that is not swallowed itself, but for 1e-6 Å (ties: the lower index
@@ -79,7 +79,7 @@ std::vector<bool> swallowed_atoms(std::span<const Ball> atoms, double* protrudin
 
 /// swallowed_atoms() of one frame after another: whoever could swallow whom is found once, with room for a way that all
 /// atoms may go. As long as none has gone farther, and radii are the same, only those pairs are asked again; where
-/// atoms go farther from frame to frame all is found anew.
+/// atoms go farther from frame to frame all is found again.
 class SwallowedAtoms {
  public:
   std::vector<bool> of(std::span<const Ball> atoms);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points of spheres without arcs against the balls around them, nearest cells first.
+// Tests points of spheres without arcs against the balls around them, nearest cells first.
 #include "core/reduced_surface/whole_spheres.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which SAS spheres without an arc are exposed, and whether the arcs that were found can be all there are.
+// Decides which SAS spheres without an arc are exposed, and whether the arcs that were found can be complete.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Places texts and lines, and draws them as shares of pixels.
+// Places texts and lines, and blends them into pixels by the share that they cover.
 #include "core/render/annotation.h"
 
 #include <algorithm>
@@ -165,7 +165,7 @@ class AnnotationLayer::Writer {
     taken_.push_back({low, high});
   }
 
-  /// From the least of its numbers to the greatest, which stand at its left; the present one stands above.
+  /// From the least of its numbers to the greatest, which are at its left; the present one is above.
   void curve(const Curve& curve) {
     const auto ends = std::ranges::minmax(curve.values);
     const double least = ends.min, greatest = ends.max;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is written into a finished picture: the panel's letter, a scale bar, names of places, the time of a frame.
+// Annotations of a finished picture: the panel's letter, a scale bar, labels, the time of a frame.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the ray caster reads, as it stands in GPU memory; host code or kernels make it.
+// The ray caster's data in GPU memory; host code or kernels make it.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ struct ScenePlacement {
 };
 
 /// Records and rows are those of gpu_shaders/ray_cast/records.glsl. Positions are relative to the pivot of the picture
-/// (PictureFrame), so that a scene belongs to one camera. Primitives stand in any order; what the picture does not show
+/// (PictureFrame), so that a scene belongs to one camera. Primitives are in any order; what the picture does not show
 /// may be there or not: the picture is the same to the bit.
 struct GpuScene : ScenePlacement {
   Buffer counters;  ///< uint32 each; word 0: how many primitives there are, which kernels may know before the host

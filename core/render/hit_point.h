@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where in the molecule the ray through a pixel's centre met something, and to which closed part of the surface it
-// belongs.
+// The point of the molecule that the ray through a pixel's centre meets, and the closed part of the surface it belongs
+// to.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ HitPoint hit_point(const PictureFrame& frame, glm::ivec2 pixel, float t);
 /// What the ray through the centre of a pixel hits.
 struct PickedPoint {
   std::uint32_t atom = kNone;     ///< index into the atoms of the object
-  std::optional<PatchKind> kind;  ///< nothing: it is no patch, but a cap or a shape
+  std::optional<PatchKind> kind;  ///< nothing: it is not a patch, but a cap or a shape
   glm::dvec3 position{0.0};       ///< Å
   std::uint32_t object = 0;       ///< of those that are drawn; of copies: whose
   std::uint32_t copy = 0;         ///< which of them

@@ -46,7 +46,7 @@ namespace {
 class MemoryFile {
  public:
   MemoryFile() : descriptor_(::memfd_create("meniscus", MFD_CLOEXEC)) {
-    if (descriptor_ < 0) throw CapacityError(std::string("no file in memory: ") + std::strerror(errno));
+    if (descriptor_ < 0) throw CapacityError(std::string("cannot make a file in memory: ") + std::strerror(errno));
   }
   ~MemoryFile() { ::close(descriptor_); }
   MemoryFile(const MemoryFile&) = delete;
@@ -213,7 +213,7 @@ void refuse_limited_size(const std::filesystem::path& path, const ImageToEncode&
   rlimit limit{};
   if (::getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur >= largest) return;
   throw OutputError(text_of_path(path),
-                    fmt::format("may have up to {} bytes, and the system allows files of {} (ulimit -f)",
+                    fmt::format("may have up to {} bytes, but the system limits files to {} (ulimit -f)",
                                 with_thousands(largest), with_thousands(limit.rlim_cur)));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures as files: PNG, JPEG, WebP and TIFF for eyes, EXR for compositing, whole or not at all.
+// Pictures as files: PNG, JPEG, WebP and TIFF to look at, EXR for compositing; complete or not at all.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A legend beside the molecule: what its colours mean, as a bar with numbers or as named swatches.
+// A legend beside the molecule: a bar with numbers, or named swatches, that explain its colours.
 #pragma once
 
 #include <optional>
@@ -36,7 +36,7 @@ struct LegendStyle {
 };
 
 /// The legend takes a strip at the right of a picture or at its bottom; the molecule is framed in the rest, so nothing
-/// of it is covered. Letters are a thirtieth of the picture's shorter side, at least 9 pixels, unless told otherwise.
+/// of it is covered. Letters are a thirtieth of the picture's shorter side, at least 9 pixels, unless set otherwise.
 class Legend {
  public:
   /// Throws RequestError when the picture is too small for it, or when there is no font.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the bar, the swatches and the text of a legend stand.
+// Places the bar, the swatches and the text of a legend.
 #include <algorithm>
 #include <cmath>
 
@@ -19,7 +19,7 @@ int letter_height(glm::ivec2 size) { return std::max(kSmallestLetters, std::min(
 
 std::string number_text(double number) { return fmt::format("{:.4g}", number == 0.0 ? 0.0 : number); }
 
-/// Whether a name stands before another one: numbers in them count as numbers, so that chain 2 stands before chain 10.
+/// Whether a name is before another one: numbers in them count as numbers, so that chain 2 is before chain 10.
 bool by_name(std::string_view a, std::string_view b) {
   const auto digits = [](std::string_view text) { return std::min(text.find_first_not_of("0123456789"), text.size()); };
   while (!a.empty() && !b.empty()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Takes colours out of sRGB, and puts into alpha what is hidden or seen through.
+// Converts colours from sRGB to linear light, and puts opacity into alpha.
 #include "core/render/linear_colors.h"
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colours as rays take them.
+// Colours in linear light, as rays use them.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lists what each preset of a look is made of, and applies what is asked for instead of single parts.
+// Defines the presets of the look, and overrides single values of them.
 #include "core/render/look.h"
 
 #include <algorithm>

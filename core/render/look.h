@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a picture looks, apart from what it shows: light, shade, lines and materials; looks by name, and parts asked for.
+// The look of a picture: light, shade, lines and materials; presets by name, and single values.
 #pragma once
 
 #include <algorithm>
@@ -60,13 +60,13 @@ struct Look {
   /// How far shade is cast, Å.
   float ambient_occlusion_radius = 8.0f;
 
-  /// Width in pixels, at most 16, of black lines where something stands in front of something else, the stronger the
+  /// Width in pixels, at most 16, of black lines where something is in front of something else, the stronger the
   /// farther, and where parts meet (Coloring::part). 0: none.
   float silhouettes = 0.0f;
-  /// The same of single kinds of lines: around all, around what stands in front of something else, where parts meet.
+  /// The same of single kinds of lines: around all, around what is in front of something else, where parts meet.
   /// Nothing: silhouettes.
   std::optional<float> outer_lines, inner_lines, part_lines;
-  /// How far something must stand in front of something else for a line between them, as a share of what the picture's
+  /// How far something must be in front of something else for a line between them, as a share of what the picture's
   /// shorter side shows, and half an Å: so that atoms are outlined close by, and domains from afar. 0: of two pixels.
   float line_step = 0.0f;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the GPU makes of cast pixels: shade, air and ink by their neighbours, then a texture for windows and encoders.
+// Post-processing on the GPU: shade, depth cueing and silhouettes, then a texture for windows and encoders.
 #pragma once
 
 #include <cstdint>

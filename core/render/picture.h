@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A finished picture in memory, and what is wanted of one, whatever makes it.
+// A finished picture in memory, and a request for one, whatever device makes it.
 #pragma once
 
 #include <cstdint>

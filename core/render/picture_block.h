@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A part of a picture, what both ways of casting it are told, and the picture put together from such parts.
+// A block of a picture: the parameters for casting it, and the picture put together from such blocks.
 #pragma once
 
 #include <cstdint>

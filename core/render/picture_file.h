@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A picture on its way from a renderer to its file: annotated, its legend beside it, some rows at a time.
+// A picture on its way from a renderer to its file: with annotations and legend, some rows at a time.
 #pragma once
 
 #include <filesystem>

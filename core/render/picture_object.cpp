@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tells which objects need layers, and finds balls that enclose what a picture shows.
+// Decides which objects need layers, and finds balls that enclose what a picture shows.
 #include "core/render/picture_object.h"
 #include "core/color/coloring.h"
 #include "core/surface/primitives.h"

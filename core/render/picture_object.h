@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The things that a picture shows: surfaces and shapes, whole or cut by planes, opaque or seen through.
+// The objects of a picture: surfaces and shapes, whole or cut by planes, opaque or transparent.
 #pragma once
 
 #include <cstdint>

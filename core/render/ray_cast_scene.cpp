@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Packing patches and their bounds; every number is made in double and rounded once.
+// Packs patches and their bounds; every number is computed in double and rounded once.
 #include "core/render/ray_cast_scene.h"
 
 #include <algorithm>
@@ -51,7 +51,7 @@ std::vector<PatchRange> ranges_of(const Surface& surface) {
 
 class Packer {
  public:
-  /// scene: with its slack. motion: where the surface stands; nullptr: as it is.
+  /// scene: with its slack. motion: where the surface is; nullptr: as it is.
   Packer(const Surface& surface, const Coloring& coloring, const PictureFrame& frame, RayCastScene& scene,
          const RigidMotion* motion = nullptr, std::uint32_t first_atom = 0)
       : surface_(surface),
@@ -160,7 +160,7 @@ class Packer {
     scene_.primitives.push_back(primitive);
   }
 
-  /// The patch stands where it is placed; likewise below.
+  /// The patch is where it is placed; likewise below.
   geometry::SaddleShape shape(const ToroidalPatch& patch) const {
     const auto height = [&](int i) {
       return glm::dot(placed(surface_.atoms[patch.atom[i]]).center - patch.center, patch.axis);
@@ -242,7 +242,7 @@ class Packer {
   std::vector<glm::dvec3> directions_;  // of a probe's contacts; kept for its memory
 };
 
-/// Where a part of a scene stands in the whole.
+/// Where a part of a scene is in the whole.
 struct PartPlace {
   std::size_t primitive = 0, row = 0;
 };

@@ -31,11 +31,11 @@ struct PictureFrame {
   double pixel_size = 0.0;    ///< on the plane through the pivot, Å
 };
 
-/// Balls that stand together, as they are or moved: so that copies need not be in memory all at once.
+/// Balls that are together, as they are or moved: so that copies need not be in memory all at once.
 struct BallGroup {
   std::span<const Ball> balls;
   const RigidMotion* motion = nullptr;  ///< nullptr: as they are
-  glm::dvec3 center{0.0};               ///< of a ball around all of them where they stand, Å
+  glm::dvec3 center{0.0};               ///< of a ball around all of them where they are, Å
   double radius = std::numeric_limits<double>::infinity();
 };
 
@@ -49,7 +49,7 @@ float patch_slack(std::span<const Ball> atoms, double probe_radius, const Pictur
 ScenePlacement place_atoms(std::span<const Ball> atoms, double probe_radius, const PictureFrame& frame);
 ScenePlacement place_atoms(std::span<const BallGroup> groups, double probe_radius, const PictureFrame& frame);
 
-/// What the kernel reads. Primitives stand by kind and index; those behind the camera are left out.
+/// What the kernel reads. Primitives are by kind and index; those behind the camera are left out.
 struct RayCastScene {
   std::vector<ray_cast::Primitive> primitives;
   std::vector<glm::vec4> rows;
@@ -80,7 +80,7 @@ struct PackedCopy {
   std::uint32_t first_atom;  ///< its first atom's number among those of all
 };
 
-/// Some of its patches, as pack_scene() packs the surface where it stands, on one thread. Only tie keys count from
+/// Some of its patches, as pack_scene() packs the surface where it is, on one thread. Only tie keys count from
 /// first_atom, indices of atoms stay the surface's own.
 RayCastScene pack_patches(const PackedCopy& copy, std::span<const BoundedPatch> patches, const PictureFrame& frame);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The host's side of ray casting a block: lists of tiles, a dispatch for each sample, and again for long lists.
+// The host's side of ray casting a block: lists for tiles, a dispatch for each sample, and further ones for long lists.
 #include "core/render/ray_caster.h"
 
 #include <string>
@@ -210,7 +210,7 @@ void RayCaster::finish_long_lists(std::uint32_t longest, const GpuScene& scene, 
     }
     if (unfinished_.download<std::uint32_t>(1, sizeof(std::uint32_t)).front() == 0) return;
   }
-  throw CapacityError("some rays meet more than this driver's kernels can go through; use another device");
+  throw CapacityError("some rays meet more patches than this driver's kernels can process; use another --device");
 }
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures of the analytic surface on the GPU, one ray a sample, never a mesh; which primitives may show in which tile.
+// Pictures of the analytic surface on the GPU, one ray per sample, never a mesh; the primitives that a tile may show.
 #pragma once
 
 #include <functional>

@@ -82,11 +82,11 @@ class Renderer {
 
   /// A finished picture over the look's background, which stays on the GPU as texture(). stop: asked now and then; if
   /// true, the picture is given up: false, the texture shows the one before, and there is nothing to pick. The drawable
-  /// must stay as long as somebody picks. Throws as render().
+  /// must stay as long as someone picks. Throws as render().
   bool draw(Drawable& drawable, const Camera& camera, const RenderSettings& settings,
             const std::function<bool()>& stop = {});
 
-  /// Whether draw() asks the GPU what a picture needs before or after it is made; at first as suits the device.
+  /// Whether buffer sizes are read back before or after drawing. The default is the faster way for the device.
   void set_counting(Counting counting) { counting_ = counting; }
 
   /// The last drawn picture, 8 bit sRGB and alpha (255) per pixel, rows from the top.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A bound and rows for each shape; every number is made in double and rounded once.
+// Packs a bound and rows for each shape; every number is computed in double and rounded once.
 #include "core/render/shape_packing.h"
 
 #include <algorithm>

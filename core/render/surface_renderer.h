@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures of computed surfaces, whatever makes them: the CPU or GL.
+// Pictures of computed surfaces, by the CPU or by GL.
 #pragma once
 
 #include <memory>

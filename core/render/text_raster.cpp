@@ -54,7 +54,7 @@ struct Font::Face {
   }
 
   /// Calls visit(left edge of the letter's box) with each letter of the text loaded into the face's slot; returns the
-  /// width of all. Letters stand on whole pixels, as hinting wants them.
+  /// width of all. Letters are on whole pixels, as hinting wants them.
   int for_each_letter(std::string_view text, const auto& visit) const {
     long x = 0;
     while (!text.empty()) {
@@ -77,7 +77,7 @@ std::optional<std::string> find_font_file() {
 
 Font::Font(int height) : face_(std::make_unique<Face>()), height_(height) {
   const std::optional<std::string> file = find_font_file();
-  if (!file) throw RequestError("--legend found no font to write with; install the package fonts-dejavu-core");
+  if (!file) throw RequestError("--legend: no font was found; install the package fonts-dejavu-core");
   if (FT_Init_FreeType(&face_->library) != 0 || FT_New_Face(face_->library, file->c_str(), 0, &face_->face) != 0 ||
       FT_Set_Pixel_Sizes(face_->face, 0, static_cast<FT_UInt>(height)) != 0)
     throw RequestError(*file + ": this font cannot be read; install the package fonts-dejavu-core again");

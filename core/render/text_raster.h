@@ -42,7 +42,7 @@ class Font {
   int capital_height_ = 0;
 };
 
-/// Text of a foreign file made fit to be drawn: control characters escaped, bytes that are no UTF-8 as '?', at most 24
+/// Text of a foreign file made fit to be drawn: control characters escaped, bytes that are not UTF-8 as '?', at most 24
 /// characters and then an ellipsis; "(blank)" for nothing.
 std::string drawable(std::string_view text);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Has no renderer on GL, in builds without epoxy: there is no context to call this with.
+// Replaces the GL renderer in builds without epoxy: without a context it is never called.
 #include "core/render/surface_renderer.h"
 
 namespace meniscus {

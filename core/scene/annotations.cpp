@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads labels and scale bars, and turns what is asked for into texts of a picture.
+// Reads labels and scale bars, and turns them into texts of a picture.
 #include "core/scene/annotations.h"
 
 #include <algorithm>
@@ -51,7 +51,7 @@ void parse_scale_bar(const std::string& text, AnnotationRequest& request) {
   double length = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), length);
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(length) || length <= 0.0)
-    throw RequestError(in_quotes(text) + " is no length in Å; give a number above 0, or auto");
+    throw RequestError(in_quotes(text) + " is not a length in Å; give a number above 0, or auto");
   request.bar_length = length;
 }
 

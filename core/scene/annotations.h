@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is written into a picture as a scene asks for it: its legend, a panel's letter, a scale bar, labels, the time.
+// The annotations that a scene asks for: its legend, a panel's letter, a scale bar, labels, the time.
 #pragma once
 
 #include <cstdint>

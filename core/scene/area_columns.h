@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The areas of atoms as columns of numbers: what tables, JSON and CSV print.
+// The areas of atoms as columns of numbers, for tables, JSON and CSV.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes selection and context together and finds the selection's atoms again.
+// Computes the selection and its context together, and finds the selection's atoms again.
 #include "core/scene/context_areas.h"
 
 #include <unordered_map>
@@ -14,7 +14,7 @@ namespace {
 
 void check(const MoleculeRequest& request) {
   if (!request.reading.selection)
-    throw RequestError("--context needs --select: of which atoms the area is wanted in the presence of others");
+    throw RequestError("--context needs --select: the atoms whose area is measured in the presence of others");
   if (request.file == "-") throw RequestError("--context reads the file twice; standard input can be read only once");
   if (!request.reading.assembly.empty()) throw RequestError("--context and --assembly cannot be combined");
 }

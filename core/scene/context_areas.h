@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What becomes of the area of some atoms in the presence of others: how much of it is buried.
+// The area of some atoms in the presence of others: how much of it is buried.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace meniscus {
 
-/// The atoms that stand around those of a molecule, and what they do to its areas.
+/// The atoms that are around those of a molecule, and what they do to its areas.
 struct ContextAreas {
   std::size_t atoms = 0;            ///< of the context alone
   std::vector<AreaColumn> columns;  ///< for each given one: "<name>_in_context", "<name>_buried" (the difference)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Goes through groups, copies and atoms in one order.
+// Lists groups, copies and atoms in one order.
 #include "core/scene/copied_atoms.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Copies drawn from one surface each by the CPU, or as atoms like all others by GL.
+// Draws copies: on the CPU from one computed surface each, on GL as atoms like all others.
 #include <algorithm>
 #include <cassert>
 #include <utility>

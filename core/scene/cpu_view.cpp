@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes what a view lacks, then draws it; gives up either where it is no longer wanted.
+// Computes what a view lacks, then draws it; stops either when it is no longer wanted.
 #include "core/scene/cpu_view.h"
 
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the views that the CPU draws have in common: surfaces are computed once for many cameras.
+// What views drawn by the CPU have in common: surfaces are computed once for many cameras.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One complete surface for many cameras.
+// Computes one complete surface, and draws it for many cameras.
 #include <algorithm>
 #include <utility>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Understands a comparison, and measures depths.
+// Parses cutting planes, and measures depths along the view.
 #include "core/scene/cut.h"
 
 #include <algorithm>
@@ -51,13 +51,14 @@ Cut parse_cut(std::string_view text) {
   std::erase(tight, ' ');
   const std::size_t sign = tight.find_first_of("<>");
   const auto refuse = [&](const char* why) {
-    return RequestError(fmt::format("{} is no plane: {}; such as x<20, 1,1,0>35 or depth>0.5", in_quotes(text), why));
+    return RequestError(
+        fmt::format("{} is not a plane: {}; write one such as x<20, 1,1,0>35 or depth>0.5", in_quotes(text), why));
   };
   if (sign == std::string::npos) throw refuse("there is no < or >");
   const std::optional<glm::dvec3> direction = parse_direction(std::string_view(tight).substr(0, sign));
-  if (!direction) throw refuse("before < or > stands x, y, z, depth or a direction of three numbers");
+  if (!direction) throw refuse("expected x, y, z, depth or a direction of three numbers before < or >");
   const std::optional<double> bound = parse_number(std::string_view(tight).substr(sign + 1));
-  if (!bound) throw refuse("behind < or > stands one number");
+  if (!bound) throw refuse("expected one number after < or >");
   return {*direction, tight[sign] == '<', *bound};
 }
 
@@ -109,7 +110,7 @@ std::vector<std::string> idle_cuts(std::span<const Cut> cuts, const Camera& came
     }
     const bool keeps_all = most <= plane.offset;
     if (!keeps_all && least < plane.offset) continue;
-    std::string where = "0 is its nearest place, 1 its farthest";
+    std::string where = "0 is its nearest point, 1 its farthest";
     if (cut.direction != glm::dvec3(0.0)) {
       // The plane's normal has the length 1, and points to what is cut away.
       const double scale = glm::length(cut.direction) * (cut.keeps_less ? 1.0 : -1.0);

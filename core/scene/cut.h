@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A plane that cuts what a picture shows, as a user says it: in the molecule's coordinates, or along the view.
+// A plane that cuts what a picture shows, as a user writes it: in the molecule's coordinates, or along the view.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Merges what can be merged, and gives the renderer the rest as objects.
+// Merges surfaces that can be merged, and gives the renderer the rest as objects.
 #include "core/scene/figure.h"
 
 #include <algorithm>

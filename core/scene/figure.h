@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A molecule as a figure shows it: its surface, cut or seen through, and what stands beside it.
+// A molecule as a figure shows it: its surface, cut or transparent, and the shapes and objects beside it.
 #pragma once
 
 #include <span>
@@ -22,11 +22,11 @@ struct FigureRequest {
   std::vector<Cut> cuts;            ///< of the surface
   CapStyle cap;                     ///< where they cut
   bool thickens = false;            ///< PictureObject::thickens
-  bool hides_surface = false;       ///< it is not drawn, only what stands beside it
+  bool hides_surface = false;       ///< it is not drawn, only what is drawn beside it
   Representations representations;  ///< beside the surface; not cut
   std::vector<FigureObjectRequest> objects;
 
-  /// Makes read_structure mark and keep the atoms of all that stands beside the surface.
+  /// Makes read_structure mark and keep the atoms of all that is beside the surface.
   void ask_for(ReadOptions& reading) const;
 
   /// Whether it is a surface and no more.
@@ -35,7 +35,7 @@ struct FigureRequest {
   }
 };
 
-/// What stands beside the molecule's surface, ready to be drawn. Atoms are places in shown_atoms().
+/// What is drawn beside the molecule's surface, ready to be drawn. Atoms are places in shown_atoms().
 struct BesideSurface {
   ColoredShapes shapes;               ///< of FigureRequest::representations
   std::vector<FigureObject> objects;  ///< one for each of FigureRequest::objects
@@ -50,7 +50,7 @@ struct Figure {
   Molecule molecule;
   BesideSurface beside;
 
-  /// For framing: atoms of the surface at all places, and what stands beside it.
+  /// For framing: atoms of the surface at all places, and what is drawn beside it.
   std::vector<Ball> balls() const;
 };
 
@@ -62,7 +62,7 @@ BesideSurface make_beside(const Structure& structure, const FigureRequest& reque
 void color_beside(const Structure& structure, const FigureRequest& request, const ColorScheme& scheme,
                   BesideSurface& beside);
 
-/// The molecule with what stands beside it. Throws as make_beside does.
+/// The molecule with what is drawn beside it. Throws as make_beside does.
 Figure make_figure(Molecule molecule, const FigureRequest& request);
 
 /// The planes that cut the surface, seen by this camera. objects: of all the surface, with their copies.
@@ -73,7 +73,7 @@ std::vector<ClipPlane> surface_planes(const FigureRequest& request, const Camera
 /// nothing.
 std::vector<std::string> idle_cuts(const FigureRequest& request, const Figure& figure, const Camera& camera);
 
-/// What a picture shows of one surface: cut and seen through as asked, and what stands beside it (nullptr: nothing).
+/// What a picture shows of one surface: cut and seen through as asked, and what is drawn beside it (nullptr: nothing).
 /// atoms: of all that the picture shows, for cuts along the view. All must stay. Throws RequestError if there is
 /// nothing to be shown.
 std::vector<PictureObject> picture_objects(const Surface& surface, const Coloring& coloring,

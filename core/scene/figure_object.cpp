@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Takes the atoms of each object by their marks, and computes surfaces of theirs as if they were alone.
+// Takes the atoms of each object by their marks, and computes its surface as if they were alone.
 #include "core/scene/figure_object.h"
 
 #include <utility>
@@ -71,7 +71,7 @@ void color_surface(const FigureObjectRequest& request, const Structure& all, con
 
 void ask_for(std::span<const FigureObjectRequest> objects, ReadOptions& reading) {
   if (!objects.empty() && reading.copy_mode == CopyMode::instances)
-    throw RequestError("--instances: copies of a surface have no other objects beside them; leave it away");
+    throw RequestError("--instances: copies of one surface cannot be drawn with other objects; leave it out");
   if (reading.shown.size() + objects.size() > kMostShown)
     throw RequestError(fmt::format("--object: at most {} sets of atoms are drawn beside a surface", kMostShown));
   for (const FigureObjectRequest& object : objects) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stands in a figure beside the molecule's surface and looks as it is told: a further surface, sticks, balls,
-// spheres or a backbone.
+// A further object of a figure with a look of its own: a surface, sticks, balls, spheres or a
+// backbone.
 #pragma once
 
 #include <optional>

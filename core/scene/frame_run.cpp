@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From request to prepared frames.
+// Turns a request into prepared frames.
 #include "core/scene/frame_run.h"
 
 #include <algorithm>
@@ -29,13 +29,13 @@ namespace {
 
 void check_options(const MoleculeRequest& molecule, const RunRequest& request) {
   if (molecule.reading.model.all || molecule.reading.model.number != 1)
-    throw RequestError("--model and --frames: the models of a file are its frames, counted from 0; leave --model away");
+    throw RequestError("--model and --frames: the models of a file are its frames, counted from 0; leave --model out");
   if (request.trajectories.empty() && request.trajectory_atoms)
-    throw RequestError("--trajectory-atoms says which atoms of FILE a trajectory has; name one by --trajectory");
+    throw RequestError("--trajectory-atoms selects the atoms that a trajectory has; add --trajectory FILE");
   if (request.trajectories.empty() && molecule.file == "-")
     throw RequestError("standard input is read once, so it has no frames; save it as a file");
   if (request.smooth % 2 == 0)
-    throw RequestError(fmt::format("--smooth {}: an odd number has a middle", request.smooth));
+    throw RequestError(fmt::format("--smooth {}: give an odd number of frames", request.smooth));
 }
 
 /// A bound in ps, if the text is one: a number and "ps", "ns" or "fs".
@@ -60,7 +60,7 @@ class Bound {
       if (trajectory.frame_count() > 1) tolerance_ = kPartOfStep * std::abs(time_at(1) - time_at(0));
       return;
     }
-    // A number may lie behind the end: then nothing is left, or all.
+    // A number may lie after the end: then nothing is left, or all.
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), frame_);
     if (error == std::errc() && end == text.data() + text.size()) return;
     try {
@@ -101,7 +101,7 @@ class Bound {
   std::uint64_t frame_ = 0;
 };
 
-/// Does it depend on where atoms stand which of them a frame has, or how they are drawn beside the surface?
+/// Does it depend on where atoms are which of them a frame has, or how they are drawn beside the surface?
 bool chooses_by_positions(const MoleculeRequest& molecule, const RunRequest& request) {
   const auto asks = [](const std::optional<Selection>& selection) { return selection && selection->uses_positions(); };
   const ReadOptions& reading = molecule.reading;
@@ -126,7 +126,7 @@ std::vector<std::uint32_t> chosen(const Selection& selection, const std::vector<
   for (std::uint32_t n = 0; n < atoms.size(); ++n)
     if (selected[n]) indices.push_back(n);
   if (indices.size() < least) {
-    throw RequestError(fmt::format("{} {}: selects {} of {} atoms, and needs at least {}", option,
+    throw RequestError(fmt::format("{} {}: selects {} of {} atoms; at least {} are needed", option,
                                    in_quotes(selection.text()), indices.size(), with_thousands(atoms.size()), least));
   }
   return indices;
@@ -168,7 +168,7 @@ FrameRun::FrameRun(const MoleculeRequest& molecule, const RunRequest& request, b
 FrameRun::~FrameRun() = default;
 
 /// With the coordinates of their file, or of the first frame where it has none; all that may be chosen, if that is done
-/// anew in each frame.
+/// again in each frame.
 void FrameRun::read_atoms(const MoleculeRequest& molecule, const RunRequest& request) {
   MoleculeRequest reading = molecule;
   reading.reading.keep_topology = true;
@@ -194,8 +194,8 @@ void FrameRun::read_atoms(const MoleculeRequest& molecule, const RunRequest& req
   const std::size_t atoms = structure_.topology->atoms.size();
   if (atoms != trajectory_->atom_count()) {
     throw InputError(trajectory_->path(), 0,
-                     fmt::format("its frames have {} atoms, {} has {}: {}", with_thousands(trajectory_->atom_count()),
-                                 structure_.file, with_thousands(atoms),
+                     fmt::format("its frames have {} atoms, but {} has {}: {}",
+                                 with_thousands(trajectory_->atom_count()), structure_.file, with_thousands(atoms),
                                  advice_on_count(structure_.topology->atoms, trajectory_->atom_count())));
   }
   if (!request.trajectories.empty() && !request.trust_atom_order)
@@ -268,7 +268,7 @@ void FrameRun::prepare(const MoleculeRequest& molecule, const RunRequest& reques
   frames_ = std::make_unique<PreparedFrames>(*trajectory_, std::move(preparation));
 }
 
-/// Where an atom stands, which may be one of a copy.
+/// Where an atom is, which may be one of a copy.
 glm::dvec3 FrameRun::position_of(const Atom& atom, const std::vector<glm::dvec3>& positions) const {
   const glm::dvec3& position = positions[atom.index];
   return assembly_ ? copy_motion(*assembly_, atom)(position) : position;
@@ -369,8 +369,8 @@ std::optional<RunFrame> FrameRun::next() {
 std::vector<double> fluctuations(FrameRun& run) {
   if (run.atoms_change())
     throw RequestError(
-        "--color rmsf follows atoms through all frames, but --select means others in each; add --select-once for those "
-        "of the first");
+        "--color rmsf needs the same atoms in all frames, but --select chooses others in each; add --select-once to "
+        "keep those of the first");
   const std::size_t count = run.structure().atoms.size();
   std::vector<glm::dvec3> mean(count, glm::dvec3(0.0));
   std::vector<double> squares(count, 0.0);  // of distances from the mean so far (Welford 1962)

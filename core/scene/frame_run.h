@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run of frames of one molecule: atoms are chosen once, but anew in each frame where a selection asks for positions.
+// A run of frames of one molecule: atoms are chosen once, or anew in each frame where a selection depends on positions.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ enum class WholeBy {
   guess     ///< those the file lists and all that distances suggest
 };
 
-/// Which frames of which trajectory, and what is done to them.
+/// Which frames of which trajectory, and how they are prepared.
 struct RunRequest {
   std::vector<std::string> trajectories;      ///< in a row; none: the models of the molecule's file are the frames
   std::optional<Selection> trajectory_atoms;  ///< of the molecule's file, those that they have; nothing: all
@@ -44,12 +44,12 @@ struct RunRequest {
 
   bool select_once = false;  ///< selections that ask for positions mean what they do in the first frame of the run
 
-  /// Atoms that stand around the molecule's, which are those of its selection: RunFrame::together has both.
+  /// Atoms that are around the molecule's, which are those of its selection: RunFrame::together has both.
   std::optional<Selection> context;
 
   std::string index_folder;  ///< where indices of frames are kept; empty: nowhere
 
-  /// Is a run asked for at all?
+  /// Whether a run is requested.
   bool asked() const;
 };
 
@@ -67,7 +67,7 @@ struct RunFrame {
 
 class FrameRun {
  public:
-  /// Opens and chooses the atoms. Selections are as they are: settle_selections comes before. velocities: frames shall
+  /// Opens and chooses the atoms. Selections are as they are: settle_selections comes before. velocities: frames should
   /// have them. Throws InputError, RequestError for what makes no
   /// sense together; texts name the options of the program.
   FrameRun(const MoleculeRequest& molecule, const RunRequest& request, bool velocities = false);
@@ -77,7 +77,7 @@ class FrameRun {
   const Structure& structure() const { return structure_; }
   /// The same with all atoms that any frame may have.
   const Structure& reach() const { return file_ ? file_->reach() : structure_; }
-  /// All atoms of the file, as they stand there.
+  /// All atoms of the file, as they are there.
   std::vector<Atom> all_atoms();
   /// Whether the structures of two frames may have different atoms, or different ones beside them.
   bool chooses_anew() const { return file_ != nullptr; }
@@ -95,14 +95,14 @@ class FrameRun {
   /// camera for all of them needs. A frame that cannot be read is passed over here.
   void survey(const std::function<void(std::uint64_t place, const Structure& structure)>& look);
 
-  /// Where the atoms of the structure stand at a frame of the run, if they do not change; not together with next().
+  /// Where the atoms of the structure are at a frame of the run, if they do not change; not together with next().
   /// Throws InputError.
   std::vector<glm::dvec3> positions(std::uint64_t number);
 
   /// The structure there, with what is shown beside the surface. Likewise.
   Structure at(std::uint64_t number);
 
-  /// The next frame of the chunk; nothing behind the last. Throws what reading it threw: then next() can be called
+  /// The next frame of the chunk; nothing after the last. Throws what reading it threw: then next() can be called
   /// again for the one behind it.
   std::optional<RunFrame> next();
 
@@ -119,7 +119,7 @@ class FrameRun {
   std::unique_ptr<Trajectory> trajectory_;
   std::unique_ptr<PreparedFrames> frames_;
   std::unique_ptr<ReadAhead> ahead_;
-  std::unique_ptr<StructureFile> file_, file_together_;  ///< if atoms are chosen anew in each frame
+  std::unique_ptr<StructureFile> file_, file_together_;  ///< if atoms are chosen again in each frame
   Structure structure_;
   std::optional<Structure> together_;
   std::optional<Assembly> assembly_;  ///< that the atoms are copied by

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The paper's pipeline and the renderer behind it.
+// Draws views on GL with the paper's pipeline and the renderer.
 #include <utility>
 
 #include "core/gpu/context_description.h"

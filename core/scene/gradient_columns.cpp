@@ -20,7 +20,7 @@ void refuse_ties(const Structure& structure, const std::vector<SurfaceObject>& o
     if (names.empty()) continue;
     throw InputError(structure.file, 0,
                      fmt::format("one probe touches more than three atoms at once ({}), so the surface has no "
-                                 "derivatives; move one of them by a hair, or choose --surface sas",
+                                 "derivatives there; move one atom slightly, or choose --surface sas",
                                  names));
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The derivatives of a molecule's areas and volumes by the positions of its atoms: what tables print.
+// The derivatives of a molecule's areas and volumes with respect to its atoms' positions, for tables.
 #pragma once
 
 #include <string>

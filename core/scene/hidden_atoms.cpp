@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Marks atoms as hidden; renderers and exporters obey.
+// Marks atoms as hidden, for renderers and exporters.
 #include "core/scene/hidden_atoms.h"
 
 #include <algorithm>
@@ -18,10 +18,9 @@ std::vector<bool> hidden_atoms(const Selection& shown, const Structure& structur
       structure.beside.empty() ? shown.evaluate(structure.atoms) : shown.evaluate(shown_atoms(structure));
   visible.resize(structure.atoms.size());
   if (std::find(visible.begin(), visible.end(), true) == visible.end()) {
-    throw InputError(
-        structure.file, 0,
-        fmt::format("none of the {} atoms used is to be shown by {}; {}", with_thousands(structure.atoms.size()),
-                    in_quotes(shown.text()), shown.why_none(structure.atoms)));
+    throw InputError(structure.file, 0,
+                     fmt::format("none of the {} atoms used is shown by {}; {}", with_thousands(structure.atoms.size()),
+                                 in_quotes(shown.text()), shown.why_none(structure.atoms)));
   }
   visible.flip();
   return visible;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// --show: the surface of everything, of which only a part is seen.
+// --show: the surface of all atoms is computed, and only a part of it is shown.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Looks the map up at points of each patch, which count by the areas of its faces.
+// Samples a volume map at points of each patch, weighted by the areas of its faces.
 #include "core/scene/map_reach.h"
 
 #include <algorithm>

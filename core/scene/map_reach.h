@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How much of a surface a volume map reaches.
+// How much of a surface a volume map covers.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Carries out what the common request say.
+// Reads a molecule, and computes its surfaces and colours as requested.
 #include "core/scene/molecule.h"
 
 #include <algorithm>
@@ -81,7 +81,7 @@ double checked_share_beyond(const VolumePaint& map, const std::string& path, con
   Box atoms;
   for (const Ball& ball : placed_balls(molecule.objects)) atoms.include(ball.center);
   throw InputError(path, 0,
-                   fmt::format("holds {} Å; no part of the surface lies there: {} has its atoms at {} Å; move the "
+                   fmt::format("covers {} Å, where no part of the surface lies: {} has its atoms at {} Å; move the "
                                "molecule back or compute the map again",
                                extent_text(map.grid.frame().extent()), molecule.structure.file, extent_text(atoms)));
 }
@@ -117,12 +117,12 @@ ColorKey key_of(const Molecule& molecule) {
 
 void require_colors_shared(const Structure& structure, const ColorScheme& color) {
   if (color.by == ColorScheme::By::copy && !structure.instances.empty())
-    throw RequestError("--color copy needs copies with colours of their own; leave --instances away");
+    throw RequestError("--color copy needs copies with colours of their own; leave --instances out");
 }
 
 Burial burial_of(const MoleculeRequest& request, const Structure& structure, SurfaceComputer& computer) {
   if (!structure.instances.empty())
-    throw RequestError("areas buried between copies need copies made of atoms; leave --instances away");
+    throw RequestError("areas buried between copies need copies made of atoms; leave --instances out");
   Burial burial;
   burial.groups = request.interface ? interface_groups(structure, *request.interface)
                                     : group_atoms(structure, request.division.groups.value_or(Grouping::chain));

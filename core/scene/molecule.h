@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a file to a molecule with its surfaces and colours.
+// A molecule with its surfaces and colours, made from a file.
 #pragma once
 
 #include <memory>
@@ -28,7 +28,7 @@ struct MoleculeRequest {
   SurfaceRequest surface;
   Division division;
   ColorScheme color;
-  bool color_named = false;                   ///< whether somebody asked for the scheme of all atoms
+  bool color_named = false;                   ///< whether someone asked for the scheme of all atoms
   std::optional<InterfaceRequest> interface;  ///< opened like a book
   std::string number_file;                    ///< numbers to colour by, for ColorScheme::By::file
   std::string number_column;                  ///< of a number file that is a table
@@ -53,7 +53,7 @@ struct Molecule {
 /// The atoms asked for; Structure::report says what was read and left out. Throws InputError, RequestError.
 Structure read_molecule(const MoleculeRequest& request);
 
-/// The same for structures of its atoms wherever they stand.
+/// The same for structures of its atoms wherever they are.
 std::unique_ptr<StructureFile> open_molecule(const MoleculeRequest& request);
 
 /// The colour scheme with the numbers of its file, if it has one. Throws InputError.
@@ -78,7 +78,7 @@ void require_colors_shared(const Structure& structure, const ColorScheme& color)
 /// Makes molecules of one structure after another: the frames of a trajectory.
 class MoleculeBuilder {
  public:
-  /// `request` must live as long, and so must `context`, if surfaces on GL shall be made in it. Throws InputError for
+  /// `request` must live as long, and so must `context`, if surfaces on GL should be made in it. Throws InputError for
   /// the numbers to colour by, RequestError.
   explicit MoleculeBuilder(const MoleculeRequest& request, const EglContext* context = nullptr);
 

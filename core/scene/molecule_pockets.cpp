@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parts a structure, and puts its numbers of atoms back.
+// Separates ligands from a structure, and maps the numbers of its atoms back.
 #include "core/scene/molecule_pockets.h"
 
 #include <utility>
@@ -54,7 +54,7 @@ MoleculePockets PocketComputer::compute(const Structure& structure, const std::v
     balls.push_back({structure.atoms[a].position, structure.atoms[a].radius});
     number.push_back(a);
   }
-  if (balls.empty()) throw RequestError(fmt::format("{}: no atoms are left for pockets to be between", structure.file));
+  if (balls.empty()) throw RequestError(fmt::format("{}: no atoms are left to form pockets", structure.file));
   MoleculePockets result;
   result.atom_count = balls.size();
   result.found = find_pockets(balls, request_, [this](std::span<const Ball> atoms, double probe_radius) {

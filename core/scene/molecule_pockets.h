@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pockets of a molecule, and where in them stands what was taken out of it.
+// The pockets of a molecule, and where in them the ligands lie that were taken out.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Binds the values of the molecule, of runs of frames and of films, and completes those of a molecule that depend on
-// each other.
+// Binds the values of the molecule, of runs of frames and of films, and completes those that depend on each other.
 #include <array>
 #include <charconv>
 #include <optional>
@@ -107,15 +106,16 @@ void complete_colors(MoleculeRequest& molecule) {
   if (has_numbers && !molecule.color_named && !color.uses_file()) color.by = By::file;
   if (has_volume) {
     if (molecule.color_named)
-      throw ValueError("surface.color_map_file", "is itself a --color; leave the other one out, but EXPR=COLOR");
+      throw ValueError("surface.color_map_file",
+                       "is itself a colour scheme; leave out the other --color, except EXPR=COLOR");
     if (!color.range) throw ValueError("surface.color_map_file", "needs --color-range LO:HI, such as -5:5 for kT/e");
     color.by = By::volume;
   }
   if (color.uses_file() && !has_numbers) throw ValueError("surface.color", "file needs --color-by-file FILE");
   if (has_numbers && !color.uses_file())
-    throw ValueError("surface.color_by_file", "is itself a --color; leave the other one out");
+    throw ValueError("surface.color_by_file", "is itself a colour scheme; leave out the other --color");
   if (color.by == By::kind && !color.rules.empty())
-    throw ValueError("surface.color", "kind colours patches, EXPR=COLOR atoms; choose another scheme beside it");
+    throw ValueError("surface.color", "kind colours patches, but EXPR=COLOR colours atoms; choose another scheme");
   if (color.uses_scale()) return;
   const char* const key = !molecule.map_file.empty() ? "surface.map_file"
                           : color.map                ? "surface.map"
@@ -226,7 +226,7 @@ Scene readied(Scene scene) {
   scene.figure.ask_for(molecule.reading);
   if (!molecule.interface) return scene;
   if (!molecule.reading.shown.empty())
-    throw ValueError("surface.interface", "moves the atoms of both sides; nothing can stand beside them");
+    throw ValueError("surface.interface", "moves the atoms of both sides, so nothing else can be drawn with them");
   std::string atoms = "(" + molecule.interface->left.text() + ") or (" + molecule.interface->right.text() + ")";
   if (molecule.reading.selection) atoms = "(" + molecule.reading.selection->text() + ") and (" + atoms + ")";
   molecule.reading.selection = parse_selection(atoms);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads and writes an object as a scene of its own: its keys are those of properties, and so are their values.
+// Reads and writes an object as a small scene: its keys and values are those of properties.
 #include "core/scene/object_json.h"
 
 #include <algorithm>
@@ -46,7 +46,7 @@ std::string own_text(const Json& json, std::string_view key, const char* otherwi
   const auto found = json.find(key);
   if (found == json.end()) return otherwise;
   if (!found->is_string())
-    throw RequestError(fmt::format("object: \"{}\": {} is no text", key, escaped(found->dump())));
+    throw RequestError(fmt::format("object: \"{}\": {} is not a text", key, escaped(found->dump())));
   return found->get<std::string>();
 }
 
@@ -55,7 +55,7 @@ std::optional<Kind> shapes_of(const std::string& representation) {
   const auto* const shape =
       std::ranges::find(kShapeWords, std::string_view(representation), &std::pair<std::string_view, Kind>::first);
   if (shape == kShapeWords.end())
-    throw RequestError(fmt::format("object: \"representation\": {} is none of surface, sticks, balls, spheres, tube",
+    throw RequestError(fmt::format("object: \"representation\": {} is not one of surface, sticks, balls, spheres, tube",
                                    in_quotes(representation)));
   return shape->second;
 }
@@ -67,8 +67,8 @@ const Property& property_of_key(const std::string& key, const std::string& repre
     if (known.name == key) return *known.property;
     names.push_back(known.name);
   }
-  throw RequestError(
-      fmt::format("object: {} is no key of {}; there are {}", in_quotes(key), representation, fmt::join(names, ", ")));
+  throw RequestError(fmt::format("object: {} is not a key of {}; its keys are {}", in_quotes(key), representation,
+                                 fmt::join(names, ", ")));
 }
 
 std::vector<std::string> texts_of(const Property& property, const std::string& key, const Json& value) {
@@ -143,17 +143,17 @@ FigureObjectRequest parse_figure_object(std::string_view text) {
   const Json json = Json::parse(text, nullptr, false);
   if (!json.is_object())
     throw RequestError(
-        fmt::format(R"(object: {} is no JSON such as {{"representation": "sticks", "selection": "ligand"}})",
+        fmt::format(R"(object: {} is not JSON such as {{"representation": "sticks", "selection": "ligand"}})",
                     in_quotes(shortened(std::string(text), 60))));
   const std::string representation = own_text(json, "representation", "surface");
   const std::string selection = own_text(json, "selection", "");
-  if (selection.empty()) throw RequestError("object: \"selection\" is missing: which atoms is it made of?");
+  if (selection.empty()) throw RequestError("object: \"selection\" is missing; it names the object's atoms");
   FigureObjectRequest object{.atoms = naming("selection", [&] { return parse_selection(selection); })};
   object.shapes = shapes_of(representation);
   const Scene own = values_of(json, representation);
   const SurfaceRequest& surface = own.molecule.surface;
   if (surface.kind == SurfaceKind::vdw && surface.probe_named)
-    throw RequestError("object: \"probe\": a van der Waals surface has none; leave it away");
+    throw RequestError("object: \"probe\": a van der Waals surface has none; leave it out");
   object.color = color_of(own);
   object.opacities = own.molecule.color.opacities;
   object.material = {own.look.ambient, own.look.roughness, own.look.specular, own.look.shininess};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One object of a figure as JSON: of --object, and of the list in a scene file.
+// One object of a figure as JSON, for --object and for the list in a scene file.
 #pragma once
 
 #include <string_view>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the page by the atoms that are buried, and turns either side about it.
+// Finds the plane of an interface from its buried atoms, and turns both sides about it.
 #include "core/scene/open_book.h"
 
 #include <algorithm>

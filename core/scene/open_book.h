@@ -27,7 +27,7 @@ InterfaceRequest parse_interface(std::string_view text);
 
 /// Of each atom of the structure, how much less of its sphere the centre of the probe can reach in the presence of all
 /// than in that of its own group, Å²: the solvent-accessible area that is buried (B. Lee and F. M. Richards, J. Mol.
-/// Biol. 55, 379 (1971)); the area of the surface itself where that is none of a probe. Groups: every atom in one of
+/// Biol. 55, 379 (1971)); the area of the surface itself where that is not one of a probe. Groups: every atom in one of
 /// them. Throws what surface_objects throws.
 std::vector<double> buried_areas(const Structure& structure, std::span<const AtomGroup> groups,
                                  SurfaceComputer& computer, SurfaceKind kind);
@@ -43,7 +43,7 @@ struct OpenPages {
 };
 
 /// Seen against +z the buried atoms of either group face the viewer, the plane that fits them best is the page, its
-/// longest axis upright; the left group stands at the left, with a gap. buried: of each atom. Throws InputError where
+/// longest axis upright; the left group is at the left, with a gap. buried: of each atom. Throws InputError where
 /// nothing is buried.
 OpenPages open_pages(const Structure& structure, std::span<const AtomGroup> groups, std::span<const double> buried);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scene asks of what is made of it: pictures, films, meshes, scenes of other renderers.
+// What a scene says about its outputs: pictures, films, meshes, scenes for other renderers.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chooses between CPU and GL.
+// Chooses between CPU and GL for pictures.
 #include "core/scene/picture_device.h"
 
 #include "core/base/error.h"

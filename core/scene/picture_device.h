@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the device a user asked for to what makes pictures there.
+// Makes the renderer for the device that a user asked for.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Binds the values of the look, the camera, the picture, what is written into it, and of files.
+// Binds the values of the look, the camera, the picture, its annotations and its files.
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -45,7 +45,7 @@ void read_view(const Property&, Texts texts, Scene& scene) {
   scene.picture.direction = parse_view_direction(texts.back());
   if (!scene.picture.direction)
     throw RequestError(
-        fmt::format("{} is none of {}", in_quotes(texts.back()), fmt::join(view_direction_words(), ", ")));
+        fmt::format("{} is not one of {}", in_quotes(texts.back()), fmt::join(view_direction_words(), ", ")));
 }
 
 Written write_view(const Property&, const Scene& scene) {
@@ -60,7 +60,7 @@ void read_turns(const Property&, Texts texts, Scene& scene) {
     const std::optional<Turn> turn = parse_turn(text);
     if (!turn)
       throw RequestError(in_quotes(text) +
-                         " is no axis of the picture (x, y, z) with degrees behind it, such as y90 or x-30");
+                         " is not an axis of the picture (x, y, z) followed by degrees, such as y90 or x-30");
     scene.picture.turns.push_back(*turn);
   }
 }
@@ -76,10 +76,10 @@ void read_background(const Property&, Texts texts, Scene& scene) {
   const std::string& text = texts.back();
   color.reset();
   if (text == "transparent") return;
-  if (text == "white") color = glm::vec3(1.0f);
-  if (text == "black") color = glm::vec3(0.0f);
-  if (!color) color = parse_hex_color(text);
-  if (!color) throw RequestError(in_quotes(text) + " is none of transparent, white, black, #rrggbb");
+  color = parse_color(text);
+  if (!color)
+    throw RequestError(in_quotes(text) +
+                       " is not a background: give transparent, a colour's name such as grey, or #rrggbb");
 }
 
 Written write_background(const Property&, const Scene& scene) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From marked atoms to shapes, and from the scheme of a surface to their colours.
+// Makes shapes of marked atoms, and colours them by the scheme of the surface.
 #include "core/scene/representations.h"
 
 #include <cmath>
@@ -35,7 +35,8 @@ const char* option_word(Kind kind) {
 
 void Representations::ask_for(ReadOptions& reading) const {
   if (!empty() && reading.copy_mode == CopyMode::instances)
-    throw RequestError("--instances: copies of a surface have no sticks, balls or spheres; leave it away");
+    throw RequestError(
+        "--instances: copies of one surface cannot be drawn with sticks, balls or spheres; leave it out");
   for (const RepresentationRequest& request : requests) {
     reading.shown.push_back({option_word(request.kind), request.atoms});
     // Of all atoms of the file, for hydrogen bonds lead to residues that are not shown.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is drawn beside a surface: which atoms of the file as sticks, balls, spheres or a backbone, and their colours.
+// Shapes beside a surface: the atoms drawn as sticks, balls, spheres or a backbone, and their colours.
 #pragma once
 
 #include <optional>
@@ -40,7 +40,7 @@ struct Representations : ShapeRadii {
   void ask_for(ReadOptions& reading) const;
 };
 
-/// The structure's atoms, and behind them those beside the surface: what `atom` of shapes is a place in.
+/// The structure's atoms, and after them those beside the surface: what `atom` of shapes is a place in.
 std::vector<Atom> shown_atoms(const Structure& structure);
 /// The same as a structure of its own.
 Structure structure_of_shown(const Structure& structure);
@@ -59,7 +59,7 @@ ColorScheme with_scale_of(const Structure& structure, std::size_t shown, ColorSc
 /// The same for shapes: opaque, and by element where colours are of surfaces alone.
 ColorScheme scheme_beside(const Structure& structure, std::size_t shown, ColorScheme scheme);
 
-/// The shapes of shown_atoms(), where the atoms of the structure stand, coloured as the surface is: chains have the
+/// The shapes of shown_atoms(), where the atoms of the structure are, coloured as the surface is: chains have the
 /// colours they have there, numbers the same scale; where the scheme is of surfaces only (patch kinds, components), by
 /// element. Structure: as read with ask_for(). Throws as color_object does; RequestError for an assembly of instances.
 ColoredShapes shown_shapes(const Structure& structure, const Representations& representations,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Puts together the camera of each frame of a run.
+// Computes the camera of each frame of a run.
 #include "core/scene/run_cameras.h"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ class CameraCourse {
     count_ = static_cast<double>(run.numbers().size());
     if (motion.turns != 0.0 && run.numbers().size() == 1)
       throw RequestError(
-          "--turntable: the camera turns from frame to frame, and this run has one frame; --repeat N shows a frame N "
+          "--turntable: the camera turns from frame to frame, but this run has one frame; add --repeat N to show it N "
           "times");
     if (!motion.follow) return;
     followed_ = followed_of(frames.first());
@@ -68,7 +68,7 @@ class CameraCourse {
   double count_ = 1.0;
 };
 
-/// The balls as they stand before the camera that moves with them.
+/// The balls as they are before the camera that moves with them.
 std::vector<Ball> before_camera(std::span<const Ball> balls, const glm::dvec3& shift, const glm::dvec3& pivot,
                                 const glm::dvec3& axis, double angle) {
   std::vector<Ball> seen(balls.begin(), balls.end());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Looks at a whole run before its first frame is made.
+// Reads a whole run before its first frame is made.
 #include "core/scene/run_framing.h"
 
 #include <algorithm>
@@ -38,19 +38,19 @@ void share_colors(ColorScheme& color, const FrameRun& frames) {
   const bool is_categorical = color.map == ColorMap::categorical && !color.own_map;
   if (color.by == ColorScheme::By::buried && is_categorical)
     throw RequestError(
-        "--map categorical gives each number of a picture a colour of its own, but of frames the buried areas change; "
+        "--map categorical gives each number of a picture its own colour, but buried areas change from frame to frame; "
         "choose another --map");
   if (!frames.atoms_change() || !color.has_scale() || color.by == ColorScheme::By::volume) return;
   if (is_categorical)
     throw RequestError(
-        "--map categorical gives each number of a picture a colour of its own, but --select means other atoms in each "
+        "--map categorical gives each number of a picture its own colour, but --select chooses other atoms in each "
         "frame; choose another --map, or add --select-once");
   if (color.range || color.by == ColorScheme::By::radial || color.by == ColorScheme::By::rmsf ||
       color.by == ColorScheme::By::buried)
     return;
   if (color.by == ColorScheme::By::file)
     throw RequestError(
-        "--color-by-file needs --color-range LO:HI where --select means other atoms in each frame, or --select-once");
+        "--color-by-file needs --color-range LO:HI or --select-once where --select chooses other atoms in each frame");
   color.frames_range = color_scale(frames.reach(), color).range;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every frame of an exported run shares, whichever process makes it: cameras, extent, colours.
+// What all frames of a run share, whichever process makes them: cameras, extent, colours.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene: everything that a user chose of a figure, a film or an export, as one value.
+// A scene: everything that a user chose for a figure, a film or an export, as one value.
 #pragma once
 
 #include <map>

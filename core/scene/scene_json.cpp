@@ -37,7 +37,7 @@ class SceneParser {
     for (const auto& [section, value] : scene.items()) {
       if (section == kVersionKey || section == "objects") continue;
       check_section(section);
-      if (!value.is_object()) fail(section, "is no JSON object {...}");
+      if (!value.is_object()) fail(section, "is not a JSON object {...}");
       for (const auto& [key, own] : value.items())
         if (section != "molecule" || key != "select")
           add(property_of_key(section, key, fmt::format("{}.{}", section, key)), own,
@@ -57,7 +57,7 @@ class SceneParser {
   }
 
   Json json_of(std::string_view text) const {
-    if (is_nested_too_deep(text)) throw InputError(file_, 0, "scene: is nested too deep to be one");
+    if (is_nested_too_deep(text)) throw InputError(file_, 0, "scene: the JSON is nested too deep");
     Json scene;
     try {
       scene = Json::parse(text);
@@ -69,7 +69,7 @@ class SceneParser {
       throw InputError(file_, 0, "scene: a number is too large");
     }
     if (!scene.is_object() || !scene.contains(kVersionKey))
-      throw InputError(file_, 0, fmt::format("is no scene: it has no \"{}\": {}", kVersionKey, kVersion));
+      throw InputError(file_, 0, fmt::format("is not a scene: it has no \"{}\": {}", kVersionKey, kVersion));
     if (scene[kVersionKey] != kVersion)
       throw InputError(file_, 0,
                        fmt::format("scene: \"{}\" is {}; this program reads version {}", kVersionKey,
@@ -84,7 +84,7 @@ class SceneParser {
           std::ranges::find(sections, property->section()) == sections.end())
         sections.push_back(property->section());
     if (std::ranges::find(sections, section) == sections.end())
-      fail(in_quotes(section), "is no part of a scene" + meant(section, sections));
+      fail(in_quotes(section), "is not part of a scene" + meant(section, sections));
   }
 
   static std::string meant(const std::string& word, const std::vector<std::string_view>& words) {
@@ -100,7 +100,7 @@ class SceneParser {
       if (known->name() == key) return *known;
       keys.push_back(known->name());
     }
-    fail(place, "is no key" + meant(key, keys));
+    fail(place, "is not a key" + meant(key, keys));
   }
 
   void set(const Property& property, std::vector<std::string> texts, const std::string& place) {
@@ -127,11 +127,11 @@ class SceneParser {
     if (scene.contains("molecule") && scene["molecule"].contains("select"))
       select = text(scene["molecule"]["select"], select_place);
     bool has_surface = !scene.contains("objects");
-    if (!has_surface && !scene["objects"].is_array()) fail("objects", "is no JSON list [...]");
+    if (!has_surface && !scene["objects"].is_array()) fail("objects", "is not a JSON list [...]");
     for (std::size_t n = 0; scene.contains("objects") && n < scene["objects"].size(); ++n) {
       const std::string place = fmt::format("objects[{}]", n);
       const Json& object = scene["objects"][n];
-      if (!object.is_object()) fail(place, "is no JSON object {...}");
+      if (!object.is_object()) fail(place, "is not a JSON object {...}");
       if (object.value("representation", Json("surface")) != "surface" || has_surface) {
         read_object(object, place);
         continue;

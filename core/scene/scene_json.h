@@ -19,7 +19,7 @@ struct SceneSetting {
 };
 
 /// The settings of a scene, in the order of the table of properties. file: its name, for messages. Throws InputError
-/// for what is no scene, has no such key, or has values of another type; what values mean is looked at when they are
+/// for what is not a scene, has no such key, or has values of another type; what values mean is looked at when they are
 /// set.
 std::vector<SceneSetting> parse_scene(std::string_view json, const std::string& file);
 

@@ -34,7 +34,7 @@ Length parse_length(const std::string& text) {
   const auto known = per_inch.find(unit);
   Length length;
   if (!parse_number(text.substr(0, end), length.value) || (known == per_inch.end() && !unit.empty() && unit != "px"))
-    throw RequestError(in_quotes(text) + " is no length, such as 85mm, 8.5cm, 3.5in, 8pt or 1000px");
+    throw RequestError(in_quotes(text) + " is not a length such as 85mm, 8.5cm, 3.5in, 8pt or 1000px");
   if (known != per_inch.end()) length.per_inch = known->second;
   return length;
 }

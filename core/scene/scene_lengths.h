@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lengths of pictures: pixels, or millimetres and the like on paper.
+// Lengths in pictures: in pixels, or in millimetres, inches and points on paper.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lets scenes name the files that their user knows of.
+// Lets scenes name only files that their user knows of.
 #include "core/scene/scene_paths.h"
 
 #include <algorithm>
@@ -45,8 +45,7 @@ std::string SceneTrust::path(const Property& property, const std::string& text, 
                   property.key == "output.file" ? "-o" : std::string(property.long_option()));
   if (given != given.filename())
     fail(file, place,
-         fmt::format("is {}; a scene does not say in which folder its picture is written: {}", in_quotes(text),
-                     own_advice));
+         fmt::format("is {}; a scene cannot choose the folder of its picture: {}", in_quotes(text), own_advice));
   std::error_code ignored;
   if (replaces && fs::exists(fs::symlink_status(path_of_text(path), ignored)))
     fail(file, place,

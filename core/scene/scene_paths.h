@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which files a scene may name: it may come from anybody.
+// Which files a scene may name, because it may come from anyone.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace meniscus {
 
-/// What somebody who uses a scene has said of files. Unless it is trusted as a whole a scene names no files outside of
+/// What someone who uses a scene has said of files. Unless it is trusted as a whole a scene names no files outside of
 /// its folder but those that are typed or named before, and writes to none but a new one beside it.
 struct SceneTrust {
   std::string file{};                ///< of the scene

@@ -42,7 +42,7 @@ RenderSettings render_settings(const Scene& scene, const PictureLayout& layout) 
 
 void check_legend(const Scene& scene) {
   if (scene.legend.asked() && scene.molecule.color.by == ColorScheme::By::fixed && scene.molecule.color.rules.empty())
-    throw RequestError(fmt::format("{} has nothing to explain where all is of one colour; choose another {}",
+    throw RequestError(fmt::format("{} has nothing to explain: everything has one colour; choose another {}",
                                    option_name("legend"), option_name("color")));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a scene to its picture: how large it is, how it is drawn, what is written into it and stands beside it.
+// From a scene to its picture: its size, its renderer, its annotations and its legend.
 #pragma once
 
 #include <optional>

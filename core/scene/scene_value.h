@@ -43,7 +43,7 @@ const Scene& usual_scene();
 
 /// A number in the range of its property. Throws RequestError.
 double number_in_range(const Property& property, const std::string& text);
-/// Throws RequestError for a text that is none of the words.
+/// Throws RequestError for a text that is not one of the words.
 std::size_t place_of_word(const std::vector<std::string>& words, const std::string& text);
 
 // Values of common types: read from texts, of which the last counts, and written unless they are the usual ones.

@@ -107,12 +107,12 @@ const Property& scene_property(std::string_view name) {
     if (names.emplace_back(value_name(*property)) != name && property->key != name) continue;
     if (is_scene_value(*property)) return *property;
     throw RequestError(
-        "is of molecules, of which scenes know nothing in this build: it was made without gemmi, nlohmann_json or "
+        "needs molecules; scenes of this build have none, because it was made without gemmi, nlohmann_json or "
         "FreeType");
   }
   const std::string_view nearest = nearest_word(name, std::vector<std::string_view>(names.begin(), names.end()));
   throw RequestError(
-      fmt::format("is no value of a scene{}", nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest)));
+      fmt::format("is not a value of a scene{}", nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest)));
 }
 
 void set_value(Scene& scene, const Property& property, std::span<const std::string> texts) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds all expressions, and asks the first frame what they mean.
+// Collects all selections, and evaluates them in the first frame.
 #include "core/scene/settled_selections.h"
 
 #include <algorithm>
@@ -68,7 +68,7 @@ void settle_selections(MoleculeRequest& molecule, RunRequest& run, const OtherSe
   expressions.keep_by_positions();
   const bool backbones = molecule.reading.secondary_structure;
   if (expressions.of_file.empty() && expressions.of_surface.empty() && !backbones)
-    throw RequestError("--select-once: no selection of this run depends on where atoms are; leave it away");
+    throw RequestError("--select-once: no selection of this run depends on where atoms are; leave it out");
   RunRequest first = run;
   first.select_once = false;
   FrameRun frames(molecule, first);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// --select-once: selections that ask where atoms are mean in all frames of a run what they mean in its first.
+// --select-once: selections that depend on positions keep the atoms of the first frame in all frames of a run.
 #pragma once
 
 #include <vector>

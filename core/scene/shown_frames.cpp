@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Opens the interface of frame after frame, and keeps how.
+// Opens the interface in frame after frame, in the same way.
 #include "core/scene/shown_frames.h"
 
 #include <algorithm>

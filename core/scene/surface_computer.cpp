@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chooses the engine; with `verify`, the one that checks it.
+// Chooses the engine and, with `verify`, the one that checks it.
 #include "core/scene/surface_computer.h"
 
 #include <algorithm>

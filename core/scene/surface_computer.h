@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From balls to a surface on the device a user asked for, with the time every stage took.
+// Computes a surface from balls on the device that a user asked for, and times every stage.
 #pragma once
 
 #include <functional>

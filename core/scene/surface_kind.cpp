@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the centre of a probe can be is the surface of balls that are larger by it (Lee and Richards 1971).
+// Makes accessible surfaces of excluded ones: the probe's centre moves on balls enlarged by its radius (Lee and
+// Richards 1971).
 #include "core/scene/surface_kind.h"
 
 #include "core/base/error.h"
@@ -18,7 +19,7 @@ std::vector<Ball> grown(std::span<const Ball> balls, double growth) {
 
 void require_probe_of_kind(const SurfaceRequest& request) {
   if (request.kind == SurfaceKind::vdw && request.probe_named)
-    throw RequestError("--probe: the van der Waals surface has no probe; leave --probe or --surface vdw away");
+    throw RequestError("--probe: the van der Waals surface has no probe; leave --probe or --surface vdw out");
 }
 
 }  // namespace meniscus

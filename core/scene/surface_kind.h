@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces of every kind as solvent-excluded ones, which is what engines compute and renderers draw.
+// Surfaces of every kind as solvent-excluded ones, which engines compute and renderers draw.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes the surface of each group of atoms, and divides it into the parts that are wanted.
+// Computes the surface of each group of atoms, and divides it into the requested parts.
 #include "core/scene/surface_objects.h"
 
 #include <algorithm>
@@ -40,7 +40,7 @@ void require_closed(const SurfaceObject& object, const Structure& structure) {
                   certificate.open_atoms.size(), atoms));
 }
 
-/// A group of atoms and where it stands. Only atoms with the same motions can share a surface.
+/// A group of atoms and where it is. Only atoms with the same motions can share a surface.
 struct PlacedGroup {
   AtomGroup group;
   std::vector<RigidMotion> copies{RigidMotion{}};
@@ -88,11 +88,10 @@ void require_apart(const Structure& structure, std::span<const CopiedBalls> grou
   const auto place = [&](const CopiedBall& ball) {
     return fmt::format("{} in copy {}", atom_place(structure.atoms[atoms[ball.group][ball.ball]]), ball.copy + 1);
   };
-  throw InputError(
-      structure.file, 0,
-      fmt::format("{} and {} are {:.2f} Å apart, so near that copies of one surface are not the surface of the "
-                  "whole; leave --instances away, or take --instances separate",
-                  place(contact->ball[0]), place(contact->ball[1]), contact->distance));
+  throw InputError(structure.file, 0,
+                   fmt::format("{} and {} are {:.2f} Å apart, so near that a probe can touch both copies; leave "
+                               "--instances out, or choose --instances separate",
+                               place(contact->ball[0]), place(contact->ball[1]), contact->distance));
 }
 
 /// Copies have to keep clear of each other, unless each is wanted as if it were alone: by --instances separate, or as

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the atoms of a structure to the surfaces of a molecule: one, or one a chain, model, class, residue, component.
+// The surfaces of a molecule: one, or one for each chain, model, class, residue or component.
 #pragma once
 
 #include <optional>

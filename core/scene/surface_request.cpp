@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Words for kinds of surfaces, and the bounds of a probe.
+// Names the kinds of surfaces, and checks the radius of a probe.
 #include "core/scene/surface_request.h"
 
 #include <cstddef>
@@ -24,11 +24,9 @@ const char* kind_word(SurfaceKind kind) {
 std::string probe_fault(double radius) {
   if (radius < 0.0) return fmt::format("{} Å is negative; 0 gives the van der Waals surface", radius);
   if (radius > 0.0 && radius < kSmallestProbe) {
-    return fmt::format("{} Å is finer than any file's coordinates; use 0 (van der Waals surface) or at least {} Å",
-                       radius, kSmallestProbe);
+    return fmt::format("{} Å is too small; use 0 (van der Waals surface) or at least {} Å", radius, kSmallestProbe);
   }
-  if (radius > kLargestProbe)
-    return fmt::format("{} Å is larger than molecules are; use at most {} Å", radius, kLargestProbe);
+  if (radius > kLargestProbe) return fmt::format("{} Å is too large; use at most {} Å", radius, kLargestProbe);
   return {};
 }
 

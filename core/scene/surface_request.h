@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which surface of some atoms is wanted, and what shall compute it.
+// A request for a surface: its kind, its probe, and the device that computes it.
 #pragma once
 
 #include <functional>
@@ -29,7 +29,7 @@ std::string probe_fault(double radius);
 struct SurfaceRequest {
   SurfaceKind kind = SurfaceKind::ses;
   double probe_radius = 1.4;  ///< Å
-  bool probe_named = false;   ///< whether somebody asked for it; a van der Waals surface has none
+  bool probe_named = false;   ///< whether someone asked for it; a van der Waals surface has none
   bool cpu = false;           ///< on the CPU; else on GL
   DeviceChoice gl;            ///< automatic: a hardware GPU if there is one, else the CPU
   bool verify = false;        ///< compute on the other device too and compare
@@ -37,7 +37,7 @@ struct SurfaceRequest {
   std::function<void(const Surface&)> check;
   bool drawn = true;                        ///< false: for numbers only, see ClipPlanes::left_out
   int threads = 0;                          ///< CPU threads; 0: all
-  StageTiming timing = StageTiming::rough;  ///< exact: somebody looks at the times of stages
+  StageTiming timing = StageTiming::rough;  ///< exact: someone looks at the times of stages
 };
 
 }  // namespace meniscus

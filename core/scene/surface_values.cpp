@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Binds the values of the surface, of its colours and cuts, and of what stands beside it.
+// Binds the values of the surface, its colours and cuts, and the shapes beside it.
 #include <array>
 #include <optional>
 #include <utility>
@@ -41,7 +41,7 @@ void read_device(const Property&, Texts texts, Scene& scene) {
   const std::optional<DeviceChoice> choice = parse_device_choice(surface.cpu ? "auto" : texts.back());
   if (!choice)
     throw RequestError(in_quotes(texts.back()) +
-                       " is none of auto, gpu, gpu:N, gpu:UUID, gpu:PCI-ADDRESS, software, cpu");
+                       " is not one of auto, gpu, gpu:N, gpu:UUID, gpu:PCI-ADDRESS, software, cpu");
   surface.gl.kind = choice->kind;
   surface.gl.index = choice->index;
   surface.gl.name = choice->name;
@@ -57,7 +57,7 @@ void read_require_gpu(const Property&, Texts texts, Scene& scene) {
   SurfaceRequest& surface = scene.molecule.surface;
   if (texts.back() == "false") return;
   if (surface.cpu || surface.gl.kind == DeviceChoice::Kind::software)
-    throw GpuError(fmt::format("--require-gpu refuses --device {}; leave one of them away",
+    throw GpuError(fmt::format("--require-gpu and --device {} exclude each other; leave one of them out",
                                surface.cpu ? "cpu" : to_string(surface.gl)));
   if (surface.gl.kind == DeviceChoice::Kind::automatic) surface.gl.kind = DeviceChoice::Kind::gpu;
 }
@@ -75,7 +75,7 @@ void read_division(const Property&, Texts texts, Scene& scene) {
   for (const auto& [word, grouping] : kGroupings)
     if (texts.back() == word) division.groups = grouping;
   if (!division.groups)
-    throw RequestError(in_quotes(texts.back()) + " is none of chain, model, class, residue, component");
+    throw RequestError(in_quotes(texts.back()) + " is not one of chain, model, class, residue, component");
 }
 
 Written write_division(const Property&, const Scene& scene) {
@@ -105,7 +105,7 @@ void read_color(const Property&, Texts texts, Scene& scene) {
       continue;
     }
     const std::optional<ColorScheme> scheme = parse_color_scheme(text);
-    if (!scheme) throw RequestError(in_quotes(text) + " is none of " + color_scheme_words());
+    if (!scheme) throw RequestError(in_quotes(text) + " is not one of " + color_scheme_words());
     color.by = scheme->by;
     color.fixed = scheme->fixed;
     scene.molecule.color_named = true;
@@ -125,7 +125,7 @@ void read_map(const Property&, Texts texts, Scene& scene) {
   if (scene.molecule.color.map) return;
   std::vector<std::string_view> names;
   for (const ColorMapMetadata& map : color_maps()) names.push_back(map.name);
-  throw RequestError(fmt::format("{} is none of {}", in_quotes(texts.back()), fmt::join(names, ", ")));
+  throw RequestError(fmt::format("{} is not one of {}", in_quotes(texts.back()), fmt::join(names, ", ")));
 }
 
 Written write_map(const Property&, const Scene& scene) {
@@ -148,7 +148,7 @@ Written write_range(const Property&, const Scene& scene) {
 void read_missing(const Property&, Texts texts, Scene& scene) {
   scene.molecule.color.missing = parse_color(texts.back());
   if (!scene.molecule.color.missing)
-    throw RequestError(in_quotes(texts.back()) + " is neither a colour's name such as red nor #rrggbb");
+    throw RequestError(in_quotes(texts.back()) + " is not a colour: give a name such as red, or #rrggbb");
 }
 
 Written write_missing(const Property&, const Scene& scene) {

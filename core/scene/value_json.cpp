@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Turns JSON values into texts and back, by the form that a property has in scene files.
+// Turns JSON values into texts and back, by the form of a property in scene files.
 #include "core/scene/value_json.h"
 
 #include <filesystem>
@@ -21,7 +21,7 @@ std::string text_of(const Json& value) {
 }
 
 std::string path_of(const Json& value) {
-  if (!value.is_string() || value.get<std::string>().empty()) throw RequestError("is no path");
+  if (!value.is_string() || value.get<std::string>().empty()) throw RequestError("is not a path");
   return value.get<std::string>();
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Picks the balls that a camera is aimed at.
+// Chooses the balls that a camera is aimed at.
 #include "core/scene/view_aim.h"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ std::vector<Ball> picked(std::span<const SurfaceObject> objects, const std::vect
   return result;
 }
 
-/// Where the copies of an assembly stand, by what they have in common with the first.
+/// Where the copies of an assembly are, by what they have in common with the first.
 std::vector<RigidMotion> copy_motions(const Structure& structure) {
   std::vector<RigidMotion> motions;
   for (const Instances& instances : structure.instances)
@@ -93,7 +93,7 @@ ViewAim::ViewAim(const ViewRequest& request, const std::optional<Selection>& sho
   symmetry_ = symmetry_axis(copy_motions(structure));
   if (!symmetry_)
     throw RequestError(
-        "--view symmetry: there is no axis: build an assembly whose copies are turned (--assembly), or name another "
+        "--view symmetry: there is no axis: build an assembly whose copies are turned (--assembly), or choose another "
         "side");
 }
 

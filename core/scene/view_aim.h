@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Aims the camera of a picture at the atoms it is about.
+// Aims the camera of a picture at its atoms.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@
 
 namespace meniscus {
 
-/// Of the atoms of a structure those that are shown and those that shall fill the picture, and where copies stand.
+/// Of the atoms of a structure those that are shown and those that should fill the picture, and where copies are.
 class ViewAim {
  public:
   /// show: the atoms whose part of the surface is shown; nothing: all. Atoms beside the surface are shown, too, and can

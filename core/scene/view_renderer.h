@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Atoms drawn as one view after another shows them, by whatever device: the pictures of a preview.
+// Draws atoms in one view after another, on any device: the pictures of a preview.
 #pragma once
 
 #include <cstdint>
@@ -69,7 +69,7 @@ std::unique_ptr<ViewRenderer> make_gl_view_renderer();
 /// By the complete surface, which the CPU computes once for all views of the same atoms and probe. Needs no GL.
 std::unique_ptr<ViewRenderer> make_cpu_view_renderer();
 
-/// By one surface for each group of atoms, as if it were alone, wherever its copies stand; the CPU never has all copies
+/// By one surface for each group of atoms, as if it were alone, wherever its copies are; the CPU never has all copies
 /// in memory. set_atoms(), set_coloring() and pick() are about the atoms of one copy; copies name them by index.
 std::unique_ptr<ViewRenderer> make_cpu_copies_renderer(std::vector<Instances> copies);
 

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stands in for what scenes say of molecules, in builds without gemmi, nlohmann_json or FreeType: a scene has its look
-// and its picture there.
+// Replaces the molecules of scenes in builds without gemmi, nlohmann_json or FreeType: there a scene has its look and
+// its picture only.
 #include "core/scene/scene_value.h"
 
 namespace meniscus {
 namespace {
 
 [[noreturn]] void refuse(const char* what) {
-  throw RequestError(
-      fmt::format("this build has no {}, for it was made without gemmi, nlohmann_json or FreeType", what));
+  throw RequestError(fmt::format("this build has no {}: it was made without gemmi, nlohmann_json or FreeType", what));
 }
 
 }  // namespace

@@ -124,7 +124,7 @@ void smooth_strands(std::vector<Guide>& piece) {
   }
 }
 
-/// Where an ellipse stands: W x H = T.
+/// Where an ellipse is: W x H = T.
 struct Section {
   glm::dvec3 center, tangent, side;
   double half_width, half_height;

@@ -13,11 +13,11 @@ namespace meniscus {
 inline constexpr double kTubeRadius = 0.3;
 
 /// A closed mesh for each unbroken piece of the selected CA (or, of nucleotides, P, else C4') of at least two residues,
-/// and a sphere for each that stands alone: helices are ribbons as wide as 8 radii, along the direction of the peptide
+/// and a sphere for each that is alone: helices are ribbons as wide as 8 radii, along the direction of the peptide
 /// planes (M. Carson and C. E. Bugg, J. Mol. Graph. 4, 121, 1986; from O, where it is there), strands are 7 wide and
 /// end in arrows, all else is a tube. The middle line is a Catmull-Rom spline through these atoms, smoothed in strands.
 /// Kinds are those of Atom::secondary, or of secondary_structure() of these atoms. Pieces end where chain, model or
-/// copy change and where neighbours stand farther apart than 4.5 Å (CA) or 8.5 Å (P). atom of a vertex: that of the
+/// copy change and where neighbours are farther apart than 4.5 Å (CA) or 8.5 Å (P). atom of a vertex: that of the
 /// nearer residue. radius: Å, > 0.
 Shapes backbone(const Structure& structure, const std::vector<bool>& selected, double radius = kTubeRadius);
 

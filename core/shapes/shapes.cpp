@@ -8,7 +8,7 @@
 namespace meniscus {
 namespace {
 
-/// Cylinders of the bonds between selected atoms that stand apart; marks the atoms that have one.
+/// Cylinders of the bonds between selected atoms that are apart; marks the atoms that have one.
 std::vector<CylinderShape> cylinders_of(const Structure& structure, const std::vector<bool>& selected,
                                         std::span<const Bond> bonds, double radius, std::vector<bool>& bonded) {
   std::vector<CylinderShape> cylinders;

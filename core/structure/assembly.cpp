@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Motions, operator expressions, and the building of an assembly from its parts.
+// Parses operator expressions, multiplies motions, and builds an assembly from its parts.
 #include "core/structure/assembly.h"
 
 #include <algorithm>
@@ -174,10 +174,11 @@ RigidMotion rigid_motion(const std::array<std::array<double, 4>, 3>& rows, const
   const glm::dmat3& m = motion.rotation;
   const double deviation = farthest_from_identity(glm::transpose(m) * m);
   if (!(deviation <= kRotationTolerance)) {
-    throw InputError(file, line,
-                     fmt::format("the matrix of an assembly is no rotation: its columns are off unit length or right "
-                                 "angles by {:.2g}; correct it",
-                                 deviation));
+    throw InputError(
+        file, line,
+        fmt::format("the matrix of an assembly is not a rotation: its columns are off unit length or right "
+                    "angles by {:.2g}; correct it",
+                    deviation));
   }
   if (glm::determinant(m) < 0.0)
     throw InputError(file, line, "the matrix of an assembly mirrors the molecule (determinant -1); correct it");
@@ -217,7 +218,7 @@ const Assembly& find_assembly(std::span<const Assembly> assemblies, const std::s
   if (found != assemblies.end()) return *found;
   if (assemblies.empty())
     throw InputError(file, 0,
-                     fmt::format("describes no assembly (REMARK 350, _pdbx_struct_assembly_gen); leave {} away",
+                     fmt::format("describes no assembly (REMARK 350, _pdbx_struct_assembly_gen); leave {} out",
                                  option_name("assembly")));
   std::vector<std::string> ids;
   for (const Assembly& assembly : assemblies) ids.push_back(escaped(assembly.id));

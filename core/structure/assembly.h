@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Biological assemblies: which chains of an entry stand where, how often, and how a structure is built up of them.
+// Biological assemblies: which chains of an entry occur where and how often, and how a structure is built of them.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ struct Structure;
 /// How the copies of an assembly are made.
 enum class CopyMode {
   atoms,     ///< every copy becomes atoms of its own, and the whole gets one surface
-  instances  ///< the atoms stay one copy; Structure::instances says where it stands
+  instances  ///< the atoms stay one copy; Structure::instances says where it is
 };
 
 /// A file that asks for more is broken, or no machine at hand can take it; it can still be drawn by instances.

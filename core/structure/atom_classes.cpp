@@ -34,7 +34,7 @@ bool is_polymer_name(const std::string& name) {
   return is_tabulated_polymer(name) || is_tabulated_polymer(canonical_residue(name)) || is_nucleotide_name(name);
 }
 
-/// Elements that stand alone in a file as ions: metals and halogens.
+/// Elements that are alone in a file as ions: metals and halogens.
 bool is_ion_element(gemmi::Element element) {
   switch (element.elem) {
     case gemmi::El::F:
@@ -150,7 +150,7 @@ class Classifier {
 
   void run(std::vector<Warning>& warnings) {
     for (std::size_t r = 0; r + 1 < begins_.size(); ++r) classify(r);
-    impossible_.warn(warnings, "an element that its residue cannot hold; its name was believed instead");
+    impossible_.warn(warnings, "an element that its residue cannot have; the atom's name was used instead");
   }
 
  private:

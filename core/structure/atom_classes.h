@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tells polymer, ligand, water and ion apart, and the elements that a file does not state, alike for every format.
+// Tells polymer, ligand, water and ion apart, and finds elements that a file does not state, alike for every format.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct AtomHints {
       0;  ///< what the columns of the name suggest (PDB: " CA " is carbon, "CA  " calcium); 0: nothing
 };
 
-/// True for the residues and ligands common enough to stand in gemmi's table.
+/// True for the residues and ligands common enough to be in gemmi's table.
 bool is_tabulated_residue(const std::string& residue_name);
 
 /// Sets `kind` of all atoms, residue by residue. What the file states decides; then names: amino acids and nucleotides
@@ -39,7 +39,7 @@ void classify_atoms(std::vector<Atom>& atoms, std::vector<Warning>& warnings, st
 
 /// The atomic number by the mass (atomic mass units, within 0.1), which tells calcium from carbon, unless the name says
 /// another element of organic residues: where mass was moved from carbon and nitrogen to their hydrogens, NH weighs as
-/// much as C. 0: nobody can tell by the mass.
+/// much as C. 0: the mass does not decide.
 std::uint8_t element_of_mass(const std::string& name, double mass);
 
 }  // namespace meniscus

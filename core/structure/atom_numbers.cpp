@@ -29,9 +29,10 @@ double parse_word(const std::string& path, std::size_t line, std::string_view wo
   if (is_missing(word)) return kMissing;
   double number = 0.0;
   if (!parse_number(word, number) || std::abs(number) > kLargestNumber) {
-    throw InputError(path, line,
-                     fmt::format("{} is not a finite number; write one number an atom, nan, ? or - for a missing one",
-                                 in_quotes(word)));
+    throw InputError(
+        path, line,
+        fmt::format("{} is not a finite number; write one number for each atom, with nan, ? or - for a missing one",
+                    in_quotes(word)));
   }
   return number;
 }
@@ -52,7 +53,8 @@ class NumberReader {
         return std::move(result_);
       }
       if (!column_.empty())
-        fail(fmt::format("is not the header of a table, in which --color-column {} could be", in_quotes(column_)));
+        fail(fmt::format("is not the header of a table, so --color-column {} cannot choose a column",
+                         in_quotes(column_)));
       const std::vector<std::string_view> fields = fields_of(text);
       if (first && names_residues(fields)) {
         by_residue_ = true;
@@ -130,7 +132,7 @@ class NumberReader {
     }
   }
 
-  /// The column of the numbers: the one asked for, or the only one that is no name of an atom or residue.
+  /// The column of the numbers: the one asked for, or the only one that is not a name of an atom or residue.
   std::size_t value_column(const std::vector<std::string>& header) const {
     constexpr std::string_view kNames[] = {"frame", "index", "model", "chain",   "residue", "resname", "number",
                                            "resid", "icode", "name",  "element", "class",   "radius",  "atoms"};
@@ -158,7 +160,7 @@ class NumberReader {
                       resid = place("number") == kNone ? place("resid") : place("number");
     result_.column = header[value];
     if (index == kNone && (chain == kNone || resid == kNone))
-      fail("is the header of a table without a column index, or chain and number, to know its atoms by");
+      fail("is the header of a table that does not identify its atoms; add a column index, or chain and number");
     std::map<std::uint64_t, NumberFile> frames;
     std::string_view line;
     while (lines_.next(line)) {
@@ -170,7 +172,7 @@ class NumberReader {
       if (frame != kNone) {
         std::int64_t place_in_run = -1;
         if (!parse_whole_number(cells[frame], place_in_run) || place_in_run < 0)
-          fail(fmt::format("{} is no number of a frame; they count from 0", in_quotes(cells[frame])));
+          fail(fmt::format("{} is not a frame number; frames count from 0", in_quotes(cells[frame])));
         to = &frames
                   .try_emplace(static_cast<std::uint64_t>(place_in_run),
                                NumberFile{.path = result_.path, .column = result_.column})
@@ -179,14 +181,13 @@ class NumberReader {
       if (index != kNone) {
         std::int64_t atom = -1;
         if (!parse_whole_number(cells[index], atom) || atom != static_cast<std::uint32_t>(atom))
-          fail(fmt::format("{} is no index of an atom", in_quotes(cells[index])));
+          fail(fmt::format("{} is not an atom index", in_quotes(cells[index])));
         if (!to->by_atom.emplace(static_cast<std::uint32_t>(atom), number).second)
           fail(fmt::format("gives atom {} a second number", atom));
         continue;
       }
       ResidueName residue;
-      if (!parse_place(cells[resid], residue))
-        fail(fmt::format("{} is no number of a residue", in_quotes(cells[resid])));
+      if (!parse_place(cells[resid], residue)) fail(fmt::format("{} is not a residue number", in_quotes(cells[resid])));
       residue.chain = cells[chain];
       if (icode != kNone && cells[icode].size() == 1) residue.insertion_code = cells[icode][0];
       add(*to, residue, number);
@@ -206,7 +207,8 @@ class NumberReader {
 NumberFile read_number_file(const std::string& path, const std::string& column) {
   const TextFile file = read_text_file(path);
   NumberFile result = NumberReader(file, column).read();
-  if (result.empty()) throw InputError(path, 0, "holds no numbers; write one an atom, or chain, residue and number");
+  if (result.empty())
+    throw InputError(path, 0, "holds no numbers; write one for each atom, or chain, residue and number");
   return result;
 }
 
@@ -214,7 +216,7 @@ const NumberFile& NumberFile::of_frame(const std::optional<std::uint64_t>& frame
   if (!by_frame) return *this;
   const std::string held = fmt::format("holds numbers of {} frames, {} to {}", by_frame->size(),
                                        by_frame->begin()->first, by_frame->rbegin()->first);
-  if (!frame) throw InputError(path, 0, held + "; ask for a run of frames, or leave its column frame away");
+  if (!frame) throw InputError(path, 0, held + "; add --frames, or leave out its column frame");
   const auto found = by_frame->find(*frame);
   if (found == by_frame->end()) throw InputError(path, 0, fmt::format("{}, but none of frame {}", held, *frame));
   return found->second;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers that atoms can be coloured by, from a file of the user's own.
+// Numbers from a user's file, by which atoms can be coloured.
 #pragma once
 
 #include <array>
@@ -48,7 +48,7 @@ struct NumberFile {
 /// - numbers between blanks, commas and line ends, one an atom;
 /// - lines "chain number value" (the number of the residue with its insertion code, as in 52A), where the first chain
 /// is
-///   no number or the line "chain number value" or "chain resid value" stands before;
+///   no number or the line "chain number value" or "chain resid value" is before;
 /// - CSV with a header, as `meniscus surface --csv` and `--csv-residues` write it: by its column "index", else by
 ///   "chain", "number" (or "resid") and, if there, "icode". `column` names the one of the numbers; it may be left out
 ///   where there is one beside these. With a column "frame" rows are of that frame of a run.

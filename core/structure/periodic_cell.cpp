@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lattice reduction in three dimensions, and the nearest image in a reduced lattice.
+// Reduces lattices in three dimensions, and finds nearest images in them.
 #include "core/structure/periodic_cell.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Looks for atoms at one place and for coordinates in other units, and sums up cases of one oddity.
+// Looks for coincident atoms and for coordinates in other units, and sums up warnings of one kind.
 #include "core/structure/plausibility.h"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ void warn_of_coincident_atoms(Structure& structure) {
   }
   if (cases.empty()) return;
   std::string sentence =
-      fmt::format("{} {} at exactly the place of another; the surface is as if they were one (first: {})",
+      fmt::format("{} {} at exactly the position of another; the surface treats them as one (first: {})",
                   with_thousands(cases.size()), cases.size() == 1 ? "atom lies" : "atoms lie", cases.front());
   structure.report.warnings.emplace_back(std::move(sentence), std::move(cases));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Doubts about a file that is well-formed, and one warning for many cases of the same oddity.
+// Checks whether a well-formed file is plausible, and gives one warning for many cases of one kind.
 #pragma once
 
 #include <cstddef>

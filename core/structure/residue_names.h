@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What names of residues and their atoms say: what they are, their canonical spelling, how their heavy atoms are
-// bonded.
+// What names of residues and atoms mean: their class, their canonical spelling, and the bonds of their heavy
+// atoms.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The residues of a file, though numbers wrap and repeat: their numbers, the alternates that are kept, the links of
+// The residues of a file, even where numbers wrap and repeat: their numbers, the alternates that are kept, the links of
 // chains.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hydrogen bonds by energy, turns and bridges by bonds, helices and ladders by both.
+// Finds hydrogen bonds by energy, turns and bridges by bonds, and helices and ladders by both.
 #include "core/structure/secondary_structure.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Says in words what happened to the atoms of a file.
+// Describes in words what happened to the atoms of a file.
 #include "core/structure/structure.h"
 
 #include <algorithm>

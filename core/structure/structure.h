@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A molecule as read from a file: its atoms, groups of these, and the account of what was read, left out and used.
+// A molecule as read from a file: its atoms, groups of them, and counts of what was read, left out and used.
 #pragma once
 
 #include <array>
@@ -32,7 +32,7 @@ const char* class_name(AtomClass kind);
 /// asked for.
 enum class FileRadii : std::uint8_t { none, if_asked, usual };
 
-/// What the backbone of a residue forms. `unknown`: nobody has looked; `coil`: neither of the others.
+/// Secondary structure of a residue. `unknown`: not determined yet; `coil`: neither of the others.
 enum class SecondaryStructure : std::uint8_t { unknown, coil, helix, strand };
 
 /// One atom. Text fields come from the file as they are: never paste them into the source code of another program.
@@ -110,13 +110,13 @@ struct RadiusClass {
   std::size_t atoms;
 };
 
-/// Atoms that stand at several places at once (--instances).
+/// Atoms that are at several places at once (--instances).
 struct Instances {
   std::vector<std::uint32_t> atoms;  ///< into Structure::atoms, ascending
   std::vector<RigidMotion> motions;  ///< at least one
 };
 
-/// Chains that stand together at these places.
+/// Chains that are together at these places.
 struct AssemblyPart {
   std::vector<std::string> chains;  ///< Atom::subchain; empty: all
   std::vector<RigidMotion> motions;
@@ -147,9 +147,9 @@ struct Structure {
   std::vector<RadiusClass> radius_classes;
   std::vector<Atom> atoms;
   std::vector<Atom> beside;  ///< those that are shown beside the surface, which is not made of them
-  std::shared_ptr<const std::vector<Bond>> shown_bonds;  ///< of shown atoms: places in atoms with beside behind them
+  std::shared_ptr<const std::vector<Bond>> shown_bonds;  ///< of shown atoms: places in atoms with beside after them
   std::optional<std::uint64_t> frame;                    ///< of a run: its number in the trajectory
-  std::vector<Instances> instances;          ///< each atom belongs to one; empty: all stand where their positions say
+  std::vector<Instances> instances;          ///< each atom belongs to one; empty: all are where their positions say
   std::vector<Assembly> assemblies;          ///< those the file describes, if they were asked for
   std::shared_ptr<const Topology> topology;  ///< if it was asked for
   ReadReport report;
@@ -175,7 +175,7 @@ struct AtomGroup {
 /// several models; "unnamed chain" when the file gives none), "model 2", "ligand", "chain A 35B LEU".
 std::vector<AtomGroup> group_atoms(const Structure& structure, Grouping by);
 
-/// Where an atom stands in its file: "chain A 35B LEU CD1", or "atom 12" (from 1) where the format has no names.
+/// Where an atom is in its file: "chain A 35B LEU CD1", or "atom 12" (from 1) where the format has no names.
 std::string atom_place(const Atom& atom);
 
 }  // namespace meniscus

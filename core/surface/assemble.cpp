@@ -93,7 +93,7 @@ void require_closed(const Surface& surface) {
 
 SurfaceCounts Surface::counts() const {
   SurfaceCounts n;
-  // A part of a surface may hold several patches of one atom or probe; they stand next to each other.
+  // A part of a surface may hold several patches of one atom or probe; they are next to each other.
   for (std::size_t c = 0; c < convex.size(); ++c) n.convex += c == 0 || convex[c].atom != convex[c - 1].atom;
   n.toroidal = toroidal.size();
   for (std::size_t c = 0; c < concave.size(); ++c) {

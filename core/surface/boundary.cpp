@@ -168,7 +168,7 @@ class BoundaryBuilder {
     return {s_.half_borders.data() + first_of_probe_[s], s_.half_borders.data() + first_of_probe_[s + 1]};
   }
 
-  // Puts a patch's half-borders into the order of its faces, and of their loops. Where a loop begins stands how long it
+  // Puts a patch's half-borders into the order of its faces, and of their loops. Where a loop begins is how long it
   // is, twice, and 1 more if it is its face's first.
   PatchNumbers put_in_order(std::span<HalfBorder> walk, const PatchFaces& faces) {
     auto next = walk.begin();
@@ -186,7 +186,7 @@ class BoundaryBuilder {
     return {static_cast<std::uint32_t>(faces.loop_sizes.size()), faces.face_count, faces.closed};
   }
 
-  // How many faces, loops and half-borders there are, or how many stand before those of a patch.
+  // How many faces, loops and half-borders there are, or how many are before those of a patch.
   struct Numbers {
     std::uint32_t face = 0, loop = 0, half_border = 0;
     Numbers& operator+=(const Numbers& more) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The checks in the order of the header; each names the atoms at which it fails.
+// Makes the checks in the order of the header; each names the atoms at which it fails.
 #include "core/surface/certificate.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a finished surface must satisfy, in its combinatorics and in its numbers, whoever computed it.
+// What a finished surface must satisfy, in its combinatorics and in its numbers, whichever device computed it.
 #pragma once
 
 #include "core/surface/measure.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From balls, or from a reduced surface however it was found, to the finished solvent-excluded surface with its
+// From balls, or from any reduced surface, to the finished solvent-excluded surface with its
 // certificate.
 #pragma once
 

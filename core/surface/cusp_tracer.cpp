@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cut lists and cusp arcs on the CPU; the pencils of probes on one spindle circle are decided by their order.
+// Computes cut lists and cusp arcs on the CPU; probes on one spindle circle, a pencil, are decided by their order.
 #include "core/surface/cusp_tracer.h"
 
 #include <algorithm>

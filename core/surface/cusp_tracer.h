@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The two questions about singularities that are worth many processors: who cuts whom, and which arcs remain.
+// The two questions about singularities that run in parallel: which probe cuts which, and which arcs remain.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ namespace meniscus {
 /// One side of a concave patch as the search for cusps sees it.
 struct CuspSide {
   glm::dvec3 contact{0.0};        ///< unit vector from the probe to the side's first contact
-  std::uint32_t circle = kNone;   ///< names the spindle circle the side belongs to; kNone if it is no spindle
+  std::uint32_t circle = kNone;   ///< names the spindle circle the side belongs to; kNone if it is not a spindle
   bool touching = false;          ///< the circle is exactly as large as the probe: its two cusps are one point
   std::uint32_t partner = kNone;  ///< the probe across the covered gap of that circle
   std::uint32_t apart = kNone;    ///< the probe at the other end of the side's arc, if neither can cut the other

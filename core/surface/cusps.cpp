@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Poses the search for cusp curves to a tracer, keeps the arcs that lie on patches, and joins them at their ends.
+// Has a tracer find cusp curves, keeps the arcs that lie on patches, and joins them at their ends.
 #include "core/surface/cusps.h"
 
 #include <algorithm>

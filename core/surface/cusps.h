@@ -2,7 +2,7 @@
 // Singularities: which fixed probes cut which concave patches, and the cusp curves where they do.
 //
 // Only fixed probes cut concave patches, and only where a patch leaves its simplex through the base (theorem 1.3), so
-// both partners of a cusp curve stand lower over their atoms than their radius. All probes on one spindle circle pass
+// both partners of a cusp curve are lower over their atoms than their radius. All probes on one spindle circle pass
 // through the same two points of its axis; there the order around the axis decides, not arithmetic.
 #pragma once
 

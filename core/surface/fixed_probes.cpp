@@ -26,12 +26,12 @@ namespace {
 
 constexpr double kLittle = 0.01;  // radian
 
-// One end of an exposed arc as the fixed probe that stands there: its atoms a < b < c and the side of their plane.
+// One end of an exposed arc as the fixed probe that is there: its atoms a < b < c and the side of their plane.
 struct ArcEnd {
   std::uint32_t b;
   std::uint32_t c;
   std::uint32_t arc_and_end;  // arc * 2 + (0 begin, 1 end)
-  std::uint32_t side;         // 1: the probe stands on the side of cross(b - a, c - a)
+  std::uint32_t side;         // 1: the probe is on the side of cross(b - a, c - a)
 };
 
 struct Triple {
@@ -65,7 +65,7 @@ class Placement {
   double extended(std::uint32_t atom) const { return atoms_[atom].radius + probe_radius_; }
 
   // Buckets arc ends by their smallest atom, then sorts the small buckets: cheaper than one large sort. In a bucket
-  // they first stand as threads come; sorted, no two are equal.
+  // they first are as threads come; sorted, no two are equal.
   void collect_triples() {
     std::vector<std::uint32_t> first(atoms_.size() + 1, 0);
     const auto for_each_end = [&](const auto& visit) {
@@ -89,7 +89,7 @@ class Placement {
       const auto [a, b, c, side] = geometry::triple_at(arcs_[n].i, arcs_[n].j, by, end != 0);
       ends[take(next[a])] = {b, c, static_cast<std::uint32_t>(n) * 2 + end, side};
     });
-    // Calls visit(first, past) for what stands at one triple of which `a` is the smallest atom.
+    // Calls visit(first, past) for what is at one triple of which `a` is the smallest atom.
     const auto for_each_triple = [&](std::size_t a, const auto& visit) {
       const auto end = ends.begin() + first[a + 1];
       for (auto e = ends.begin() + first[a]; e != end;) {
@@ -223,7 +223,7 @@ class Placement {
     clusters = std::move(kept);
   }
 
-  // The members of a merged probe all stand where the one highest over its atoms does: it is placed most sharply.
+  // The members of a merged probe all are where the one highest over its atoms does: it is placed most sharply.
   void settle(const Members& cluster) {
     std::uint32_t sharpest = cluster.first;
     for (const std::uint32_t t : cluster.more)
@@ -255,7 +255,7 @@ class Placement {
   }
 
   // An arc that the decisions saw as next to nothing and the positions as nearly all of the circle, or the other way
-  // round: the probes at its ends stand in the wrong order. Nothing that follows would notice.
+  // round: the probes at its ends are in the wrong order. Nothing that follows would notice.
   bool contradicts(const RsArc& arc, const ToroidalPatch& patch) const {
     const bool little = patch.sweep<kLittle, much = patch.sweep> 2 * std::numbers::pi - kLittle;
     return !patch.free() && (little || much) && little != vanishes(arc);

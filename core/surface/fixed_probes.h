@@ -38,7 +38,7 @@ struct RollingParts {
   std::vector<ToroidalPatch> toroidal;  ///< sorted by atoms; faces not filled in yet
   std::vector<std::uint32_t>
       open_atoms;             ///< atoms of triples that not exactly three arc ends agree on; empty if closed
-  double exact_within = 0.0;  ///< Å by which radii may have to change at most for probes to stand where they are placed
+  double exact_within = 0.0;  ///< Å by which radii may have to change at most for probes to be where they are placed
 };
 
 /// Places probes and toroidal patches. Probes closer than 1e-6 Å that a vanishing arc connects become one probe with n

@@ -77,8 +77,8 @@ class ProbePulls {
     const std::vector<std::uint32_t> tied = tied_atoms(surface);
     if (tied.empty()) return;
     throw RequestError(
-        fmt::format("one probe touches {} atoms at once ({}): the surface has no derivative there; move one of them by "
-                    "a hair, or ask for that of the accessible surface",
+        fmt::format("one probe touches {} atoms at once ({}): the surface has no derivative there; move one atom "
+                    "slightly, or ask for that of the accessible surface",
                     tied.size(), fmt::join(tied, ", ")));
   }
 

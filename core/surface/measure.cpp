@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Integrals of 1 and of x·n over convex, toroidal and concave faces (x measured from the middle of the molecule).
+// Integrates 1 and x·n over convex, toroidal and concave faces (x measured from the middle of the molecule).
 #include "core/surface/measure.h"
 
 #include <algorithm>

@@ -65,7 +65,7 @@ class RowNumbers {
     }
   }
 
-  /// What comes behind the last row.
+  /// What comes after the last row.
   const Sum& past() const { return before_.back(); }
 
   /// Calls `fill(n, next)` once for each row, in rising order within a chunk: `next` is the number of its first item,

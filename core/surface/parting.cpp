@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The nearest points of two convex hulls of arcs, by support points (Gilbert, Johnson & Keerthi 1988), and the plane
-// half-way between them.
+// Finds the nearest points of two convex hulls of arcs by support points (Gilbert, Johnson & Keerthi 1988), and the
+// plane half-way between them.
 #include "core/surface/parting.h"
 
 #include <algorithm>
@@ -167,7 +167,7 @@ std::vector<PartedFaces> part_faces(const Surface& surface, std::span<const std:
     auto planes = planes_around(surface, std::span(&face, 1), others);
     if (!planes) {
       throw Error(
-          "one patch of the surface winds around another piece of itself, so that no plane parts them; "
+          "one patch of the surface winds around another piece of itself, so that no plane separates them; "
           "this part of the surface cannot be drawn alone (--cavities, --by component)");
     }
     parts.push_back({{face}, std::move(*planes)});

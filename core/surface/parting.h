@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Planes between the faces of one spherical patch.
+// Planes that separate the faces of one spherical patch.
 #pragma once
 
 #include <cstdint>

@@ -30,7 +30,7 @@ class BorderPlacer {
  private:
   double p() const { return s_.probe_radius; }
 
-  // How many borders of toroidal patches there are and vertices on their axes, or how many stand before those of one.
+  // How many borders of toroidal patches there are and vertices on their axes, or how many are before those of one.
   struct BorderNumbers {
     std::uint32_t border = 0, vertex = 0;
     BorderNumbers& operator+=(const BorderNumbers& more) {
@@ -144,7 +144,7 @@ class BorderPlacer {
     Border border;
     border.kind = BorderKind::edge;
     border.center = probe;
-    // Seen from the probe the axis of the patch stands upright and the walk goes up.
+    // Seen from the probe the axis of the patch is upright and the walk goes up.
     border.axis = glm::normalize(glm::cross(glm::dvec3(patch.center - probe), patch.axis));
     if (patch.radius < 1e-9) border.axis = glm::normalize(glm::cross(d0, d1));
     border.radius = p();

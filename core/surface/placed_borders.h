@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the vertices and borders of a surface lie, before anything is known of its faces.
+// The positions of the vertices and borders of a surface, before its faces are known.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct PatchBorders {
   std::uint32_t half_edge(int end, int side) const { return first + 2 + 2 * end + side; }  // spindle
 };
 
-/// What stands where in the tables of vertices and borders.
+/// What is where in the tables of vertices and borders.
 struct PlacedBorders {
   std::vector<PatchBorders> of_patch;      ///< per toroidal patch
   std::vector<std::uint32_t> axis_vertex;  ///< the same: the first of the two on its axis if it is a spindle

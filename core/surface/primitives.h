@@ -162,7 +162,7 @@ struct Certificate {
 struct SurfaceCounts {
   std::size_t convex = 0;        ///< atoms with a convex patch
   std::size_t toroidal = 0;      ///< saddle patches: arcs + free edges
-  std::size_t concave = 0;       ///< fixed probes of which something is left to see
+  std::size_t concave = 0;       ///< fixed probes of which a part is on the surface
   std::size_t free_edges = 0;    ///< full circles
   std::size_t spindle = 0;       ///< toroidal patches that cross their axis
   std::size_t fixed_probes = 0;  ///< distinct positions: closer than 1e-6 Å is one probe with n contacts
@@ -185,7 +185,7 @@ struct Surface {
   std::vector<Border> borders;
   std::vector<HalfBorder> half_borders;
   std::vector<Loop> loops;
-  std::vector<Face> faces;  ///< those of one patch stand together
+  std::vector<Face> faces;  ///< those of one patch are together
 
   std::vector<Component> components;
   Certificate certificate;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The components of the reduced surface: the closed sheets that the probe's centre can move on, each for itself.
+// The components of the reduced surface: the closed sheets on which the probe's centre can move.
 //
 // The probe's centre moves on arcs, over fixed probes and on the spheres of atoms; what it reaches from one place is a
 // component of the reduced surface (Sanner, Olson & Spehner 1996),
 // a closed sheet of the solvent-accessible surface. Components of the solvent-excluded surface are another matter:
-// probes of two components may stand less than two radii apart and cut each other's patches, whereupon two sheets
+// probes of two components may be less than two radii apart and cut each other's patches, whereupon two sheets
 // become one; and a sheet may part into several where it pinches itself at a spindle. Programs that follow the reduced
 // surface, MSMS first of all, number its components, and cut the patches of each by its own probes only.
 #pragma once

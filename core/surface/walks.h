@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tables of a surface are asked again and again: points on its arcs, pieces of a patch, borders of a face.
+// Common walks over the tables of a surface: points on its arcs, pieces of a patch, borders of a face.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bonds that are no bonds any more, counted residue by residue.
+// Counts bonds that are too long to be bonds, residue by residue.
 #include "core/trajectory/atom_order.h"
 
 #include <algorithm>
@@ -141,9 +141,9 @@ void check_atom_order(const Topology& topology, std::span<const Atom> used, cons
   if (scattered == 0 && !all.exceeds(10)) return;
   throw InputError(
       compared.trajectory, 0,
-      fmt::format("frame {}: {} of {} bonds of {} are too long (first: {}); its atoms are in another order, "
-                  "or are others: write both files of the same atoms, or, if molecules may come apart like "
-                  "this, --trust-atom-order",
+      fmt::format("frame {}: {} of {} bonds of {} are too long (first: {}); its atoms are in another order, or are "
+                  "different atoms; write both files from the same atoms, or add --trust-atom-order if molecules may "
+                  "come apart like this",
                   compared.number, with_thousands(all.too_long), with_thousands(all.bonds), compared.file, first));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds out whether the atoms of a trajectory are in the order of the file that names them.
+// Checks whether the atoms of a trajectory are in the order of the file that names them.
 #pragma once
 
 #include <cstdint>

@@ -46,7 +46,7 @@ class ListParser {
     const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
     if (error != std::errc())
       refuse(
-          "is no list of frames such as all, 7, last, 0-99, 0-99:10, 90-, -10- (the last ten) or several of these "
+          "is not a list of frames such as all, 7, last, 0-99, 0-99:10, 90-, -10- (the last ten) or several of these "
           "with commas between");
     rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
     return value;

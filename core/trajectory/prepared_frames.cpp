@@ -40,8 +40,7 @@ void PreparedFrames::read_placed(std::uint64_t number, Frame& frame) {
   std::vector<glm::dvec3>& positions = frame.positions;
   if (preparation_.whole) {
     const std::string where = fmt::format("{}: frame {}", trajectory_.path(), number);
-    if (!frame.cell)
-      throw InputError(where, 0, "has no periodic box, without which nothing can be made whole; leave --whole away");
+    if (!frame.cell) throw InputError(where, 0, "has no periodic box, which --whole needs; leave --whole out");
     preparation_.whole->apply(*frame.cell, positions, where);
   }
   if (reference_.empty()) return;
@@ -133,8 +132,8 @@ void refuse_pieces(std::span<const Atom> atoms, std::span<const std::uint32_t> m
     if (!same_residue || molecule[n] == molecule[n - 1]) continue;
     if (!is_taken[molecule[n]] && !is_taken[molecule[n - 1]]) continue;
     throw InputError(file, 0,
-                     fmt::format("no bond is known between {} and the rest of its residue, so nobody can tell how to "
-                                 "make it whole; give a topology that lists bonds (PSF, PDB with CONECT), choose "
+                     fmt::format("no bond is known between {} and the rest of its residue, so it cannot be made whole; "
+                                 "give a topology that lists bonds (PSF, PDB with CONECT), choose "
                                  "--whole guess (bonds by distance), or leave it out by --select",
                                  label_of(atoms[n])));
   }
@@ -188,7 +187,7 @@ WholeMolecules::WholeMolecules(std::span<const Atom> atoms, std::span<const Bond
 void WholeMolecules::apply(const glm::dmat3& vectors, std::vector<glm::dvec3>& positions,
                            const std::string& where) const {
   const std::optional<PeriodicCell> cell = PeriodicCell::of(vectors);
-  if (!cell) throw InputError(where, 0, "has a periodic box without volume; leave --whole away");
+  if (!cell) throw InputError(where, 0, "has a periodic box without volume; leave --whole out");
   for (const auto& [atom, from] : steps_)
     if (atom != from) positions[atom] = positions[from] + cell->shortest(positions[atom] - positions[from]);
   // A bond that no step went along closes a ring; through the box it would join the molecule with its own image.
@@ -198,7 +197,7 @@ void WholeMolecules::apply(const glm::dmat3& vectors, std::vector<glm::dvec3>& p
     if (glm::length(bond - cell->shortest(bond)) > 1e-3) {
       throw InputError(where, 0,
                        fmt::format("atoms {} and {} are bonded across the periodic box to an image of their own "
-                                   "molecule, which has no whole; leave --whole away",
+                                   "molecule, which cannot be made whole; leave --whole out",
                                    a + 1, b + 1));
     }
   }

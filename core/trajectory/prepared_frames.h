@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Frames made ready: molecules whole, centred, superposed, smoothed; and frames read ahead on a thread.
+// Prepared frames: molecules whole, centred, superposed and smoothed; and frames read ahead on a thread.
 #pragma once
 
 #include <condition_variable>
@@ -56,7 +56,7 @@ RigidMotion superposition(std::span<const glm::dvec3> reference, std::span<const
 /// What is done to each frame, in this order. Atoms are given by their place in the file.
 struct Preparation {
   std::optional<WholeMolecules> whole;
-  /// Turned and moved onto where they stand in the reference frame, and all others with them; empty: not. At least 3.
+  /// Turned and moved onto where they are in the reference frame, and all others with them; empty: not. At least 3.
   std::vector<std::uint32_t> superposed;
   /// Moved, not turned, so that the mean of their positions stays where it is in the reference frame; empty: not.
   std::vector<std::uint32_t> centered;
@@ -77,7 +77,7 @@ class PreparedFrames {
   void read(std::uint64_t number, Frame& frame);
 
   /// How the atoms move at this frame of a run, in Å per frame of the run: half of the difference between the prepared
-  /// frames before and behind it there; without one of them, or if it cannot be read, the difference to the other; zero
+  /// frames before and after it there; without one of them, or if it cannot be read, the difference to the other; zero
   /// where there is none.
   void read_velocities(std::uint64_t number, std::optional<std::uint64_t> before, std::optional<std::uint64_t> behind,
                        std::vector<glm::dvec3>& velocities);
@@ -113,7 +113,7 @@ class ReadAhead {
   ReadAhead(const ReadAhead&) = delete;
   ReadAhead& operator=(const ReadAhead&) = delete;
 
-  /// The next frame, as soon as it is there; nothing behind the last.
+  /// The next frame, as soon as it is there; nothing after the last.
   std::optional<ReadFrame> next();
 
  private:

@@ -19,7 +19,7 @@ double SeriesTable::at(std::uint64_t frame) const {
   const auto found = by_frame.find(frame);
   if (found == by_frame.end())
     throw InputError(path, 0,
-                     fmt::format("has no row of frame {}; write it anew, of all frames of the run: meniscus surface "
+                     fmt::format("has no row for frame {}; write it again for all frames of the run: meniscus surface "
                                  "... --csv-series",
                                  frame));
   return found->second;
@@ -34,7 +34,7 @@ SeriesTable read_series_table(const std::string& path, const std::string& column
   const auto place = [&](std::string_view name) { return std::ranges::find(header, name); };
   const auto frame = place("frame");
   if (frame == header.end())
-    throw InputError(path, 1, "is no header with a column 'frame', as meniscus surface --csv-series writes it");
+    throw InputError(path, 1, "is not a header with a column 'frame', as meniscus surface --csv-series writes it");
   const auto value =
       column.empty()
           ? std::ranges::find_if(header, [](const std::string& name) { return name != "frame" && name != "time"; })
@@ -56,11 +56,12 @@ SeriesTable read_series_table(const std::string& path, const std::string& column
     const std::string& frame_cell = cells[static_cast<std::size_t>(frame - header.begin())];
     const std::string& value_cell = cells[static_cast<std::size_t>(value - header.begin())];
     if (!parse_whole_number(frame_cell, number) || number < 0)
-      throw InputError(path, lines.number(), fmt::format("frame {} is no number of a frame", in_quotes(frame_cell)));
+      throw InputError(path, lines.number(), fmt::format("frame {} is not a frame number", in_quotes(frame_cell)));
     if (!parse_number(value_cell, read))
-      throw InputError(path, lines.number(), fmt::format("{} {} is no number", escaped(*value), in_quotes(value_cell)));
+      throw InputError(path, lines.number(),
+                       fmt::format("{} {} is not a number", escaped(*value), in_quotes(value_cell)));
     if (!table.by_frame.emplace(static_cast<std::uint64_t>(number), read).second)
-      throw InputError(path, lines.number(), fmt::format("frame {} stands here a second time", number));
+      throw InputError(path, lines.number(), fmt::format("frame {} appears a second time", number));
   }
   return table;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A number of each frame of a trajectory, from a table such as `meniscus surface --csv-series` writes.
+// One number for each frame of a trajectory, from a table such as `meniscus surface --csv-series` writes.
 #pragma once
 
 #include <cstdint>

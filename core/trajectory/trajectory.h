@@ -18,7 +18,7 @@
 namespace meniscus {
 
 /// The box of edges a, b, c (Å) and cosines of alpha, beta, gamma, with a along x and b in the plane of x and y (the
-/// usual convention of crystallography). None if it is no box: edges not positive, angles that do not fit together.
+/// usual convention of crystallography). None if it is not a box: edges not positive, angles that do not fit together.
 std::optional<glm::dmat3> cell_of_cosines(const glm::dvec3& edges, const glm::dvec3& cosines);
 
 /// The same from angles in degrees; right angles give exactly rectangular boxes.
@@ -47,9 +47,9 @@ class Trajectory {
   std::size_t atom_count() const { return atom_count_; }
   /// Whole frames, at least one.
   std::uint64_t frame_count() const { return frame_count_; }
-  /// Oddities that stop nobody: a frame count in the header that is not the file's, ...
+  /// Non-fatal warnings, such as a frame count in the header that is not that of the file.
   const std::vector<Warning>& warnings() const { return warnings_; }
-  /// Empty, or what is wrong behind the last whole frame: "the file ends within frame 42; its 42 whole frames are
+  /// Empty, or what is wrong after the last whole frame: "the file ends within frame 42; its 42 whole frames are
   /// used".
   const std::string& cut_short() const { return cut_short_; }
 
@@ -90,8 +90,8 @@ struct TrajectoryOptions {
   std::function<std::size_t()> atoms{};
 };
 
-/// Opens a file of any format in core/trajectory/formats/trajectory_formats.h, told by its content. Throws InputError:
-/// missing, no trajectory, not one whole frame, broken header.
+/// Opens a file of any format in core/trajectory/formats/trajectory_formats.h, recognized by content. Throws
+/// InputError: missing, no trajectory, not one whole frame, broken header.
 std::unique_ptr<Trajectory> open_trajectory(const std::string& path, const TrajectoryOptions& options = {});
 
 class JoinedFrames : public Trajectory {

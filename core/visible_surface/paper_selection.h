@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which RS faces the paper draws (Krone, Dachsbacher & Ertl 2010, section 3.3): to measure what that misses.
+// The RS faces that the paper draws (Krone, Dachsbacher & Ertl 2010, section 3.3), to measure what that misses.
 #pragma once
 
 #include <cstdint>

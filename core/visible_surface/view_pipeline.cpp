@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The stages of one view in order, each a kernel or two, with the buffers they hand on.
+// Runs the stages of one view in order, each a kernel or two, with the buffers they pass on.
 #include "core/visible_surface/view_pipeline.h"
 
 #include <algorithm>
@@ -240,8 +240,7 @@ void ViewPipeline::make_primitives(const PictureFrame& frame, StageClock& clock)
   scene_.rows.clear();
   append_all({&scene_.primitives, &scene_.rows}, scene_.counters, primitive_counts_, run);
   if (primitive_counts_[2] != 0)
-    throw CapacityError(
-        "some patch is cut by more others than this driver's kernels can go through; use a smaller probe");
+    throw CapacityError("a patch is cut by more others than this driver's kernels can process; use a smaller probe");
   stats_.primitives = scene_.primitives.count();
 }
 

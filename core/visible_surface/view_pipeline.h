@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The paper's pipeline: for every frame the part of the surface that one view needs, from atoms to primitives on the
-// GPU.
+// The paper's pipeline: computes for every frame the part of the surface that the view needs, from atoms to primitives
+// on the GPU.
 #pragma once
 
 #include <array>
@@ -55,13 +55,13 @@ class ViewPipeline final : public Drawable {
   /// What the next pictures are made of; probe_radius in Å, >= 0. At first 1.4 Å and visible.
   void set_surface(double probe_radius, Extent extent);
 
-  /// Whether prepare() asks the GPU what a view needs between its stages, or trusts in the last one's sizes; at first
-  /// as suits the device.
+  /// Whether prepare() reads buffer sizes back between its stages, or assumes those of the last view. The default is
+  /// the faster way for the device.
   void set_counting(Counting counting) { counting_ = counting; }
 
   std::span<const Ball> atoms() const override { return atoms_; }
 
-  /// Where the arcs around the view do not close for ties the radii grow by a hair (compute_surface.h). Throws
+  /// Where the arcs around the view do not close for ties the radii grow slightly (compute_surface.h). Throws
   /// OpenSurfaceError when that does not help, GpuError, CapacityError.
   const GpuScene& prepare(const PictureFrame& frame, StageClock& clock) override;
   void ask(Readback& readback) override;

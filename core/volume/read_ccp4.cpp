@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// CCP4 maps and MRC files: A. Cheng et al., J. Struct. Biol. 192, 146 (2015), and CCP4's maplib.
+// Reads CCP4 maps and MRC files: A. Cheng et al., J. Struct. Biol. 192, 146 (2015), and CCP4's maplib. Cheng et al., J.
+// Struct. Biol. 192, 146 (2015), and CCP4's maplib.
 //
 // gemmi reads them, too, but of the other byte order only floats, and it trusts the header's sizes.
 #include <algorithm>
@@ -35,7 +36,7 @@ class Ccp4Reader {
     std::array<std::int64_t, 3> stored{word(1), word(2), word(3)};
     check_volume_size(path_, 0, stored);
     if (word(25) == 1 && word(50) == 0 && word(51) == 0 && word(52) == 0 && real(26) != 0.0F)
-      fail("is turned against its cell (LSKFLG); write it without that");
+      fail("is rotated against its cell (LSKFLG); write it without rotation");
     VolumeFrame frame;
     std::array<std::size_t, 3> stride{};  // in the file, of the axes of space
     std::size_t run = 1;
@@ -70,7 +71,7 @@ class Ccp4Reader {
     if (axis_of == std::array<int, 3>{-1, -1, -1}) return {0, 1, 2};  // some programs leave it open
     for (int axis = 0; axis < 3; ++axis)
       if (std::ranges::count(axis_of, axis) != 1)
-        fail(fmt::format("has axes in the order {}, {}, {}; each of 1, 2, 3 must stand there once", word(17), word(18),
+        fail(fmt::format("has axes in the order {}, {}, {}; each of 1, 2, 3 must appear once", word(17), word(18),
                          word(19)));
     return axis_of;
   }
@@ -118,7 +119,7 @@ class Ccp4Reader {
     const std::int32_t extended = word(24);
     const std::size_t begin = kHeader + static_cast<std::size_t>(std::max(extended, 0));
     if (extended < 0 || begin > bytes_.size() || (bytes_.size() - begin) / sizeof(Number) < frame.count())
-      fail(fmt::format("is cut short: {} values of {} bytes do not fit into {} bytes behind its header",
+      fail(fmt::format("is cut short: {} values of {} bytes do not fit into the {} bytes after its header",
                        with_thousands(frame.count()), sizeof(Number),
                        with_thousands(bytes_.size() - std::min(begin, bytes_.size()))));
     std::vector<float> values;

@@ -23,7 +23,7 @@ std::vector<float> read_values(const TextFile& file, LineReader& lines, std::siz
   if (count > lines.bytes_left() / 2 + 1)
     throw InputError(
         file.path, lines.number(),
-        fmt::format("promises {} values, more than the {} bytes behind it can hold; is the file cut short?",
+        fmt::format("announces {} values, more than the {} bytes after it can hold; is the file cut short?",
                     with_thousands(count), with_thousands(lines.bytes_left())));
   std::vector<float> values;
   values.reserve(count);
@@ -35,8 +35,8 @@ std::vector<float> read_values(const TextFile& file, LineReader& lines, std::siz
         throw InputError(
             file.path, lines.number(),
             values.size() == count
-                ? fmt::format("holds more than the {} values that its header promises", with_thousands(count))
-                : fmt::format("{} stands where value {} of {} should; values are finite numbers", in_quotes(field),
+                ? fmt::format("holds more than the {} values that its header announces", with_thousands(count))
+                : fmt::format("{} was found in place of value {} of {}; values are finite numbers", in_quotes(field),
                               with_thousands(values.size() + 1), with_thousands(count)));
       values.push_back(static_cast<float>(value));
     }
@@ -112,7 +112,7 @@ class DxReader {
   }
 
   VolumeGrid finish(const std::vector<std::string_view>& fields) {
-    if (frame_.count() == 0 || steps_ != 3) fail("values stand before the grid's counts and its three 'delta'");
+    if (frame_.count() == 0 || steps_ != 3) fail("values come before the grid's counts and its three 'delta'");
     if (has(fields, "binary") || !has(fields, "follows"))
       fail("the array's values do not follow as text; write the map as plain OpenDX, with 'data follows'");
     const auto items = std::ranges::find(fields, "items");
@@ -183,13 +183,13 @@ class CubeReader {
     bool good = fields.size() >= 4 && parse_whole_number(fields[0], count);
     // A fifth number of the first line: values a point.
     if (good && fields.size() > 4 && fields[4] != "1")
-      fail("holds several values a point; write one of them as a cube");
+      fail("holds several values per point; write one of them as a cube");
     for (int axis = 0; good && axis < 3; ++axis) good = parse_number(fields[axis + 1], vector[axis]);
     if (!good || std::abs(count) > kMostCount) fail(fmt::format("a line of a cube's header should be {}", wanted));
     return vector;
   }
 
-  /// A negative number of atoms: behind them stand the numbers of orbitals.
+  /// A negative number of atoms: behind them are the numbers of orbitals.
   void skip_atoms(std::int64_t atoms) {
     for (std::int64_t n = 0; n < std::abs(atoms); ++n) next_line();
     if (atoms >= 0) return;

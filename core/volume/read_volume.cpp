@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads a volume map in the format that its content tells.
+// Reads a volume map in the format that its content shows.
 #include "core/volume/read_volume.h"
 
 #include <utility>
@@ -10,7 +10,7 @@
 namespace meniscus {
 namespace {
 
-/// The first line that is no comment begins as DX files do.
+/// The first line that is not a comment begins as DX files do.
 bool is_dx(const TextFile& file) {
   LineReader lines(file.text);
   std::string_view line;
@@ -41,7 +41,7 @@ VolumeGrid read_volume(const std::string& path) {
   const TextFile file = text_of_bytes(path, std::move(bytes));
   if (is_dx(file)) return read_dx(file);
   if (may_be_cube(file)) return read_cube(file);
-  throw InputError(path, 0, "is none of the volume maps that are read: OpenDX, Gaussian cube, CCP4/MRC");
+  throw InputError(path, 0, "is not one of the volume maps that are read: OpenDX, Gaussian cube, CCP4/MRC");
 }
 
 }  // namespace meniscus

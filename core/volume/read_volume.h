@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files of volume maps.
+// Reads files of volume maps.
 #pragma once
 
 #include <string>

@@ -15,7 +15,7 @@
 
 namespace meniscus {
 
-/// Where the points of a grid stand.
+/// Where the points of a grid are.
 struct VolumeFrame {
   std::array<std::size_t, 3> size{};  ///< points along each axis, at least two
   glm::dvec3 origin{0.0};             ///< Å: of the first point

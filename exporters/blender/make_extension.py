@@ -37,7 +37,7 @@ def find_wheel(folder, platform, version):
         raise Refusal(f"{os.path.join(folder, found[0])}: the add-on is of version {version}")
     path = os.path.join(folder, found[0])
     if not zipfile.is_zipfile(path):
-        raise Refusal(f"{path}: it is no wheel")
+        raise Refusal(f"{path}: it is not a wheel")
     with zipfile.ZipFile(path) as wheel:
         if not any("/LICENSE" in name for name in wheel.namelist()):
             raise Refusal(f"{path}: it has no file LICENSE")
@@ -80,7 +80,7 @@ def make(wheels, out, platforms):
     """Paths of the extensions. Raises Refusal before anything is written, or OSError."""
     unknown = [platform for platform in platforms if platform not in PLATFORMS]
     if unknown:
-        raise Refusal(f"{unknown[0]} is none of {', '.join(PLATFORMS)}")
+        raise Refusal(f"{unknown[0]} is not one of {', '.join(PLATFORMS)}")
     with open(os.path.join(ADDON, MANIFEST), encoding="utf-8") as file:
         version = re.search(r'^version = "(.+)"$', file.read(), re.M).group(1)
     found = {platform: find_wheel(wheels, platform, version) for platform in platforms or PLATFORMS}

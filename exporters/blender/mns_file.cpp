@@ -25,13 +25,13 @@ static_assert(std::endian::native == std::endian::little, "arrays are written as
 
 constexpr std::size_t kAlignment = 64;
 constexpr std::size_t kPrologue = 64;
-/// As in PNG: a byte that is no text, then line ends that a transfer "as text" would change.
+/// As in PNG: a byte that is not a text, then line ends that a transfer "as text" would change.
 constexpr char kMagic[8] = {'\x89', 'M', 'N', 'S', '\r', '\n', '\x1a', '\n'};
 
 std::size_t aligned(std::size_t offset) { return (offset + kAlignment - 1) / kAlignment * kAlignment; }
 
 std::uint32_t checksum(std::uint32_t so_far, std::span<const std::byte> bytes) {
-  if (bytes.empty()) return so_far;  // a null pointer would make zlib start anew
+  if (bytes.empty()) return so_far;  // a null pointer would make zlib start again
   return static_cast<std::uint32_t>(
       crc32_z(so_far, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
 }

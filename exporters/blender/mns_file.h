@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The container of .mns files: a header and named arrays; and the arrays that tell of atoms.
+// The container of .mns files: a header and named arrays; and the arrays that describe atoms.
 #pragma once
 
 #include <cstddef>
@@ -45,7 +45,7 @@ class ArraySink {
   std::vector<std::byte> buffer_;
 };
 
-/// Collects named arrays, then writes them behind their header.
+/// Collects named arrays, then writes them after their header.
 class MnsWriter {
  public:
   /// That of the file; kMnsVersion by itself.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run writes beside its .mns files: a manifest of its frames, and the atoms in each frame as one file of arrays.
+// Files of a run beside its .mns files: a manifest of its frames, and the atoms of each frame as one file of arrays.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +42,7 @@ std::string run_name(const SequenceManifest& manifest);
 std::filesystem::path write_manifest(const std::filesystem::path& folder, Existing existing,
                                      const SequenceManifest& manifest);
 
-/// Where atoms stand at one moment.
+/// Where atoms are at one moment.
 struct AtomFrame {
   std::vector<glm::dvec3> positions;  ///< Å, in the order of the atoms of the object
   std::optional<double> time;         ///< ps
@@ -54,7 +54,7 @@ struct AtomFrames {
   std::function<AtomFrame()> next;     ///< called once for each of them, in order
 };
 
-/// Writes them as FORMAT.md describes. The object stands in one place: its copies are atoms of their own. Throws
+/// Writes them as FORMAT.md describes. The object is in one place: its copies are atoms of their own. Throws
 /// OutputError, and what AtomFrames::next throws.
 void write_atoms(const std::string& path, Existing existing, const SurfaceObject& object, const AtomAttributes& atoms,
                  const Provenance& provenance, const AtomFrames& frames);

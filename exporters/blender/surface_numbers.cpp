@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Curvatures go to vertices, areas of patches to triangles, areas of atoms to atoms.
+// Assigns curvatures to vertices, areas of patches to triangles, and areas of atoms to atoms.
 #include "exporters/blender/surface_numbers.h"
 
 #include <algorithm>
@@ -75,7 +75,7 @@ std::string add_smoothed(MeshedObject& object, Adding& adding, bool by_name) {
   }
   if (!adding.wants("smooth_mean_curvature") && !adding.wants("smooth_gaussian_curvature")) return {};
   const std::string reason = "curvature is averaged over a whole surface, of which --show or --clip leaves a part";
-  if (by_name) throw RequestError(reason + "; leave smooth_mean_curvature and smooth_gaussian_curvature away");
+  if (by_name) throw RequestError(reason + "; leave smooth_mean_curvature and smooth_gaussian_curvature out");
   return reason + ": no smooth curvature is written";
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a surface measures at its vertices, patches and atoms, for files for Blender.
+// Numbers of a surface at its vertices, patches and atoms, for files for Blender.
 #pragma once
 
 #include <span>
@@ -11,10 +11,10 @@
 
 namespace meniscus::blender {
 
-/// Which numbers a file shall have beside those of atoms that it always has.
+/// Which numbers a file should have beside those of atoms that it always has.
 struct SurfaceNumbers {
   std::vector<std::string> names;  ///< of vertex_number_kinds()
-  /// Each was asked for by its name: what cannot be had is refused. Otherwise it is left out.
+  /// Each was asked for by its name: what is not available is refused. Otherwise it is left out.
   bool by_name = false;
 };
 
@@ -23,7 +23,7 @@ inline constexpr std::string_view kUsualSurfaceNumbers =
     "mean_curvature,gaussian_curvature,atom_area,accessible_area,patch_area";
 
 /// Names between commas as parse_vertex_numbers() takes them, "usual" being kUsualSurfaceNumbers. Throws RequestError
-/// naming the word that is none of them.
+/// naming the word that is not one of them.
 SurfaceNumbers parse_surface_numbers(std::string_view text);
 
 /// Adds them to an object whose mesh and atoms are there. buried: Å² of each atom of the structure, or empty. Returns

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes the mesh formats that are rows of bytes: PLY, STL, and VTP, whose XML says where each array begins.
+// Writes the binary mesh formats: PLY, STL, and VTP, whose XML gives the offset of each array.
 
 #include <array>
 #include <limits>

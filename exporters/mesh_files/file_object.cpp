@@ -124,7 +124,7 @@ void MeshFileMaker::put(const SurfaceView& object, FineMesh mesh) {
 }
 
 MeshFile MeshFileMaker::take() {
-  if (file_.objects.empty()) throw RequestError("nothing of the surface is shown, so there is no mesh to write");
+  if (file_.objects.empty()) throw RequestError("no part of the surface is shown, so there is no mesh to write");
   return std::move(file_);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes GLB files: a JSON chunk that says what the arrays of the binary chunk are; a node, a mesh and arrays an
+// Writes GLB files: a JSON chunk that describes the arrays of the binary chunk; one node, mesh and set of arrays per
 // object.
 #include <algorithm>
 #include <cctype>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes the mesh formats that are lines of text: OBJ, OFF, smesh, DMS, PLY as text, and scripts for PyMOL.
+// Writes the text mesh formats: OBJ, OFF, smesh, DMS, PLY as text, and scripts for PyMOL.
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -175,10 +175,8 @@ char kind_letter(PatchKind kind) { return kind == PatchKind::convex ? 'C' : kind
 void check_range(const glm::dvec3& x) {
   for (int k = 0; k < 3; ++k)
     if (!(std::abs(x[k]) < kLargest))
-      throw CapacityError(
-          fmt::format("DMS has room for coordinates between -1000 and 1000 Å, and one is {:.3f}; take "
-                      "another format",
-                      x[k]));
+      throw CapacityError(fmt::format(
+          "DMS has room for coordinates between -1000 and 1000 Å, and one is {:.3f}; choose another format", x[k]));
 }
 
 }  // namespace

@@ -152,10 +152,11 @@ void check_word(const std::string& word, AtomSource atoms) {
   if (kind == kKinds.end()) {
     std::string known;
     for (const VertexNumberKind& k : kKinds) known.append(k.name).append(", ");
-    throw RequestError(fmt::format("{} is no attribute; there are {}usual, all and none", in_quotes(word), known));
+    throw RequestError(
+        fmt::format("{} is not an attribute; choose from {}usual, all and none", in_quotes(word), known));
   }
   if (atoms == AtomSource::bare && kind->of_molecule)
-    throw RequestError(fmt::format("{} is known of molecules that were read from a file, not of bare atoms", word));
+    throw RequestError(fmt::format("{} is known only for molecules read from a file, not for bare atoms", word));
 }
 
 }  // namespace

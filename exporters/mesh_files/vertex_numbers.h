@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The numbers that vertices of a mesh may have in files: of the surface there, of its atom, of its residue.
+// Numbers that vertices of a mesh may have in files: of the surface there, of its atom, of its residue.
 #pragma once
 
 #include <span>
@@ -29,7 +29,7 @@ std::span<const VertexNumberKind> vertex_number_kinds();
 
 /// Names between commas; "usual", "all" and "none" stand for several. Every name once, in the order of the table. With
 /// bare atoms, of which nothing but places and radii is known, those of a molecule are left out. Throws RequestError
-/// naming the word that is none of them, or that bare atoms do not have.
+/// naming the word that is not one of them, or that bare atoms do not have.
 enum class AtomSource { molecule, bare };
 std::vector<std::string> parse_vertex_numbers(std::string_view text, AtomSource atoms = AtomSource::molecule);
 

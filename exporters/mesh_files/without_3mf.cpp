@@ -6,7 +6,7 @@
 namespace meniscus {
 
 void write_3mf(OutputFile&, const MeshFile&) {
-  throw RequestError("this build writes no 3MF files, for it was made without libdeflate; choose another format");
+  throw RequestError("this build writes no 3MF files: it was made without libdeflate; choose another format");
 }
 
 }  // namespace meniscus

@@ -6,7 +6,7 @@
 namespace meniscus {
 
 void write_glb(OutputFile&, const MeshFile&) {
-  throw RequestError("this build writes no GLB files, for it was made without nlohmann_json; choose another format");
+  throw RequestError("this build writes no GLB files: it was made without nlohmann_json; choose another format");
 }
 
 }  // namespace meniscus

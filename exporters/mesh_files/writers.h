@@ -28,7 +28,7 @@ namespace meniscus {
 void write_stl(OutputFile& file, const MeshFile& mesh);
 /// 3MF core specification 1.3 with the materials extension's colour groups: a zip archive.
 void write_3mf(OutputFile& file, const MeshFile& mesh);
-/// Wavefront OBJ: vertices with colours behind their coordinates, normals, an `o` each object.
+/// Wavefront OBJ: vertices with colours after their coordinates, normals, an `o` each object.
 void write_obj(OutputFile& file, const MeshFile& mesh);
 /// Object File Format of Geomview, as text: positions and triangles alone.
 void write_off(OutputFile& file, const MeshFile& mesh);
@@ -39,7 +39,7 @@ void write_vtp(OutputFile& file, const MeshFile& mesh);
 /// TetGen's facets with a marker a component, points in cavities as holes, points in solids as regions (H. Si, "TetGen
 /// user's manual", 2013, section 5.2.3).
 void write_smesh(OutputFile& file, const MeshFile& mesh);
-/// Dots of the program dms (C. Huang, UCSF; its manual page): each atom, and behind it its vertices with kind, area and
+/// Dots of the program dms (C. Huang, UCSF; its manual page): each atom, and after it its vertices with kind, area and
 /// normal. Coordinates are Å whatever the scale.
 void write_dms(OutputFile& file, const MeshFile& mesh);
 /// Binary little-endian PLY (G. Turk 1994).

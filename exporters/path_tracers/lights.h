@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What scenes of all formats share: lights of the view, numbers of materials, and numbers as text.
+// What scenes of all formats share: lights, numbers of materials, and numbers as text.
 #pragma once
 
 #include <cmath>
@@ -40,7 +40,7 @@ struct Extent {
 };
 Extent extent_of(const Scene& scene);
 
-/// They stand as the camera sees them. Distant ones for what is matte; glass mirrors and bends what is around it, so
+/// They are as the camera sees them. Distant ones for what is matte; glass mirrors and bends what is around it, so
 /// that it has softboxes instead.
 Lights lights_of(const Scene& scene);
 

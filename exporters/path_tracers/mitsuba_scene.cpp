@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Camera, lights, materials, then the things, those with copies as groups.
+// Writes camera, lights and materials, then the objects, those with copies as groups.
 #include "exporters/path_tracers/scene.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Camera, then the world: lights, materials, and the things, those with copies as objects.
+// Writes the camera, then the world: lights, materials, and the objects, those with copies as instances.
 #include "exporters/path_tracers/scene.h"
 
 #include <algorithm>

@@ -46,7 +46,7 @@ struct SceneCylinder {
   Paint paint;
 };
 
-/// Things that stand together, in one place or in several.
+/// Things that are together, in one place or in several.
 struct SceneItem {
   std::vector<SceneMesh> meshes;
   std::vector<SceneSphere> spheres;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes things of a scene of surfaces and shapes, and writes text and meshes, all or none.
+// Makes scene objects of surfaces and shapes, and writes text and meshes, all or none.
 #include "exporters/path_tracers/scene_folder.h"
 
 #include <cmath>
@@ -212,7 +212,7 @@ void write_mesh(OutputFile& file, const SceneMesh& mesh, bool with_colors) {
 SceneReport write_scene(const Scene& given, const SceneTarget& target) {
   Scene scene = given;
   std::erase_if(scene.items, [](const SceneItem& item) { return item.empty(); });
-  if (scene.items.empty()) throw RequestError("nothing of the surface is shown, so there is no scene to write");
+  if (scene.items.empty()) throw RequestError("no part of the surface is shown, so there is no scene to write");
   OutputFolder output(target.folder, target.existing);
   SceneReport report;
   const auto begin_file = [&](const std::string& ending) -> OutputFile& {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The geometry of a scene: each surface as a union of its pieces, and where its copies stand.
+// The geometry of a scene: each surface as a union of its pieces, and where its copies are.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ namespace meniscus::povray {
 class Geometry {
  public:
   /// origin: Å, of the scene's coordinates. table: gets the colours, in the order of their numbers.
-  /// clip: of the surface, as the first copy stands; only of a single object that is not copied. names: nothing, or of
+  /// clip: of the surface, as the first copy is; only of a single object that is not copied. names: nothing, or of
   /// the atoms that SurfaceObject::atom counts, for a comment on each piece; they must outlive it, too.
   Geometry(std::span<const SurfaceObject> objects, const glm::dvec3& origin, ColorTable& table, ObjectStyle style = {},
            std::span<const ClipPlane> clip = {}, std::span<const std::string> names = {});
@@ -42,7 +42,7 @@ class Geometry {
 
   /// Pieces or, when anything is copied, moved or divided into objects, `#declare object_N = union {...}` for each
   /// object that shows something and then `object { object_N matrix <...> }` for each copy.
-  /// head: scene text behind the comments at the top.
+  /// head: scene text after the comments at the top.
   void write(OutputFile& file, std::string_view head = {}) const;
 
   /// Are there names of objects to tell?

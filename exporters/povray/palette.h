@@ -24,7 +24,7 @@ struct ColoredPiece {
   bool by_map = false;      ///< SceneColor::by_map of its colour
 };
 
-/// What is told apart in a scene: a colour, and how what has it covers and shines.
+/// What is distinguished in a scene: a colour, and how what has it covers and shines.
 struct SceneColor {
   glm::vec3 color{0.0f};     ///< sRGB
   float opacity = 1.0f;      ///< in [0, 1]

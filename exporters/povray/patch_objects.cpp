@@ -96,7 +96,7 @@ void PatchObjects::toroidal(SceneText& out, const ToroidalPatch& patch, std::uin
                             std::string_view cuts) const {
   const double p = surface_.probe_radius;
   out.literal("torus{").length(patch.radius).literal(",").length(p).literal(" matrix<");
-  // Local y is the axis; the matrix stands before clipped_by, so the clips stay in world space.
+  // Local y is the axis; the matrix is before clipped_by, so the clips stay in world space.
   for (const glm::dvec3& row : {patch.start, patch.axis, glm::cross(patch.start, patch.axis)})
     out.ratio(row.x).literal(",").ratio(row.y).literal(",").ratio(row.z).literal(",");
   const glm::dvec3 center = patch.center - origin_;

@@ -62,7 +62,7 @@ SceneReport write_scene(std::span<const SurfaceObject> given, const Camera& came
   const SceneParts parts{has_surface,          geometry.is_one_item(), has_surface && content.has_caps(),
                          content.has_shapes(), table.is_translucent(), content.parts()};
   if (content.primitive_count() == 0 && !content.has_shapes() && options.objects.empty())
-    throw RequestError("nothing of the surface is shown, so there is no scene to write");
+    throw RequestError("no part of the surface is shown, so there is no scene to write");
 
   OutputFolder output(folder, options.existing);
   SceneReport report;

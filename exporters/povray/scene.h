@@ -15,7 +15,7 @@ namespace meniscus::povray {
 /// there are shapes, caps, more objects or a volume map, <name>_shapes.inc, <name>_caps.inc, <name>_object_1.inc, ...
 /// and <name>_map.df3 into `folder`, all or none. given: none, where the surface is not shown. One unit is 1 Å;
 /// coordinates are relative to options.origin. The camera shows the same pixels as the ray caster's. Each object with
-/// its copies is a union object_1, object_2, ...; the names they came with stand in the .json only; what planes cut is
+/// its copies is a union object_1, object_2, ...; the names they came with are in the .json only; what planes cut is
 /// one object. Points of hidden atoms are left out. Throws OutputError (exists, not writable), Error (nothing is shown,
 /// bad name or size, a number that is not finite).
 SceneReport write_scene(std::span<const SurfaceObject> given, const Camera& camera, const SceneOptions& options,

@@ -291,7 +291,7 @@ std::string ini_text(const SceneOptions& options, std::span<const std::uint64_t>
     out.literal("\nSubset_Start_Frame=").count(first).literal("\nSubset_End_Frame=").count(last);
     out.literal("\nFrame_Step=").count(step_of(frames).value_or(1)).literal("\n");
   }
-  // POV-Ray writes the number of the frame behind the name.
+  // POV-Ray writes the number of the frame after the name.
   out.literal(filled(scene_template("settings.ini"), {{"NAME", options.name}, {"PICTURE", frames.empty() ? "" : "_"}}));
   if (!frames.empty())
     out.literal(filled(scene_template("film.ini"), {{"NAME", options.name}, {"COUNT", std::to_string(frames.size())}}));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tells harmless names from others, letter by letter, and makes comments of them.
+// Checks names letter by letter, and writes the harmless ones as comments.
 #include "exporters/povray/scene_names.h"
 
 #include <algorithm>

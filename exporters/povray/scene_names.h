@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Names of molecules as comments of a scene: such names only as can do nothing there.
+// Names of molecules as comments of a scene, restricted to those that can do nothing there.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 namespace meniscus::povray {
 
 /// The name, or nothing if it is longer than 40 bytes or holds anything but letters and digits of ASCII, blanks between
-/// them, and _ ' * + - . , ( ) as names of atoms and classes have them: it then stands in no scene.
+/// them, and _ ' * + - . , ( ) as names of atoms and classes have them: it then is in no scene.
 std::string_view harmless_name(std::string_view name);
 
 /// What the key calls a colour, as "  // chain A, C": at most five names. Empty: nothing that may be said.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scene shall be, and what was written of it.
+// The options of a scene, and the report of what was written.
 #pragma once
 
 #include <cstddef>
@@ -44,8 +44,8 @@ struct SceneObject {
 };
 
 struct SceneOptions {
-  std::string name = "surface";    ///< of all files; letters, digits, '-' and '_' only, since it stands in the scene
-  int width = 1280, height = 960;  ///< pixels
+  std::string name = "surface";          ///< of all files; letters, digits, '-' and '_' only, since it is in the scene
+  int width = 1280, height = 960;        ///< pixels
   Material material = Material::opaque;  ///< the scene's default; every scene holds all of them
   glm::vec3 background{1.0f};            ///< sRGB
   Existing existing = Existing::refuse;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Looks at what goes into a scene.
+// Checks what goes into a scene.
 #include "exporters/povray/scene_report.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What scenes of one surface and of a run have to look at before and after: names, extents, things worth a note.
+// Checks that scenes of one surface and of a run make before and after they are written: names, extents, notes.
 #pragma once
 
 #include <span>
@@ -19,7 +19,7 @@ Box atom_extent(std::span<const SurfaceObject> objects);
 /// Å, to three decimals.
 glm::dvec3 middle(const Box& extent);
 
-/// Throws Error: a name that cannot stand in a scene, no pixels, no atom.
+/// Throws Error: a name that cannot be in a scene, no pixels, no atom.
 void check(std::span<const SurfaceObject> objects, const SceneOptions& options);
 
 /// Sentences: what the picture lacks, what will be slow.

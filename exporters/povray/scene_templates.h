@@ -9,10 +9,10 @@
 namespace meniscus {
 
 /// main.pov: what is behind the camera: settings and lights; mark: NAME of the scene. surface.pov: a surface; marks:
-/// GROUP (union or object), GEOMETRY and CAPS (what includes their files). map.inc: behind the numbers of a volume map;
+/// GROUP (union or object), GEOMETRY and CAPS (what includes their files). map.inc: after the numbers of a volume map;
 /// mark: FILE. caps.inc: before caps; mark: DARK, the light of hatching. shapes.inc: before shapes. frame.inc: of a
-/// run, from the scene's frame to the file to include, behind the list of frames; mark: NAME. style.inc: behind the
-/// colours. buffers.inc: all but the extent of the molecule, which comes before. settings.ini: behind the sizes; marks:
+/// run, from the scene's frame to the file to include, after the list of frames; mark: NAME. style.inc: behind the
+/// colours. buffers.inc: all but the extent of the molecule, which comes before. settings.ini: after the sizes; marks:
 /// NAME, and PICTURE, what pictures of frames have between name and number. film.ini: of a run, behind that; marks:
 /// NAME, COUNT of frames.
 std::span<const TemplateFile> povray_templates();

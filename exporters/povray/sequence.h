@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A folder with one POV-Ray scene for a run of frames: a geometry include a frame, everything else once.
+// A folder with one POV-Ray scene for a run of frames: one geometry include per frame, everything else once.
 #pragma once
 
 #include <cstdint>

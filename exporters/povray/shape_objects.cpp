@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One union a colour, so that a texture is written once.
+// Writes one union per colour, so that each texture is written once.
 #include "exporters/povray/shape_objects.h"
 
 #include <cstddef>

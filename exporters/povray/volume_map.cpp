@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Puts a grid where POV-Ray's density files stand, and its colours where POV-Ray's colour maps have them.
+// Writes a grid as a density file of POV-Ray, and its colours as a colour map of POV-Ray.
 #include "exporters/povray/volume_map.h"
 
 #include <algorithm>
@@ -63,7 +63,7 @@ void append_map(SceneText& out, const VolumePaint& paint, std::string_view name,
   declare("High").full(high).literal(";\n");
   declare("From").full(paint.scale.range[0]).literal(";\n");
   declare("To").full(paint.scale.range[1]).literal(";\n");
-  // A density file fills the unit cube, and has its n-th value of N at n/N; what lies behind the last repeats the
+  // A density file fills the unit cube, and has its n-th value of N at n/N; what lies after the last repeats the
   // first.
   declare("Place").literal("transform { matrix <");
   glm::dvec3 reach(0.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a fixed probe stands: the point at three SAS radii from three atoms, as sharp as its numbers allow; and which
-// probes stand in one place.
+// Where a fixed probe is: the point at three SAS radii from three atoms, as sharp as its numbers allow; and which
+// probes are in one place.
 //
 // Common subset of GLSL and C++ with GLM, see circle.glsl, which is to be included first. Decimals are quotients of whole
 // numbers, which are rounded once in any precision: GLSL takes 1e-6 for a float.
@@ -55,7 +55,7 @@ GEOMETRY FixedProbe fixed_probe(real3 b, real3 c, real ra, real rb, real rc, rea
   return probe;
 }
 
-// Whether two probes stand in one place; d: from one to the other, height0 and height1: over the planes of their atoms.
+// Whether two probes are in one place; d: from one to the other, height0 and height1: over the planes of their atoms.
 GEOMETRY bool stand_together(real3 d, real height0, real height1) {
   real near = kMergeDistance * min(real(1), min(height0, height1) / kSteep);
   return dot(d, d) < near * near;
@@ -63,7 +63,7 @@ GEOMETRY bool stand_together(real3 d, real height0, real height1) {
 
 GEOMETRY bool is_flat(real height) { return height * height < real(2) * kFlat; }
 
-// Whether they may stand in one place although their positions are farther apart: one of them is flat, and its position
+// Whether they may be in one place although their positions are farther apart: one of them is flat, and its position
 // blurred. They do if the other one touches all atoms of the flat one.
 GEOMETRY bool may_stand_together(real3 d, real height0, real height1) {
   return dot(d, d) <= real(4) * kFlat && is_flat(height0) != is_flat(height1);

@@ -12,7 +12,7 @@
 uint pencil_count;
 bool pencils_left_out;  // there was no room
 
-// Lists the sides of the lower probe s through which it shares spindle circles with t. False if they stand on one without
+// Lists the sides of the lower probe s through which it shares spindle circles with t. False if they are on one without
 // being neighbours there: then other probes of the circle are nearer everywhere on their bisector.
 GEOMETRY bool find_pencils(uint s, uint t) {
   pencil_count = 0u;
@@ -29,7 +29,7 @@ GEOMETRY bool find_pencils(uint s, uint t) {
   return true;
 }
 
-// Whether probe u stands on one of these circles, too.
+// Whether probe u is on one of these circles, too.
 GEOMETRY bool on_pencil(uint u) {
   for (uint k = 0u; k < pencil_count; ++k)
     for (uint n = first_side(u); n < first_side(u + 1u); ++n)

@@ -35,7 +35,7 @@ GEOMETRY Triple triple_at(uint i, uint j, uint k, bool at_end) {
 // The place that the circle (i, j) of a triple leaves to k: 0, the last, 1, the middle, or 2, the first.
 GEOMETRY uint role_of_third(uint i, uint j, uint k) { return k > j ? 0u : k > i ? 1u : 2u; }
 
-// Patches are named by what they are rather than by where they stand. Keys are made by add_to_key, from 0 on:
+// Patches are named by what they are rather than by where they are. Keys are made by add_to_key, from 0 on:
 //   convex patch: its atom, and nothing is added;
 //   concave patch: its contacts, counter-clockwise seen from the probe, the smallest first;
 //   toroidal patch: its two atoms, then, unless it is free, the keys of the concave patches at its start and its end.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What kernels of this stage fetch of a cast block, under the names that view_space.glsl asks for.
+// Fetches values of a cast block for the kernels of this stage, under the names that view_space.glsl asks for.
 #ifndef MENISCUS_LOOK_BLOCK_TEXELS_GLSL
 #define MENISCUS_LOOK_BLOCK_TEXELS_GLSL
 #include "gpu_shaders/shared/constants.glsl"

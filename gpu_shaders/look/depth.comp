@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Depths of the hits of a block along the view axis, and their parts, packed for the many fetches that follow.
+// Computes depths of the hits of a block along the view axis, packed for the many fetches that follow.
 #version 450 core
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "gpu_shaders/look/block_texels.glsl"

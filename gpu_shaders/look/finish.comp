@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shade, air and ink on one sample of each pixel of a block, which is then added to the picture.
+// Applies shade, depth cueing and silhouettes to one sample of each pixel of a block, and adds it to the picture.
 // AMBIENT_OCCLUSION and SILHOUETTES are defined where they are asked for: software GL would pay for them all the same.
 #version 450 core
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shade, air and ink: how they change the colour of a sample.
+// Shade, depth cueing and silhouettes: how they change the colour of a sample.
 //
 // GLSL and, as the body of a struct, C++: see view_space.glsl. The includer provides `params` of FinishParameters and
 // visibility_at() of a pixel that met something.
@@ -54,7 +54,7 @@ GEOMETRY truth may_step(real depth_a, real depth_b) {
 GEOMETRY real step_ink(integer2 a, real depth_a, integer2 b, real depth_b) {
   real nearer = min(depth_a, depth_b);
   real least = least_step(nearer);
-  // What the slope of the flatter one explains is no step.
+  // What the slope of the flatter one explains is not a step.
   real3 viewer_a = to_viewer_at(position_at(a, depth_a));
   real3 viewer_b = to_viewer_at(position_at(b, depth_b));
   real facing_a = dot(facing(hit_normal_at(a), viewer_a), viewer_a);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How much of the sky each hit of a block sees.
+// Computes how much of the sky each hit of a block sees.
 #version 450 core
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "gpu_shaders/look/block_texels.glsl"

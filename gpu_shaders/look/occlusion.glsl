@@ -19,7 +19,7 @@ GEOMETRY integer pattern(integer2 pixel) {
   return (x & 1) << 3 | (pixel.y & 1) << 2 | (x & 2) | (pixel.y & 2) >> 1;
 }
 
-// What stands some pixels on from a pixel.
+// What is some pixels on from a pixel.
 struct Occluder {
   truth met;
   real3 position;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the host tells the kernels of this stage, as uniform blocks of GLSL and structs of C++
+// Parameters that the host passes to the kernels of this stage, as uniform blocks of GLSL and structs of C++
 // (core/gpu/kernel_records.h says how).
 #ifndef MENISCUS_LOOK_PARAMETERS_GLSL
 #define MENISCUS_LOOK_PARAMETERS_GLSL
@@ -28,7 +28,7 @@ struct FinishParameters {
   float shininess;
   float ambient_occlusion;
   float outer_lines;  // widths in pixels: around all,
-  float inner_lines;  // around what stands in front of something else,
+  float inner_lines;  // around what is in front of something else,
   float part_lines;   // and between parts
   float widest_line;
   float step_pixels;  // half an Å and so many pixels further back a line begins;

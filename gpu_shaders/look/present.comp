@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sums of samples over a background, as sRGB (IEC 61966-2-1) in 8 bits.
+// Blends sums of samples over a background, as sRGB (IEC 61966-2-1) in 8 bits.
 #version 450 core
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "gpu_shaders/look/parameters.glsl"

@@ -2,7 +2,7 @@
 // Exclusive prefix sum over `count` words in two levels, by groups that share their sums: for devices whose invocations
 // run side by side. Software GL, which is slow at barriers, takes parallel/scan.comp; both give the same words.
 // Pass 0: each group adds up its chunk of words into totals[chunk].
-// Pass 1: a single group scans the totals in place and writes the grand total behind the last word.
+// Pass 1: a single group scans the totals in place and writes the grand total after the last word.
 // Pass 2: each group rewrites its chunk as prefix sums.
 // Reads and writes words[count + 1]; scratch totals[chunk_count].
 // Based on: Hillis & Steele 1986, within a group; Blelloch 1990, between groups.

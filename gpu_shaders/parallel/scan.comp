@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Exclusive prefix sum over `count` words in three passes of serial chunks; no barriers, which software GL is slow at.
 // Pass 0: one invocation per chunk adds up its words into totals[chunk].
-// Pass 1: a single invocation scans the totals in place and writes the grand total behind the last word.
+// Pass 1: a single invocation scans the totals in place and writes the grand total after the last word.
 // Pass 2: one invocation per chunk rewrites its words as prefix sums.
 // Reads and writes words[count + 1]; scratch totals[chunk_count].
 #version 450 core

@@ -92,7 +92,7 @@ void main() {
     bound = cap_bound(s, scene.probe_radius, axis, cosine);
   }
 
-  // Only where a probe stands lower over its atoms than its radius does its patch leave its simplex (theorem 1.3).
+  // Only where a probe is lower over its atoms than its radius does its patch leave its simplex (theorem 1.3).
   bool low = probe.height < scene.probe_radius;
   uint first = neighbor_first[entry];
   uint last = neighbor_first[entry + 1u];

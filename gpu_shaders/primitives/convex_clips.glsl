@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How kernels tell each other which atoms' contact circles clip a convex patch.
+// Flags by which kernels pass on which atoms' contact circles clip a convex patch.
 #ifndef MENISCUS_CONVEX_CLIPS_GLSL
 #define MENISCUS_CONVEX_CLIPS_GLSL
 

@@ -49,7 +49,7 @@ void expose_among_partners(ListedArc listed, uint b) {
   }
 }
 
-// Whether an arc that is left is none of the surface: then some other atom is needed.
+// Whether an arc that is left is not one of the surface: then some other atom is needed.
 bool is_spurious(ListedArc listed, uint b) {
   bool spurious = exposed_whole && !known(listed, uvec3(b, kNone, kNone));
   for (uint n = 0u; n < exposed_count && !spurious; ++n) {

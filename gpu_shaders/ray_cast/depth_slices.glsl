@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Slices of depth: primitives of a tile stand by them instead of being sorted.
+// Slices of depth: the primitives of a tile are grouped by them instead of being sorted.
 #ifndef MENISCUS_RAY_CAST_DEPTH_SLICES_GLSL
 #define MENISCUS_RAY_CAST_DEPTH_SLICES_GLSL
 #include "gpu_shaders/ray_cast/parameters.glsl"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes what the rays of tiles see that list nothing.
+// Writes what rays see in tiles that list nothing.
 #version 450 core
 layout(local_size_x = 64) in;
 #include "gpu_shaders/shared/constants.glsl"

@@ -2,7 +2,7 @@
 // Nearest points of one primitive on the four rays of an invocation.
 //
 // Four rays share each fetch of a primitive's rows: on software GL fetching costs more than all arithmetic. Both sides
-// of a patch count, because a camera may stand inside the solid.
+// of a patch count, because a camera may be inside the solid.
 
 struct Rays {
   vec3 p[4];  // on the plane through the pivot

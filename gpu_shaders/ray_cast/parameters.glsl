@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the host tells the kernels of this stage, as uniform blocks of GLSL and structs of C++
+// Parameters that the host passes to the kernels of this stage, as uniform blocks of GLSL and structs of C++
 // (core/gpu/kernel_records.h says how).
 #ifndef MENISCUS_RAY_CAST_PARAMETERS_GLSL
 #define MENISCUS_RAY_CAST_PARAMETERS_GLSL

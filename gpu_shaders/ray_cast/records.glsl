@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What crosses the bus of the ray caster, for GLSL and C++: a bound for each primitive, rows of four floats, hits.
+// Data that the host and the ray caster exchange, for GLSL and C++: a bound for each primitive, rows of four floats,
+// hits.
 //
 // Common subset of GLSL and C++; in C++ the includer provides vec3, vec4 and uint.
 // All positions are relative to the pivot, a point in the middle of the picture close to what it shows, so that single
@@ -37,7 +38,7 @@ struct Hit {
 const uint kConvex = 0u;
 const uint kToroidal = 1u;
 const uint kConcave = 2u;
-const uint kCylinder = 3u;  // this one and the next are no patches: sticks and ribbons beside a surface
+const uint kCylinder = 3u;  // this one and the next are not patches: sticks and ribbons beside a surface
 const uint kTriangle = 4u;
 const uint kNoPrimitive = 0xffffffffu;
 const uint kOnPlane = 0xfffffffeu;  // of a hit: where a plane cuts a solid

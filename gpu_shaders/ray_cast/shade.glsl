@@ -32,7 +32,7 @@ GEOMETRY SurfacePoint surface_point(Primitive primitive, real3 p) {
   return point;
 }
 
-// Key light (unless told otherwise from the upper left behind the camera), a dim fill from the right, a sky that is
+// Key light (unless set otherwise from the upper left behind the camera), a dim fill from the right, a sky that is
 // brighter above, and a little sheen. All directions are in the camera's axes (x right, y up, z towards the camera);
 // colours are linear.
 GEOMETRY real3 studio_light(real3 albedo, real3 n, real3 to_camera) {

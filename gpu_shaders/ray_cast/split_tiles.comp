@@ -8,7 +8,7 @@ layout(local_size_x = 64) in;
 
 layout(binding = 0) uniform usamplerBuffer slot_ends;
 layout(std430, binding = 0) writeonly buffer TileOrder { uint tile_order[]; };  // listing ones from the front on
-// Group counts {x, y, z} for those that list something, then their number; the same for the empty ones, which stand at
+// Group counts {x, y, z} for those that list something, then their number; the same for the empty ones, which are at
 // the end. To be {0, 1, 1, 0} before.
 layout(std430, binding = 1) buffer Dispatches { uint dispatches[8]; };
 

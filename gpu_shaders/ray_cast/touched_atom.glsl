@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which atom a point takes its colour from, and whether that atom is shown: points of hidden atoms are no hits.
+// Which atom a point takes its colour from, and whether that atom is shown: points of hidden atoms are not hits.
 //
 // GLSL and, as the body of a struct, C++ (core/render/cpu): points may be packets, the primitive is the same for all.
 // The includer provides row(), shows() of an atom, and `some_hidden`, without which nobody asks.
 
 // On a concave patch; x: from the probe's centre. The nearest contact wins; of two, the smaller atom, in whatever order
-// they stand.
+// they are.
 GEOMETRY natural concave_atom(Primitive primitive, real3 x, float radius) {
   uint first_contact = primitive.first_row + 1u + primitive.plane_count;
   natural atom = natural(kNoPrimitive);

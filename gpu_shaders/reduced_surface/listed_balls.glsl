@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whose neighbours are listed: an entry of the lists stands for every ball in order, or for one of those a view needs.
+// The balls whose neighbours are listed: every ball in order, or those that a view needs.
 
 #ifdef LISTED
 layout(binding = 2) uniform usamplerBuffer listed_balls;   // ascending

@@ -2,7 +2,7 @@
 // Stage "neighbors": lists the atoms whose SAS balls overlap, roughly nearest first, as seen from each atom.
 // Pass 0 counts neighbours and pairs (i < j, both listed); pass 1 (after scans) writes them.
 // Reads: atoms, atoms_low, cells. Writes: class_counts, neighbor_first, pair_first (counts, then scanned), neighbor_balls,
-// neighbor_labels, pairs. One invocation per atom of the batch; entries behind the last one have empty lists. Overflow:
+// neighbor_labels, pairs. One invocation per atom of the batch; entries after the last one have empty lists. Overflow:
 // scans stop at the capacity, and so does pass 1; the host makes the frame again.
 // Based on: Krone, Dachsbacher & Ertl 2010, section 3.3 (neighbourhood grid).
 #version 450 core

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The arithmetic a kernel variant decides in: single precision first, double where that leaves doubt.
+// The arithmetic in which a kernel variant decides: single precision first, double where that leaves doubt.
 #ifdef DOUBLE_PRECISION
 #define real double
 #define real2 dvec2

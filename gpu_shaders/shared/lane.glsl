@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Words for what differs from ray to ray: one value in a kernel. Where C++ compiles the same source they may be packets
-// of values, and are types and functions there (core/render/ray_geometry.h, core/render/cpu/packet.h). Whatever is the
-// same for all rays has GLSL's own types.
+// Types and functions for values that differ from ray to ray: in a kernel, single values. Where C++ compiles the same
+// source they may be packets of values, and are types and functions there (core/render/ray_geometry.h,
+// core/render/cpu/packet.h). Whatever is the same for all rays has GLSL's own types.
 #if !defined(MENISCUS_SHARED_LANE_GLSL) && !defined(__cplusplus)
 #define MENISCUS_SHARED_LANE_GLSL
 

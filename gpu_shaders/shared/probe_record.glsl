@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A fixed probe that a view needs, as kernels hand it on, for GLSL and C++ (core/gpu/kernel_records.h).
+// A fixed probe that a view needs, as kernels pass it on, for GLSL and C++ (core/gpu/kernel_records.h).
 #ifndef MENISCUS_SHARED_PROBE_RECORD_GLSL
 #define MENISCUS_SHARED_PROBE_RECORD_GLSL
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stage "cusps": the exposed arcs of the circle of each pair of probes that cut each other.
-// Reads: circles, neighbour lists of probes, heads, sides. Writes: arcs (behind their counters), doubtful.
+// Reads: circles, neighbour lists of probes, heads, sides. Writes: arcs (after their counters), doubtful.
 // One invocation per circle. Overflow: appends stop at the capacity but go on counting; the host grows and runs again.
 // Based on: Totrov & Abagyan 1996 among fixed probes; order around the axis for the pencils of spindle circles.
 #version 450 core

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What crosses the bus of this stage, for GLSL and C++ (core/gpu/kernel_records.h).
+// Data that the host and the kernels of this stage exchange, for GLSL and C++ (core/gpu/kernel_records.h).
 #ifndef MENISCUS_SINGULARITIES_RECORDS_GLSL
 #define MENISCUS_SINGULARITIES_RECORDS_GLSL
 
@@ -8,7 +8,7 @@ struct SideRecord {
   vec4 contact;        // xyz: unit vector from the probe to the side's first contact
   vec4 gap_direction;  // xyz: from the spindle circle's centre to the middle of the covered gap
   vec4 circle_center;  // xyz: relative to the probe
-  uint circle;         // names the spindle circle; kNone if it is no spindle
+  uint circle;         // names the spindle circle; kNone if it is not a spindle
   uint partner;        // probe across the gap
   uint touching;       // 1: the circle is exactly as large as the probe
   uint spare;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the host tells the kernels of this stage, as uniform blocks of GLSL and structs of C++
+// Parameters that the host passes to the kernels of this stage, as uniform blocks of GLSL and structs of C++
 // (core/gpu/kernel_records.h says how).
 #ifndef MENISCUS_VISIBILITY_PARAMETERS_GLSL
 #define MENISCUS_VISIBILITY_PARAMETERS_GLSL
@@ -14,7 +14,7 @@ struct View {
   vec3 forward;
   int block_edge;      // pixels; divides kTileEdge
   ivec2 picture_size;  // pixels
-  uint keep_all;       // 1: the eye may stand in the solid, or the whole surface is wanted
+  uint keep_all;       // 1: the eye may be in the solid, or the whole surface is wanted
 };
 const int kViewBinding = 2;
 

@@ -1,7 +1,6 @@
-# Writes one C++ file that tells which sources the program is made of: version, commit and its date, and a checksum of
-# what differs from the commit; without git, as from a tarball, a checksum of all sources. The file changes only when the
-# answer does.
-# Run as: cmake -DSOURCE=<root of the tree> -DVERSION=<number> -DOUTPUT=<file.cpp> -P build_version.cmake
+# Writes one C++ file with the version of the sources: version, commit and its date, and a checksum of what differs from
+# the commit; without git, as from a tarball, a checksum of all sources. The file changes only when the answer does. Run
+# as: cmake -DSOURCE=<root of the tree> -DVERSION=<number> -DOUTPUT=<file.cpp> -P build_version.cmake
 cmake_minimum_required(VERSION 3.25)
 set(compiled app core exporters gpu_shaders scripts/cmake CMakeLists.txt)
 

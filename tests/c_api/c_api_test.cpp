@@ -523,7 +523,7 @@ TEST(CApi, WhatCannotBeSavedIsSaid) {
   };
   said(MENISCUS_USAGE, "size", [](meniscus_mesh_file& file) { file.size = 0; });
   said(MENISCUS_USAGE, "format is 'step'", [](meniscus_mesh_file& file) { file.format = "step"; });
-  said(MENISCUS_USAGE, "no attribute", [](meniscus_mesh_file& file) { file.attributes = "mass"; });
+  said(MENISCUS_USAGE, "not an attribute", [](meniscus_mesh_file& file) { file.attributes = "mass"; });
   said(MENISCUS_USAGE, "bare atoms", [](meniscus_mesh_file& file) { file.attributes = "all,charge"; });
   said(MENISCUS_INPUT, "scale is -1", [](meniscus_mesh_file& file) { file.scale = -1.0; });
   said(MENISCUS_INPUT, "scale is nan", [](meniscus_mesh_file& file) { file.scale = std::nan(""); });

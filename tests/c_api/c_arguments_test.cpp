@@ -93,7 +93,7 @@ struct World {
     meniscus_structure_release(fresh);
     return status;
   }
-  /// With one text in a list, if it stands anywhere.
+  /// With one text in a list, if it is anywhere.
   meniscus_status read_with(const char* const* meniscus_read_options::*list, std::size_t meniscus_read_options::*count,
                             const void* address) {
     reading.*list = static_cast<const char* const*>(address);
@@ -107,7 +107,7 @@ struct World {
   meniscus_status save() const { return meniscus_mesh_save(mesh.get(), path.c_str(), &file); }
 };
 
-/// Its address is no multiple of 8.
+/// Its address is not a multiple of 8.
 alignas(8) unsigned char crooked[64] = {};
 
 template <typename Type>
@@ -127,7 +127,7 @@ struct Pointer {
   const char* place;  // "function argument" or "struct.field"
   bool may_be_null;
   meniscus_status (*call)(World&, const void* address);
-  bool text = false;  // which stands anywhere
+  bool text = false;  // which is anywhere
 };
 
 #define ARGUMENT(function, name, may_be_null, ...)                                                       \
@@ -560,7 +560,7 @@ std::set<std::string> places_of_header() {
 }
 
 TEST(CArguments, AreAllOfTheHeader) {
-  // A range, which CApiPictures tests; a place that may lie behind the last; texts that are given out.
+  // A range, which CApiPictures tests; a place that may lie after the last; texts that are given out.
   std::set<std::string> known{"meniscus_surface_camera aspect", "meniscus_scene_get n",
                               "meniscus_summary.device",        "meniscus_read_report.file",
                               "meniscus_read_report.format",    "meniscus_read_report.radii_set",

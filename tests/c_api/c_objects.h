@@ -67,7 +67,7 @@ inline StructureOf structure_of(const std::string& path, const meniscus_read_opt
   return StructureOf(made);
 }
 
-/// The balls as they stand in memory: rows of x, y, z, radius.
+/// The balls as they are in memory: rows of x, y, z, radius.
 inline meniscus_atoms atoms_of(const testing::Balls& balls) {
   meniscus_atoms atoms{};
   atoms.size = sizeof atoms;

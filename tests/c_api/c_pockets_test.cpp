@@ -100,7 +100,7 @@ TEST(CPockets, RefuseWhatMakesNoSense) {
     EXPECT_NE(std::strstr(meniscus_last_error(), words), nullptr) << meniscus_last_error();
     return status;
   };
-  EXPECT_EQ(refused("not above the probe's 1.4 Å", [](auto& o) { o.large_probe_radius = 1.4; }), MENISCUS_INPUT);
+  EXPECT_EQ(refused("has to be above the probe's 1.4 Å", [](auto& o) { o.large_probe_radius = 1.4; }), MENISCUS_INPUT);
   EXPECT_EQ(refused("large_probe_radius", [](auto& o) { o.large_probe_radius = 101.0; }), MENISCUS_INPUT);
   EXPECT_EQ(refused("trim is -1 Å", [](auto& o) { o.trim = -1.0; }), MENISCUS_INPUT);
   EXPECT_EQ(refused("min_volume", [](auto& o) { o.min_volume = std::nan(""); }), MENISCUS_INPUT);

@@ -111,9 +111,9 @@ TEST(CApiScenes, SayWhatTheyCannotTake) {
     EXPECT_EQ(meniscus_scene_set(scene.get(), name, value), MENISCUS_USAGE) << name;
     EXPECT_NE(said().find(words), std::string::npos) << said();
   };
-  refused("silhouetes", "1", "'silhouetes' is no value of a scene; did you mean silhouettes?");
-  refused("stats", "true", "'stats' is no value of a scene");
-  refused("silhouettes", "7pq", "silhouettes: '7pq' is no length");
+  refused("silhouetes", "1", "'silhouetes' is not a value of a scene; did you mean silhouettes?");
+  refused("stats", "true", "'stats' is not a value of a scene");
+  refused("silhouettes", "7pq", "silhouettes: '7pq' is not a length");
   refused("depth_cue", "1.5", "depth_cue: '1.5' is not a number from 0 to 1");
   refused("keep_water", "maybe", "keep_water: 'maybe' is neither true nor false");
   refused("surface", "ess", "surface: 'ess' is not one of");

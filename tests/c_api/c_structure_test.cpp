@@ -139,7 +139,7 @@ TEST_F(CStructure, ColorsAtomsByTheWordsOfTheProgram) {
   EXPECT_NE(colors("bfactor"), by_chain);
   for (const char* scheme : {"kind", "component", "buried", "rmsf", "file"})
     refused(scheme, MENISCUS_USAGE, "needs more than the atoms of a file");
-  refused("chains", MENISCUS_USAGE, "'chains' is none of element, ");
+  refused("chains", MENISCUS_USAGE, "'chains' is not one of element, ");
   refused("charge", MENISCUS_INPUT, "partial charges");
   EXPECT_EQ(column<double>(structure, MENISCUS_STRUCTURE_HYDROPATHIES), (std::vector<double>{1.8, 1.8, 1.8, -0.4}));
 }
@@ -223,7 +223,7 @@ TEST_F(CStructure, ErrorsNameOptionsAsTheLibraryHasThem) {
   EXPECT_EQ(refused(options, MENISCUS_USAGE), "altloc is 'both'; it must be best, first, all or one letter");
   options = reading();
   options.radii = "amber";
-  EXPECT_NE(refused(options, MENISCUS_INPUT).find("no set of radii"), std::string::npos);
+  EXPECT_NE(refused(options, MENISCUS_INPUT).find("not a set of radii"), std::string::npos);
   options = reading();
   options.hydrogens = meniscus_hydrogens{3};
   EXPECT_NE(refused(options, MENISCUS_USAGE).find("hydrogens is 3"), std::string::npos);
@@ -256,8 +256,8 @@ TEST_F(CStructure, NoMessageNamesAnOptionOfTheCommandLine) {
   meniscus_read_options options = reading();
   options.assembly = "1";
   const std::string bare(kMolecule.substr(kMolecule.find("MODEL")));
-  EXPECT_TRUE(said("bare.pdb", bare, options).ends_with("leave assembly away")) << meniscus_last_error();
-  EXPECT_TRUE(said("balls.xyzr", "0 0 0 1.5\n", options).ends_with("leave assembly away")) << meniscus_last_error();
+  EXPECT_TRUE(said("bare.pdb", bare, options).ends_with("leave assembly out")) << meniscus_last_error();
+  EXPECT_TRUE(said("balls.xyzr", "0 0 0 1.5\n", options).ends_with("leave assembly out")) << meniscus_last_error();
 }
 
 TEST_F(CStructure, StandardInputIsLeftAlone) {

@@ -100,9 +100,9 @@ TEST_F(ColorCommand, VolumeMapsColorThePointsOfTheSurface) {
   EXPECT_NE(with({"--legend", "--color-title", "potential", "--color-unit", "kT/e"}), with({"--legend"}));
   const std::pair<std::vector<std::string>, std::string> refused[] = {
       {{"--color-map-file", map}, "needs --color-range"},
-      {{"--color-map-file", map, "--color-range", "-1:1", "--color", "chain"}, "leave the other one out"},
+      {{"--color-map-file", map, "--color-range", "-1:1", "--color", "chain"}, "leave out the other --color"},
       {{"--color-map-file", path("nowhere"), "--color-range", "-1:1"}, "cannot be read"},
-      {{"--color-map-file", file_, "--color-range", "-1:1"}, "is none of the volume maps"},
+      {{"--color-map-file", file_, "--color-range", "-1:1"}, "is not one of the volume maps"},
       {{"--map-offset", "1"}, "--color-map-file"},
       {{"--color-map-file", map, "--color-range", "-1:1", "--extent", "visible"}, "--color-map-file"}};
   for (const auto& [arguments, reason] : refused) {
@@ -120,7 +120,7 @@ TEST_F(ColorCommand, VolumeMapsColorThePointsOfTheSurface) {
       meniscus({"export", "povray", file_, "-o", path("film"), "--color-map-file", map, "--color-range", "-1:1",
                 "--map-offset", "1", "--film-opacity", "--opacity", "0.5"});
   EXPECT_EQ(film.exit_code, 2);
-  EXPECT_NE(film.err.find("--map-offset: POV-Ray samples beside the surface patch by patch"), std::string::npos)
+  EXPECT_NE(film.err.find("--map-offset: scenes for POV-Ray cannot combine it with --film-opacity"), std::string::npos)
       << film.err;
   EXPECT_EQ(exported("blender", "e.mns"), 0);
   const ProgramResult mesh =
@@ -156,7 +156,7 @@ TEST_F(ColorCommand, WhatAMapDoesNotReachIsSaid) {
     EXPECT_NEAR(std::stod(part.err.substr(share - 2, 2)), 25.0, 1.0) << part.err;
     const ProgramResult none = call(at("off.xyzr", 40.0), map);
     EXPECT_EQ(none.exit_code, 3) << none.err;
-    EXPECT_NE(none.err.find("no part of the surface lies there"), std::string::npos) << none.err;
+    EXPECT_NE(none.err.find("where no part of the surface lies"), std::string::npos) << none.err;
     const ProgramResult whole = call(at("whole.xyzr", 40.0), all);
     EXPECT_EQ(whole.exit_code, 0) << whole.err;
     EXPECT_EQ(whole.err.find("warning"), std::string::npos) << whole.err;
@@ -220,15 +220,15 @@ TEST_F(ColorCommand, WhatCannotBeIsRefusedWithItsReason) {
     int exit_code;
     std::string reason;
   } cases[] = {
-      {{"--color", "bleu"}, 2, "'bleu' is none of element"},
+      {{"--color", "bleu"}, 2, "'bleu' is not one of element"},
       {{"--color", "file"}, 2, "needs --color-by-file"},
-      {{"--color", "chain", "--color-by-file", five}, 2, "leave the other one out"},
+      {{"--color", "chain", "--color-by-file", five}, 2, "leave out the other --color"},
       {{"--map", "magma"}, 2, "is for colours by a number"},
       {{"--color", "chain", "--color-range", "1:2"}, 2, "is for colours by a number"},
       {{"--missing-color", "#102030"}, 2, "is for colours by a number"},
-      {{"--color", "bfactor", "--map", "jet"}, 2, "'jet' is none of viridis"},
+      {{"--color", "bfactor", "--map", "jet"}, 2, "'jet' is not one of viridis"},
       {{"--color", "bfactor", "--color-range", "2:1"}, 2, "lo < hi"},
-      {{"--color", "bfactor", "--missing-color", "gery"}, 2, "is neither a colour's name"},
+      {{"--color", "bfactor", "--missing-color", "gery"}, 2, "is not a colour: give a name"},
       {{"--color", "charge"}, 3, "no partial charges"},
       {{"--color", "occupancy"}, 3, "no occupancies"},
       {{"--color-by-file", five}, 3, "holds 5 numbers"},
@@ -236,12 +236,12 @@ TEST_F(ColorCommand, WhatCannotBeIsRefusedWithItsReason) {
       {{"--color-by-file", words}, 3, "words:3: 'red' is not a finite number"},
       {{"--color-by-file", gone}, 3, "all numbers are missing"},
       {{"--color-by-file", path("nowhere")}, 3, "cannot be read"},
-      {{"--color", "chain A=bleu"}, 2, "--color: 'bleu' is none of element"},
+      {{"--color", "chain A=bleu"}, 2, "--color: 'bleu' is not one of element"},
       {{"--color", "chain A and=red"}, 2, "--color: "},
       {{"--color", "kind", "--color", "chain A=red"}, 2, "kind colours patches"},
       {{"--color", "chain A=file"}, 2, "needs --color-by-file"},
       {{"--color", "#102030", "--legend"}, 2, "nothing to explain"},
-      {{"--opacity", "chain A=1.5"}, 2, "'1.5' is no opacity from 0"},
+      {{"--opacity", "chain A=1.5"}, 2, "'1.5' is not an opacity from 0"},
       {{"--opacity", "chian A=0.5"}, 2, "--opacity: "},
   };
   for (const auto& c : cases) {

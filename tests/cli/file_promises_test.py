@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is read is never replaced, scenes of others write and read nowhere else, and the same command makes the same bytes."""
+"""Inputs are never replaced, scenes of others read and write nowhere else, and the same command makes the same
+bytes."""
 
 import json
 import os

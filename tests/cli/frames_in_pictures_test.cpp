@@ -65,7 +65,7 @@ TEST_F(FramesInPictures, NumbersByFrameColorEachOfThem) {
     EXPECT_TRUE(bytes(name) == bytes(std::string("one_") + frame + ".png")) << frame;
   }
   EXPECT_FALSE(bytes("run_0.png") == bytes("run_1.png"));
-  // A frame without numbers fails, the others are made; a single picture is none of a run.
+  // A frame without numbers fails, the others are made; a single picture is not one of a run.
   const ProgramResult gap =
       meniscus({"render", file_, "-q", "--size", "64x48", "-o", (folder.path() / "gap_#.png").string(), "--frames",
                 "0-2", "--color-by-file", run});
@@ -75,7 +75,7 @@ TEST_F(FramesInPictures, NumbersByFrameColorEachOfThem) {
   const ProgramResult alone =
       meniscus({"render", file_, "-q", "-o", (folder.path() / "a.png").string(), "--color-by-file", run});
   EXPECT_EQ(alone.exit_code, 3);
-  EXPECT_NE(alone.err.find("ask for a run of frames"), std::string::npos) << alone.err;
+  EXPECT_NE(alone.err.find("add --frames, or leave out its column frame"), std::string::npos) << alone.err;
   // A frame that is shown again has the numbers of the trajectory's.
   picture("again_#.png", {"--frames", "1", "--repeat", "2", "--color-by-file", run});
   EXPECT_TRUE(bytes("again_2.png") == bytes("again_3.png"));
@@ -153,7 +153,7 @@ TEST_F(FramesInPictures, Film) {
                            "stream=nb_read_frames,width,height,r_frame_rate", "-of", "csv=p=0", folder + "/a.mp4"});
   EXPECT_EQ(probe.out, "64,48,12/1,8\n");
   EXPECT_EQ(render({"-o", folder + "/c.mp4", "--size", "63x48"}).exit_code, 2);
-  // A film with a hole is no film, and nothing stays behind.
+  // A film with a hole is not a film, and nothing stays behind.
   const std::string bad = folder_.file("bad.pdb", walk(5, 2));
   EXPECT_EQ(meniscus({"render", bad, "-q", "--size", "64x48", "--frames", "all", "-o", folder + "/d.mp4"}).exit_code,
             3);
@@ -230,14 +230,15 @@ TEST_F(FramesInPictures, ACurveGoesAlong) {
   };
   refused({"--curve", table, "--curve-column", "depth"}, 3,
           "series.csv:1: has no column 'depth'; it has time, ses_area");
-  refused({"--curve", folder_.file("short.csv", "frame,time,volume\n0,,1\n1,,2\n")}, 3, "has no row of frame 2");
+  refused({"--curve", folder_.file("short.csv", "frame,time,volume\n0,,1\n1,,2\n")}, 3, "has no row for frame 2");
   refused({"--curve", folder_.file("twice.csv", "frame,volume\n0,1\n0,2\n")}, 3, "twice.csv:3: frame 0 stands here a");
-  refused({"--curve", folder_.file("word.csv", "frame,volume\n0,many\n")}, 3, "word.csv:2: volume 'many' is no number");
-  refused({"--curve", folder_.file("none.csv", "a,b\n")}, 3, "none.csv:1: is no header with a column 'frame'");
+  refused({"--curve", folder_.file("word.csv", "frame,volume\n0,many\n")}, 3,
+          "word.csv:2: volume 'many' is not a number");
+  refused({"--curve", folder_.file("none.csv", "a,b\n")}, 3, "none.csv:1: is not a header with a column 'frame'");
   refused({"--curve-column", "volume"}, 2, "--curve");
   const ProgramResult one = meniscus({"render", file_, "-q", "-o", folder + "/one.png", "--curve", table});
   EXPECT_EQ(one.exit_code, 2);
-  EXPECT_NE(one.err.find("--curve has nothing to do: there is no run of frames"), std::string::npos) << one.err;
+  EXPECT_NE(one.err.find("--curve has no effect: there is no run of frames"), std::string::npos) << one.err;
 }
 
 TEST_F(FramesInPictures, FilmWithoutFfmpegSaysSo) {

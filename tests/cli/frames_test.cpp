@@ -167,8 +167,8 @@ TEST_F(Frames, WrongRequests) {
   expect_error({"--begin", "3ps"}, 2, "have no times");
   expect_error({"--begin", "soon"}, 2, "neither a frame");
   expect_error({"--frames", "all", "--smooth", "4"}, 2, "odd");
-  expect_error({"--frames", "all", "--superpose", "name CA"}, 2, "selects 1 of 4 atoms, and needs at least 3");
-  expect_error({"--frames", "all", "--model", "2"}, 2, "leave --model away");
+  expect_error({"--frames", "all", "--superpose", "name CA"}, 2, "selects 1 of 4 atoms; at least 3 are needed");
+  expect_error({"--frames", "all", "--model", "2"}, 2, "leave --model out");
   expect_error({"--frames", "all", "--center", "all", "--reference", "8"}, 2, "0 to 7");
   expect_error({"--frames", "0", "--whole"}, 3, "frame 0: has no periodic box");
   const std::string other = folder_.file("other.xyz", "2\n\nC 0 0 0\nC 0 0 2\n");

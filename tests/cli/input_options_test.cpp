@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The options that say what is taken from a file, and standard input, as users give them.
+// Options that choose what is read from a file, and standard input, as users give them.
 #include <algorithm>
 #include <map>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files that options name are read before anything is computed, and what only looks like a result is told: atoms in
+// Files that options name are read before anything is computed, and results that only look right are reported: atoms in
 // another order, pictures of nothing.
 #include <algorithm>
 #include <sstream>

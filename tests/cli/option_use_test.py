@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Each option of each command changes a result, is refused, or says that it has nothing to do."""
+"""Each option of each command changes a result, is refused, or is reported as having no effect."""
 
 import concurrent.futures
 import functools

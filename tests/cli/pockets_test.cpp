@@ -163,8 +163,8 @@ TEST(Pockets, WhatMakesNoSenseIsSaid) {
   const std::string nowhere =
       folder.file("n.pdb", "ATOM      1  CA  ALA A   1         nan   0.000   0.000  1.00 10.00           C\n");
   for (const Case& each : std::vector<Case>{
-           {{kProtease, "--large-probe", "1"}, 2, "--large-probe: 1 Å is not above the small probe's 1.4 Å"},
-           {{kProtease, "--probe", "4"}, 2, "--large-probe: 4 Å is not above the small probe's 4 Å"},
+           {{kProtease, "--large-probe", "1"}, 2, "--large-probe: 1 Å must be above the small probe's 1.4 Å"},
+           {{kProtease, "--probe", "4"}, 2, "--large-probe: 4 Å must be above the small probe's 4 Å"},
            {{kProtease, "--probe", "0"}, 2, "--probe"},
            {{kProtease, "--large-probe", "nan"}, 2, "--large-probe: 'nan' is not a number from 0.001 to 100"},
            {{kProtease, "--large-probe", "1000"}, 2, "--large-probe: '1000' is not a number from 0.001 to 100"},

@@ -235,25 +235,25 @@ TEST_F(SceneFile, FaultsAreNamed) {
   for (
       const auto& [text, why, code] :
       {std::tuple{"{", "not JSON", 3},
-       {"[]", "is no scene", 3},
-       {R"({"molecule":{"file":"two.xyzr"}})", "is no scene", 3},
+       {"[]", "is not a scene", 3},
+       {R"({"molecule":{"file":"two.xyzr"}})", "is not a scene", 3},
        {R"({"meniscus_scene":2})", "reads version 1", 3},
        {R"({"meniscus_scene":1})", "molecule.file is missing", 3},
        {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr","selcet":"all"}})", "did you mean select", 3},
        {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr"},"imgae":{}})", "did you mean image", 3},
        {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr","keep_water":"yes"}})", "neither true nor false", 3},
-       {R"({"meniscus_scene":1,"molecule":{"file":7}})", "molecule.file is no path", 3},
+       {R"({"meniscus_scene":1,"molecule":{"file":7}})", "molecule.file is not a path", 3},
        {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr"},"image":{"size":"big"}})",
         "image.size: 'big' is not WIDTHxHEIGHT", 2},
        {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr","select":"chain"}})",
         "molecule.select: a value is missing", 2},
-       {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr"},"objects":{}})", "no JSON list", 3},
+       {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr"},"objects":{}})", "not a JSON list", 3},
        {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr"},"objects":[{"clip":"q<1"}]})",
-        "objects[0].clip: 'q<1' is no plane", 2},
+        "objects[0].clip: 'q<1' is not a plane", 2},
        {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr"},"objects":[{"representation":"cartoon","selection":"all"}]})",
-        "none of surface, sticks", 2},
+        "not one of surface, sticks", 2},
        {R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr"},"objects":[{"representation":"sticks","selection":"all","clip":"x<1"}]})",
-        "is no key of sticks", 2},
+        "is not a key of sticks", 2},
        {R"({"meniscus_scene":1,"molecule":{"file":"gone.xyzr"}})", "gone.xyzr", 3}}) {
     const std::string scene = folder_.file("bad" + std::to_string(n++) + ".json", text);
     const ProgramResult result = render({"--scene", scene, "-o", path("bad.png")});

@@ -37,7 +37,7 @@ TEST(Select, MistakesArePointedAt) {
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_EQ(result.out, "");
   EXPECT_EQ(result.err,
-            "meniscus: error: --select: 'foo' is no residue number; they look like 52, -3, 52A, 5-10\n"
+            "meniscus: error: --select: 'foo' is not a residue number; write one such as 52, -3, 52A or 5-10\n"
             "  chain A and resid foo\n"
             "                    ^\n");
   EXPECT_NE(says({"surface", kToxin, "--context", "chian A"}).err.find("did you mean 'chain'?"), std::string::npos);
@@ -138,7 +138,7 @@ std::string two_copies(double distance) {
 
 TEST(Instances, AreExactOnlyWhereNoProbeTouchesTwo) {
   const TemporaryFolder folder;
-  // The copies' nearest carbons (radius 1.7) stand 20 - 9 = 11 Å apart; 2 (1.7 + 1.4) = 6.2.
+  // The copies' nearest carbons (radius 1.7) are 20 - 9 = 11 Å apart; 2 (1.7 + 1.4) = 6.2.
   const std::string apart = folder.file("apart.pdb", two_copies(20));
   const json instanced = surface_json({apart, "--assembly", "1", "--instances", "exact"});
   const json built = surface_json({apart, "--assembly", "1"});
@@ -175,7 +175,7 @@ TEST(Instances, ShareTheirColours) {
   const ProgramResult result = says({"render", apart, "--assembly", "1", "--instances", "exact", "--color", "copy",
                                      "-o", (folder.path() / "a.png").string()});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_NE(result.err.find("leave --instances away"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("leave --instances out"), std::string::npos) << result.err;
 }
 
 TEST(HelpPages, AreThereAndNamed) {

@@ -132,7 +132,7 @@ TEST_F(SelectionsInFrames, PicturesShowEachFrameAsItIs) {
     }
     EXPECT_NE(read_bytes(folder_.path() / "run_0.png"), read_bytes(folder_.path() / "run_2.png")) << words[1];
   }
-  // Nothing to draw in one frame is no fault of the run.
+  // Nothing to draw in one frame is not a fault of the run.
   picture("last_#.png", {"--spheres", "water and within 4 of protein", "--frames", "all"});
 }
 

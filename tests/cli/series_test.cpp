@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers from trajectories: tables of frames, atoms, residues and cavities, and which atoms and frames they are of.
+// Numbers from trajectories: tables of frames, atoms, residues and cavities.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the program says of words it does not know, and what it takes for granted.
+// What the program says about words that it does not know, and what it assumes where words are missing.
 #include <algorithm>
 #include <filesystem>
 
@@ -37,6 +37,9 @@ TEST_F(Words, UnknownOptionsAreNamedInTheirOrderWithTheOneThatWasMeant) {
       {{"--bg", "white"}, "meniscus render has no option '--bg'; did you mean --background?"},
       {{"--ao", "1"}, "meniscus render has no option '--ao'; did you mean --ambient-occlusion?"},
       {{"--zoom", "ligand"}, "meniscus render has no option '--zoom'; did you mean --zoom-to?"},
+      {{"--ray", "800"}, "meniscus render has no option '--ray'; did you mean --size?"},
+      {{"--png", "b.png"}, "meniscus render has no option '--png'; did you mean --output?"},
+      {{"--bg-colour", "grey"}, "meniscus render has no option '--bg-colour'; did you mean --background?"},
       {{"--rotate", "y90"}, "meniscus render has no option '--rotate'; did you mean --turn?"},
       {{"--backgroud", "white"}, "meniscus render has no option '--backgroud'; did you mean --background?"},
       {{"--quite"}, "meniscus render has no option '--quite'; did you mean --quiet?"},
@@ -58,9 +61,37 @@ TEST_F(Words, UnknownOptionsAreNamedInTheirOrderWithTheOneThatWasMeant) {
 
 TEST_F(Words, UnknownCommandsAndMissingFilesAreToldApart) {
   EXPECT_EQ(says({"rendr", molecule_}).exit_code, 2);
-  EXPECT_NE(says({"rendr", molecule_}).err.find("'rendr' is no command (did you mean render?) and no file"),
+  EXPECT_NE(says({"rendr", molecule_}).err.find("'rendr' is not a command (did you mean render?) and not a file"),
             std::string::npos);
-  EXPECT_NE(says({"nowhere.pdb"}).err.find("'nowhere.pdb' is no command; there are surface, pockets, render"),
+  EXPECT_NE(says({"nowhere.pdb"})
+                .err.find("'nowhere.pdb' is not a command and not a file; the commands are surface, "
+                          "pockets, render"),
+            std::string::npos);
+}
+
+TEST_F(Words, ACodeOfThePdbIsNotAFile) {
+  const std::string advice = "; 9zzz is a PDB code, not a file; download https://files.rcsb.org/download/9zzz.cif.gz";
+  EXPECT_NE(says({"9zzz"}).err.find("'9zzz' is not a command" + advice), std::string::npos) << says({"9zzz"}).err;
+  const ProgramResult render = says({"render", "9zzz", "-o", (folder_.path() / "z.png").string()});
+  EXPECT_EQ(render.exit_code, 3);
+  EXPECT_NE(render.err.find("9zzz: cannot be read: No such file or directory" + advice), std::string::npos)
+      << render.err;
+  const ProgramResult other = says({"surface", "9zzz.pdb"});
+  EXPECT_EQ(other.err.find("PDB code"), std::string::npos) << other.err;
+}
+
+TEST_F(Words, ABackgroundMayHaveAnyNameOfAColour) {
+  const auto picture = [&](const std::string& color) {
+    const std::string output = (folder_.path() / (color + ".png")).string();
+    const ProgramResult result = says({"render", molecule_, "-o", output, "--size", "40x30", "--samples", "1",
+                                       "--no-provenance", "--background", color});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return test::read_bytes(output);
+  };
+  EXPECT_EQ(picture("grey"), picture("gray"));
+  EXPECT_EQ(picture("grey"), picture("#808080"));
+  EXPECT_NE(picture("white"), picture("gainsboro"));
+  EXPECT_NE(fault({"--background", "plaid"}).find("'plaid' is not a background: give transparent, a colour's name"),
             std::string::npos);
 }
 
@@ -92,6 +123,8 @@ TEST_F(Words, APictureNeedsNoNameAndNoCommand) {
   EXPECT_EQ(test::read_bytes((folder_.path() / "two.png").string()), bytes);
   EXPECT_EQ(says({"render", "two.xyzr", "--frames", "all"}).exit_code, 2);
   EXPECT_EQ(says({"render", "-"}).exit_code, 2);
+  EXPECT_EQ(says({"-"}).err, says({"render", "-"}).err);  // - is standard input, which gives no name
+  EXPECT_NE(says({"-"}).err.find("-o is missing: name the picture"), std::string::npos);
   std::filesystem::current_path(here);
 }
 
@@ -155,7 +188,7 @@ TEST_F(Words, ACameraThatSeesNothingIsToldBeforeTheSurfaceIsComputed) {
   EXPECT_LT(warning, result.err.find("surface on"));
 }
 
-/// Width and height of a PNG, and what is behind the name of a chunk or a key.
+/// Width and height of a PNG, and what is after the name of a chunk or a key.
 std::string behind(const std::string& png, const std::string& name, std::size_t count) {
   const std::size_t at = png.find(name);
   return at == std::string::npos ? "" : png.substr(at + name.size(), count);
@@ -185,7 +218,7 @@ TEST_F(Words, SizesMayBeLengths) {
   EXPECT_EQ(header({"--width", "1in", "--dpi", "72"}), (Numbers{72, 54, 2835}));
   EXPECT_EQ(header({"--dpi", "72", "--height", "2.54cm"}), (Numbers{96, 72, 2835}));
   EXPECT_EQ(header({"--width", "64px", "--height", "64"}), (Numbers{64, 64}));
-  EXPECT_NE(fault({"--width", "9ft"}).find("'9ft' is no length, such as 85mm"), std::string::npos);
+  EXPECT_NE(fault({"--width", "9ft"}).find("'9ft' is not a length, such as 85mm"), std::string::npos);
   EXPECT_NE(fault({"--width", "0.01mm"}).find("makes 0 pixels"), std::string::npos);
   EXPECT_NE(fault({"--width", "9in", "--size", "3x3"}).find("excludes"), std::string::npos);
 }
@@ -206,8 +239,8 @@ TEST_F(Words, PicturesTellHowTheyWereMadeIfAsked) {
 }
 
 TEST_F(Words, SidesAndTurnsAreChecked) {
-  EXPECT_NE(fault({"--view", "up"}).find("'up' is none of front, back"), std::string::npos);
-  EXPECT_NE(fault({"--turn", "90"}).find("'90' is no axis of the picture"), std::string::npos);
+  EXPECT_NE(fault({"--view", "up"}).find("'up' is not one of front, back"), std::string::npos);
+  EXPECT_NE(fault({"--turn", "90"}).find("'90' is not an axis of the picture"), std::string::npos);
   EXPECT_NE(fault({"--view", "symmetry"}).find("there is no axis"), std::string::npos);
   EXPECT_EQ(fault({"--camera", "x.json", "--view", "x"}).find("internal"), std::string::npos);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A few atoms that walk: frames for tests of runs.
+// A few atoms that move: frames for tests of runs.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 namespace meniscus::test {
 
 /// Models of a PDB file: four atoms whose last one walks away, and the whole of which turns and drifts. bad_frame: one
-/// with a coordinate that is no number.
+/// with a coordinate that is not a number.
 std::string walk(int frames, int bad_frame = -1);
 
 ProgramResult meniscus(const std::vector<std::string>& arguments);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What documents and comments point to is there: links, kernels, theorems, tests."""
+"""What documents and comments refer to exists: links, kernels, theorems, tests."""
 import ast
 import pathlib
 import re

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The order of folders: no file includes one of a folder that comes later; headers with their sources make no ring."""
+"""Checks the order of folders: no file includes one of a later folder; headers with their sources make no ring."""
 
 import pathlib
 import re

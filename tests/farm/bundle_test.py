@@ -92,7 +92,7 @@ class Bundle(FarmCase):
         words = ("--", "render", molecule, "--frames", "all", "--size", "8x6", "--camera", self.camera())
         for _ in range(2):
             told = self.meniscus("farm", "bundle", self.folder / "many", "--chunk-frames", "1", *words)
-            self.assertIn("note: --chunk-frames 1 would be 2,500 tasks; queues take 1,000, so a task has up to 3 frames", told.stderr)
+            self.assertIn("note: --chunk-frames 1 would make 2,500 tasks; queues accept 1,000, so a task has up to 3 frames", told.stderr)
         self.assertEqual(json.loads((self.folder / "many" / "bundle.json").read_text())["chunks"]["count"], 1000)
         self.assertNotIn("would be", self.meniscus("farm", "bundle", self.folder / "few", "--chunk-frames", "3", *words).stderr)
 
@@ -121,8 +121,8 @@ class Bundle(FarmCase):
         cases = {
             ("surface", UBIQUITIN): "cannot be bundled",
             ("render",): "no FILE",
-            ("render", "-"): "right behind",
-            ("render", "--frames", "all", UBIQUITIN): "right behind",
+            ("render", "-"): "directly after",
+            ("render", "--frames", "all", UBIQUITIN): "directly after",
             ("render", UBIQUITIN, "-o", "x.png"): "decide that",
             ("render", UBIQUITIN, "--only=3"): "decide that",
             ("render", UBIQUITIN, "--nonsense"): "nonsense",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Any number of workers share one bundle: each frame is made once, and what a dead one had is made by another."""
+"""Any number of workers share one bundle: each frame is made once, and another worker makes those of a dead one."""
 
 import contextlib
 import json

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bundles from elsewhere: none may write or read outside its folder, or start a program, whatever stands in it."""
+"""Bundles from elsewhere: none may write or read outside its folder, or start a program, whatever it contains."""
 
 import hashlib
 import json
@@ -46,7 +46,7 @@ class Hostile(FarmCase):
         self.assertEqual(sorted(self.outside.iterdir()), outside)
 
     def test_commands(self):
-        """Options that write, unknown ones, files that are no inputs, and ways to say these so that a check misses them."""
+        """Options that write, unknown ones, files that are not inputs, and ways to say these so that a check misses them."""
         secret = self.outside / "secret.json"
         secret.write_bytes((self.render / "inputs" / "camera.json").read_bytes())
         for words, what in (
@@ -56,10 +56,10 @@ class Hostile(FarmCase):
                 (["--select", "all", "surface"], "surface"), (["surface"], "surface"), (["--"], "--"),
                 (["--select="], "empty"), (["--select"], "needs a value"), (["--keep-water=1"], "takes no value"),
                 (["--device", "cpu"], "--device"), (["--whole", "guess", "/x"], "/x"), (["@/etc/passwd"], "@"),
-                (["--camera", str(secret)], "no input"), (["--camera", "inputs/../../outside/secret.json"], "no input"),
-                (["--camera=./inputs/camera.json"], "no input"), (["--trajectory", "/etc/passwd"], "no input"),
-                (["--radii-file", "[inputs/run.pdb,/etc/passwd]"], "no input"), (["--camera-path", "-"], "no input"),
-                (["--color-by-file", "bundle.json"], "no input")):
+                (["--camera", str(secret)], "not an input"), (["--camera", "inputs/../../outside/secret.json"], "not an input"),
+                (["--camera=./inputs/camera.json"], "not an input"), (["--trajectory", "/etc/passwd"], "not an input"),
+                (["--radii-file", "[inputs/run.pdb,/etc/passwd]"], "not an input"), (["--camera-path", "-"], "not an input"),
+                (["--color-by-file", "bundle.json"], "not an input")):
             def change(manifest, _):
                 manifest["command"] += words
             self.assert_refused(self.edited(self.render, change), what)
@@ -213,7 +213,7 @@ class Hostile(FarmCase):
                 self.assert_scene_refused(self.copy(self.povray), name, text)
         folder = self.copy(self.povray)
         (folder / "scene" / "povray.ini").write_text("Pre_Scene_Command=id\n")
-        self.assertIn("take it away", self.meniscus("work", folder, "--step", "render", "--force",
+        self.assertIn("remove it", self.meniscus("work", folder, "--step", "render", "--force",
                                                     code=3).stderr)
         self.assertFalse(hit.exists())
 

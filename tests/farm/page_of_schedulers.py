@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The files on the page of schedulers, docs/reference/schedulers.md, and the commands of each task, taken from them as the queue would."""
+"""The files on the page of schedulers, docs/reference/schedulers.md, and the commands of each task as the queue would
+run them."""
 
 import json
 import pathlib

@@ -62,7 +62,7 @@ class Renderers(WorkCase):
     def test_a_renderer_that_fails_is_told(self):
         folder = self.povray_bundle("broken")
         self.meniscus("work", folder, "--step", "surface")
-        self.assertIn("do that step first", self.meniscus(
+        self.assertIn("run that step first", self.meniscus(
             "work", self.povray_bundle("unbegun"), "--step", "render", code=3).stderr)
         style = folder / "scene" / "surface_style.inc"
         style.write_text("#error \"no style\"\n")
@@ -85,7 +85,7 @@ class Renderers(WorkCase):
         self.meniscus("work", parts, "--step", "surface")
         self.meniscus("work", parts, "--step", "render", "--chunk", "2/2")
         (parts / "scene" / "surface_00000.mns").write_bytes(b"")
-        self.assertIn("do that step first", self.meniscus("work", parts, "--step", "render", code=3).stderr)
+        self.assertIn("run that step first", self.meniscus("work", parts, "--step", "render", code=3).stderr)
         self.meniscus("work", parts)
         self.meniscus("farm", "verify", parts)
         for place, pattern in (("images", "*.png"), (".", "film.mp4"), ("scene", "*")):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What verify and status find, and what work makes anew or refuses."""
+"""What verify and status find, and what work makes again or refuses."""
 
 import json
 import re

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How far a bundle is and how long still, for people, programs and Prometheus; and what was said of each frame."""
+"""The progress of a bundle and the time left, for people, programs and Prometheus; and the log of each frame."""
 
 import json
 import os
@@ -55,7 +55,7 @@ class Status(WorkCase):
                                      (5, "gone", 8)):
             self.write_record(folder, frame, worker, ended, {"fast": 2.0, "slow": 4.0, "gone": 0.5}[worker])
         self.assertEqual((self.status(folder)["workers"], self.status(folder)["seconds_to_go"]), ([], None))
-        self.assertIn("no worker lives", self.meniscus("farm", "status", folder).stdout)
+        self.assertIn("no worker is running", self.meniscus("farm", "status", folder).stdout)
         for name in ("slow", "fast", "new"):
             self.live(folder, name)
         self.live(folder, "gone", age=61)
@@ -68,7 +68,7 @@ class Status(WorkCase):
         (render,) = status["steps"]
         self.assertAlmostEqual(render["seconds_to_go"], expected)
         self.assertAlmostEqual(render["seconds_left"], 4 * (2 * 2 + 2 * 4 + 2 * 0.5) / 6)
-        self.assertIn("3 workers live (fast, new, slow): about 4 s to go", self.meniscus("farm", "status", folder).stdout)
+        self.assertIn("3 workers are running (fast, new, slow): about 4 s to go", self.meniscus("farm", "status", folder).stdout)
         gauges = self.gauges(folder)
         self.assertAlmostEqual(gauges[("meniscus_farm_to_go_seconds",)], expected)
         self.assertAlmostEqual(gauges["meniscus_farm_step_to_go_seconds", "render"], expected)

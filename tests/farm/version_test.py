@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a build says it was made of: version_test.py SOURCE CMAKE. Changed sources never pass as another build."""
+"""The version that a build reports: version_test.py SOURCE CMAKE. Changed sources never pass as another build."""
 
 import os
 import pathlib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Environments, folders and comparison.
+// Sets up environments and folders, and compares them.
 #include "tests/faults/faulty_run.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the program with one of its calls failing, and judges what is left.
+// Runs the program with one of its calls failing, and checks what is left.
 #pragma once
 
 #include <cstdint>

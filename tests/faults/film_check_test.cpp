@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A film that is not whole is found out, wherever it ends and whatever it lacks.
+// An incomplete film is detected, wherever it ends and whatever it lacks.
 #include "app/film/film.h"
 
 #include <filesystem>
@@ -68,7 +68,7 @@ TEST(FilmCheck, MatroskaThatWasNotFinished) {
 
 TEST(FilmCheck, WhatIsNoFilm) {
   const TemporaryFolder folder;
-  EXPECT_NE(film_fault(folder.file("a.mp4", "this is no film, but it is long enough"), 0), "");
+  EXPECT_NE(film_fault(folder.file("a.mp4", "this is not a film, but it is long enough"), 0), "");
   EXPECT_NE(film_fault(folder.file("b.mp4", ""), 0), "");
   EXPECT_NE(film_fault(folder.path() / "missing.mkv", 0), "");
 }

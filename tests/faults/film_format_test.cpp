@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Films are what was asked for, as ffprobe tells, and their colours come back.
+// Films are as requested, as ffprobe reports, and their colours come back.
 #include "app/film/film_format.h"
 
 #include <algorithm>
@@ -154,8 +154,8 @@ TEST(FilmFormats, RefusedAreToldWhatFits) {
   EXPECT_EQ(fault("a.gif", {"", {}, 0, 420}), "--chroma 420: gif has 444");
   EXPECT_EQ(fault("a.mov", {"prores", 3, 0, 0}), "--crf 3: prores has no rate factor");
   EXPECT_EQ(fault("a.gif", {"", 3, 0, 0}), "--crf 3: gif has no rate factor");
-  EXPECT_EQ(fault("a.mp4", {"", 52, 0, 0}), "--crf 52: of h264 it is 0 (best) to 51");
-  EXPECT_EQ(fault("a.mp4", {"", -1, 0, 0}), "--crf -1: of h264 it is 0 (best) to 51");
+  EXPECT_EQ(fault("a.mp4", {"", 52, 0, 0}), "--crf 52: for h264 give 0 (best) to 51");
+  EXPECT_EQ(fault("a.mp4", {"", -1, 0, 0}), "--crf -1: for h264 give 0 (best) to 51");
   EXPECT_EQ(fault("a.mov", {"dnxhr", {}, 0, 444}), "--chroma 444: dnxhr has it with --bits 10 only");
   const FilmEncoder odd = film_encoder("a.mp4", {"", {}, 0, 444});
   EXPECT_NO_THROW(check_film_size(odd, {63, 47}));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Others write the same output, kill the program, forbid the folder, or change the input while it is read.
+// Other processes write the same output, kill the program, forbid the folder, or change the input while it is read.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -152,7 +152,7 @@ TEST_F(ChangedTrajectory, ThatShrinksOrIsWrittenAnewIsAnError) {
   EXPECT_NE(anew.err.find("was changed while it was read"), std::string::npos) << anew.err;
 }
 
-// Somebody writes the file anew again and again. (Who pauses in the middle for as long as we read is not noticed: that
+// Someone writes the file again again and again. (Who pauses in the middle for as long as we read is not noticed: that
 // is what the file held.)
 TEST(ChangedMolecule, ThatIsWrittenMeanwhileIsRefused) {
   const TemporaryFolder folder;

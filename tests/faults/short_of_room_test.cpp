@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// No room for a file, no memory, nobody who takes the output: one line, the documented code, and no half file.
+// No room for a file, no memory, a closed output: one line, the documented code, and no half file.
 #include <algorithm>
 #include <filesystem>
 #include <utility>
@@ -102,7 +102,7 @@ TEST(StandardOutput, ThatIsFullOrClosedIsAnError) {
   }
 }
 
-// Notes that nobody can hear are no failure, and above all they are not written into the file that is open next.
+// Notes that nobody can hear are not a failure, and above all they are not written into the file that is open next.
 TEST(StandardError, ThatIsFullOrClosedIsNone) {
   const TemporaryFolder folder;
   const std::string in = folder.file("four.xyzr", kFourBalls);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the preloaded library (failing_calls.cpp) tells the test, in a file both have in memory.
+// The data that the preloaded library (failing_calls.cpp) passes to the test, in a file that both map into memory.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Short inputs that ask for much: each is refused before it has taken much memory, time or stack.
+// Short inputs that ask for much are refused before they take much memory, time or stack.
 #include <sys/resource.h>
 
 #include <ctime>
@@ -66,7 +66,7 @@ TEST(Bombs, JsonOfBracketsAlone) {
       InputError);
 }
 
-// Every target that reads JSON, by brackets around the place where a value stands.
+// Every target that reads JSON, by brackets around the place where a value is.
 TEST(Bombs, JsonInEveryTarget) {
   const std::string deep = repeated("[", 300'000) + repeated("]", 300'000);
   for (const Target& target : targets()) {

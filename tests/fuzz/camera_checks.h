@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What must hold for every camera that was accepted.
+// Conditions that every accepted camera must meet.
 #pragma once
 
 #include "core/camera/camera.h"

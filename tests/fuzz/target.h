@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every fuzz target is: a name, and a function that may be given any bytes.
+// A fuzz target: a name, and a function that accepts any bytes.
 #pragma once
 
 #include <filesystem>

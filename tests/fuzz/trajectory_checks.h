@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What must hold for every format of trajectories, whatever it is given.
+// Conditions that every reader of trajectories must meet, whatever its input.
 #pragma once
 
 #include <string_view>

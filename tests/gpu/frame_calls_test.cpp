@@ -51,7 +51,7 @@ class FrameCalls : public ::testing::Test {
     return balls;
   }
 
-  /// The calls of the last of some frames, none of which found anything compiled or made anew.
+  /// The calls of the last of some frames, none of which found anything compiled or made again.
   GlCalls steady(const std::string& name, const std::function<void(const Balls&)>& frame) {
     for (int n = 0; n < 3; ++n) frame(moved(n));
     plan({});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// GL that goes wrong on purpose, in this process, by way of epoxy's function pointers.
+// Makes GL fail on purpose, in this process, through epoxy's function pointers.
 #pragma once
 
 #include <cstdint>

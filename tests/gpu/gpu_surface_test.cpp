@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The GPU finds the very primitives the CPU finds: degenerate molecules as they are and turned, gases with ties,
-// proteins.
+// The GPU finds the same primitives as the CPU: degenerate molecules as they are and turned, gases with ties, proteins.
 #include <memory>
 #include <random>
 

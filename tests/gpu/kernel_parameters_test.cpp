@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parameters of kernels stand where the driver looks for them, all of them are set, and there are no others.
+// The parameters of kernels are where the driver looks for them, all of them are set, and there are no others.
 #include <cstddef>
 #include <map>
 #include <set>

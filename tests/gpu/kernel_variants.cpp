@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds what a kernel asks for by its expanded text.
+// Finds the variants of a kernel by its expanded text.
 #include "tests/gpu/kernel_variants.h"
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A GPU that drops work, runs out of memory or is reset at any call: an error or the same result, never another one.
+// A GPU that drops work, runs out of memory or is reset at any call: an error or the same result, never a wrong one.
 #include <functional>
 #include <optional>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is written into pictures stands where it belongs, and a bar is as long as it says.
+// What is written into pictures is where it belongs, and a bar is as long as it says.
 #include "core/render/annotation.h"
 
 #include <algorithm>

@@ -39,7 +39,7 @@ std::vector<RigidMotion> lattice(glm::ivec3 counts, double step) {
   return motions;
 }
 
-/// Two molecules, whose copies stand among each other and into each other.
+/// Two molecules, whose copies are among each other and into each other.
 std::vector<SurfaceObject> crowd() {
   std::vector<SurfaceObject> objects{object_of(testing::ubiquitin()), object_of(testing::c60())};
   objects[0].copies = lattice({4, 3, 3}, 34.0);

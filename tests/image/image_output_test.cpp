@@ -214,7 +214,7 @@ TEST_F(ImageFile, IsWholeOrNotThereWhenTheDiskIsFull) {
     write_image(folder_ / name, picture(), {});
     const auto whole = std::filesystem::file_size(folder_ / name);
     std::filesystem::remove(folder_ / name);
-    // From nothing to all but the last byte, behind which directories and end marks stand.
+    // From nothing to all but the last byte, behind which directories and end marks are.
     for (rlim_t room = 0; room < whole; room += std::min<rlim_t>(13, std::max<rlim_t>(1, whole - 1 - room))) {
       const rlimit small{room, old.rlim_max};
       ::setrlimit(RLIMIT_FSIZE, &small);
@@ -277,7 +277,7 @@ TEST_F(ImageFile, PngIsThatOfOpenImageIO) {
         if (n % 4 < channels) values.push_back(static_cast<float>(pixels[n]) / 255.0f);
       const std::unique_ptr<RowEncoder> encoder = image_codec().begin(image);
       encoder->add(values);
-      // Of three channels the fourth byte is none of the picture's.
+      // Of three channels the fourth byte is not one of the picture's.
       const std::vector<std::uint8_t> ours = encode_png(image, pixels, 4), theirs = encoder->finish();
       EXPECT_EQ(before_pixels(ours), before_pixels(theirs));
       EXPECT_LT(ours.size(), theirs.size() + theirs.size() / 10 + 100);

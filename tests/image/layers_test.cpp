@@ -51,10 +51,10 @@ bool same_bits(const Framebuffer& a, const Framebuffer& b) {
          std::memcmp(a.color.data(), b.color.data(), a.color.size() * sizeof a.color[0]) == 0;
 }
 
-/// How many layers of kOpacity a pixel of one sample shows; fractions tell that it is no whole number.
+/// How many layers of kOpacity a pixel of one sample shows; fractions tell that it is not a whole number.
 double layers(const glm::vec4& pixel) { return std::log(1.0 - pixel.w) / std::log(1.0 - kOpacity); }
 
-/// Pixels whose layers are no even number, though every ray that goes into a solid comes out of it. Beyond ten layers
+/// Pixels whose layers are not an even number, though every ray that enters a solid leaves it. Beyond ten layers
 /// rays end.
 int odd_pixels(const Framebuffer& picture) {
   int odd = 0;
@@ -197,7 +197,7 @@ double light(const Framebuffer& picture) {
 
 TEST(Layers, WhatIsSeenThroughHasShadeAndLinesAsFarAsItCovers) {
   Subject subject(testing::ubiquitin());
-  subject.settings.look.material.specular = 0.0f;  // highlights of the shade are no part of this
+  subject.settings.look.material.specular = 0.0f;  // highlights of the shade are not part of this
   const auto picture = [&](float opacity, bool effects) {
     subject.coloring.opacity.assign(opacity < 1.0f ? subject.surface.atoms.size() : 0, opacity);
     subject.settings.look.ambient_occlusion = effects ? 0.9f : 0.0f;
@@ -318,7 +318,7 @@ TEST(Cut, SaysWhatIsWrong) {
     }
     return "";
   };
-  EXPECT_EQ(message("x=3"), "'x=3' is no plane: there is no < or >; such as x<20, 1,1,0>35 or depth>0.5");
+  EXPECT_EQ(message("x=3"), "'x=3' is not a plane: there is no < or >; write one such as x<20, 1,1,0>35 or depth>0.5");
   EXPECT_NE(message("w<3").find("a direction of three numbers"), std::string::npos);
   EXPECT_NE(message("0,0,0<3").find("a direction of three numbers"), std::string::npos);
   EXPECT_NE(message("1,2<3").find("a direction of three numbers"), std::string::npos);

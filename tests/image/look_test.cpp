@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Light, shade, lines and air do what they say, the same in blocks of any size and every time.
+// Light, shade, lines and depth cueing do what they say, the same in blocks of any size and every time.
 #include "core/render/look.h"
 
 #include <algorithm>
@@ -77,7 +77,7 @@ TEST_F(Looks, ShadeDarkensCleftsAndNothingElse) {
   const Framebuffer bare = render(kOne, kFront, {}), shaded = render(kOne, kFront, look);
   for (std::size_t at = 0; at < bare.color.size(); ++at)
     EXPECT_NEAR(brightness(shaded.color[at]), brightness(bare.color[at]), 0.03f * brightness(bare.color[at]) + 0.002f);
-  // Behind a ring of atoms the one in the middle loses light, the more so the farther back it stands.
+  // Behind a ring of atoms the one in the middle loses light, the more so the farther back it is.
   float before = 1.02f;
   for (const double back : {1.0, 2.0, 3.0}) {
     testing::Balls well = testing::ring(10, 3.0);
@@ -196,7 +196,7 @@ TEST_F(Looks, LinesOfEachKindHaveTheirOwnWidth) {
   inner.inner_lines = 3.0f;
   EXPECT_NEAR(ink(inner, 75, 0, 60), 0.0f, 0.01f);
   EXPECT_NEAR(ink(inner, 75, 80, 120), 0.0f, 0.01f);
-  float behind = 0.0f, none = 0.0f;  // along the middle column, where the far ball stands out above
+  float behind = 0.0f, none = 0.0f;  // along the middle column, where the far ball is out above
   const Framebuffer lined = render(three, kFront, inner, 1, 2048, part),
                     other = render(three, kFront, look, 1, 2048, part);
   for (int y = 20; y < 60; ++y) {
@@ -249,7 +249,7 @@ TEST_F(Looks, WhiteLampsShowTheColourGivenWhereItFacesThem) {
     look.light_direction = light;
     const glm::vec3 to = glm::normalize(light);
     const Framebuffer picture = render(kOne, kFront, look);
-    // The ball of 2 Å stands in the middle; 0.04 Å a pixel.
+    // The ball of 2 Å is in the middle; 0.04 Å a pixel.
     const auto x = static_cast<int>(99.5f + 50.0f * to.x), y = static_cast<int>(74.5f - 50.0f * to.y);
     const glm::vec4& pixel = picture.color[static_cast<std::size_t>(y) * 200 + x];
     const float expected = linear_from_srgb(kGray.x);
@@ -259,7 +259,7 @@ TEST_F(Looks, WhiteLampsShowTheColourGivenWhereItFacesThem) {
 }
 
 TEST_F(Looks, HighlightsDoNotShineInTheShade) {
-  // What they add at the bottom of a well that faces camera and lamp, and to a ball that stands alone.
+  // What they add at the bottom of a well that faces camera and lamp, and to a ball that is alone.
   testing::Balls well = testing::ring(10, 3.0);
   for (const Ball& ball : testing::ring(10, 3.0)) well.push_back({ball.center - glm::dvec3(0, 0, 2.5), ball.radius});
   well.push_back({{0, 0, -5}, 1.7});

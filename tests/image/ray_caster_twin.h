@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ray caster once more: on the CPU, in double, by brute force over the surface's tables, without tiles or packing.
+// A second ray caster: on the CPU, in double, by brute force over the surface's tables, without tiles or packing.
 #pragma once
 
 #include <optional>

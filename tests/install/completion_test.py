@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The completion scripts that are installed: shells read them, and they propose what the help tells."""
+"""The installed completion scripts: shells read them, and they propose what the help lists."""
 
 import shutil
 import unittest

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Debian packages: lintian has nothing to say, they depend on what they load, and hold what belongs to them, with
-modes that do not depend on who made them."""
+"""The Debian packages: lintian finds nothing, they depend on what they load, and hold what belongs to them, with modes
+that do not depend on who made them."""
 
 import pathlib
 import re

@@ -357,7 +357,7 @@ class Server(Folder):
             taken.listen()
             done = run(MSMS, "-socketPort", taken.getsockname()[1])
         self.assertEqual(done.returncode, 2)
-        self.assertIn("cannot be had", done.stderr)
+        self.assertIn("is not available", done.stderr)
 
 
 if __name__ == "__main__":

@@ -208,7 +208,7 @@ Max_skin_patches_per_auxiliary_grid_2d_cell = 2000
         (self.folder / "surfaceConfiguration.prm").write_text(least + "Probe_radius = 3\n")
         done = run(BUILD / "meniscus-nanoshaper", cwd=self.folder)
         self.assertEqual(done.returncode, 0)
-        self.assertIn("warning: surfaceConfiguration.prm: 'Probe_radius' is no key of NanoShaper", done.stderr)
+        self.assertIn("warning: surfaceConfiguration.prm: 'Probe_radius' is not a key of NanoShaper", done.stderr)
 
     def test_files_are_those_that_the_client_reads(self):
         """VMD gives names a beginning of their own; others ask for OFF, the form that NanoShaper has without a key."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a fault quotes is found whatever its white space is, and only where it is the one place that fits."""
+"""What a fault quotes is found regardless of white space, and only where it is the one place that fits."""
 
 import pathlib
 import sys

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The schedule of drafts and full pictures: what is given up for what, and how films are drawn.
+// The schedule of drafts and full pictures: which is stopped for which, and how films are drawn.
 #include "app/preview/session.h"
 
 #include <chrono>
@@ -16,7 +16,7 @@
 namespace meniscus::test {
 namespace {
 
-// A surface takes stages, and none is begun for somebody who does not want it any more.
+// A surface takes stages, and none is begun for someone who does not want it any more.
 TEST(LivePictures, SurfacesCanBeGivenUpBetweenStages) {
   const std::unique_ptr<ViewRenderer> renderer = make_cpu_view_renderer();
   renderer->set_atoms({{{0, 0, 0}, 1.7}, {{3, 0, 0}, 1.5}});

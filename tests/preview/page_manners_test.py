@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How the preview's page takes keys and fingers, others who look on, and what takes long: arguments PROGRAM CHROMIUM SESSION."""
+"""How the preview's page handles keys, fingers, other viewers, and slow commands: arguments PROGRAM CHROMIUM
+SESSION."""
 
 import json
 import sys

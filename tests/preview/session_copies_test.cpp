@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Two peptides, one of which stands at three places and the other at two.
+/// Two peptides, one of which is at three places and the other at two.
 Structure peptides() {
   const TemporaryFolder folder;
   Structure structure = read_structure(folder.file("two.pdb", kTwoModels), {});
@@ -75,7 +75,8 @@ TEST(PreviewCopies, AreDrawnPickedAndKeptApart) {
     const Json before = apply(R"({"command":"state"})");
     const Json close = apply(R"({"command":"probe","radius":6})");
     EXPECT_FALSE(close["ok"]);
-    EXPECT_NE(std::string(close["error"]).find("so near that copies of one surface"), std::string::npos) << close;
+    EXPECT_NE(std::string(close["error"]).find("so near that a probe can touch both copies"), std::string::npos)
+        << close;
     EXPECT_FALSE(apply(R"({"command":"color","scheme":"copy"})")["ok"]);
     EXPECT_EQ(apply(R"({"command":"state"})"), before);
     EXPECT_TRUE(apply(R"({"command":"probe","radius":2})")["ok"]);

@@ -76,7 +76,7 @@ TEST_F(SessionExports, EndWhatTheirFormatEndsIn) {
       std::filesystem::remove_all(file);
     }
   }
-  // A folder that holds something else keeps it, and a file is no folder.
+  // A folder that holds something else keeps it, and a file is not a folder.
   std::filesystem::create_directory(folder_.path() / "work");
   const std::string mine = folder_.file("work/mine.txt", "precious");
   expect_ok(R"({"command":"export","format":"povray","path":"work","force":true})");

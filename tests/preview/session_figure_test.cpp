@@ -293,7 +293,7 @@ TEST_F(FigureSession, AFastWheelOverASlowPictureIsNotRefused) {
   Json wheel{{"command", "zoom"}, {"factor", 1.1}, {"x", 3}, {"y", 4}};
   EXPECT_FALSE(merge_commands(wheel, {{"command", "zoom"}, {"factor", 1.1}, {"x", 3}, {"y", 5}}));
   EXPECT_FALSE(merge_commands(wheel, {{"command", "zoom"}, {"factor", 1.1}}));
-  // What is no factor is not hidden among others.
+  // What is not a factor is not hidden among others.
   for (const double wrong : {0.0, -1.0}) {
     wheel["factor"] = wrong;
     EXPECT_FALSE(merge_commands(wheel, Json(wheel)));
@@ -336,7 +336,7 @@ TEST_F(FigureSession, ObjectsHaveLooksAndAtomsOfTheirOwn) {
   ASSERT_EQ(told.size(), 1u);
   EXPECT_EQ(told[0],
             Json::parse(R"({"representation":"surface","selection":"ligand","color":"#ffd700","specular":0.8})"));
-  // The ligand is no atom of the surface, yet it is picked.
+  // The ligand is not an atom of the surface, yet it is picked.
   expect_ok(R"({"command":"hide_surface","on":true})");
   expect_ok(R"({"command":"zoom_to","selection":"ligand"})");
   const Json pick = apply(R"({"command":"pick","x":40,"y":30})");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The window as users have it: opened, dragged, typed into, closed and bereft of its display.
+// The window as users have it: opened, dragged, typed into, closed, and without its display.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -139,7 +139,7 @@ class WindowTest : public ::testing::Test {
     return now.value("letters", std::size_t{0}) == letters && now.value("idle", false) && now.value("settled", false);
   }
 
-  /// While the window's loop stands still, so that all of it is done to what it drew last.
+  /// While the window's loop is still, so that all of it is done to what it drew last.
   void act_at_once(const std::vector<std::string>& words) {
     program_->signal(SIGSTOP);
     screen_.act(words);
@@ -334,7 +334,7 @@ TEST_F(WindowTest, ExportsBesideThePictures) {
 
 TEST_F(WindowTest, HelpIsNotCoveredByWhatTheMouseRestsOn) {
   open();
-  // The tooltip stands below the pointer, which is in the picture, too.
+  // The tooltip is below the pointer, which is in the picture, too.
   const auto below = [&] {
     const ScreenPicture all = screen_.picture();
     ScreenPicture part{{150, 80}, {}};
@@ -407,7 +407,7 @@ TEST_F(WindowTest, EndsWithALineWhenTheDisplayGoesAway) {
   screen_.crash();
   const ProgramResult result = program_->finish(30);
   EXPECT_EQ(result.exit_code, 4);
-  EXPECT_EQ(result.err, "meniscus: error: the display went away; the preview ends\n");
+  EXPECT_EQ(result.err, "meniscus: error: the display disappeared; the preview ends\n");
 }
 
 TEST(Window, SaysThatThereIsNoDisplay) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Derivatives of areas and volumes: closed forms, differences of high order, and what no motion of the whole changes.
+// Derivatives of areas and volumes: closed forms, differences of high order, and invariance under motions of the whole.
 #include "core/surface/gradients.h"
 
 #include <array>

@@ -53,7 +53,7 @@ TEST_P(Symmetry, IsClosed) {
 INSTANTIATE_TEST_SUITE_P(Jitters, Symmetry, ::testing::Values(0.0, 1e-14, 1e-12, 1e-10, 1e-9, 1e-4, 1e-3));
 
 // Two probes as near as the shaking, and a third that passes their circle's axis: what neighbours on a circle cannot do
-// must be known, for it cannot be computed. 17 of these close only because radii grow by a hair (compute_surface.h);
+// must be known, for it cannot be computed. 17 of these close only because radii grow slightly (compute_surface.h);
 // that many more do would be a rule forgotten, which the growth hides.
 TEST(Symmetry, OfTheHardestAllAreClosed) {
   std::mt19937 random(12);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Atom by atom, each point against every ball near enough to cover it.
+// Tests each point of each atom against every ball near enough to cover it.
 #include "tests/prove/completeness.h"
 
 #include <algorithm>

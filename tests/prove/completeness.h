@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether all of a surface is there, asked of an oracle that knows nothing but the balls.
+// Checks that all of a surface is there, with an oracle that knows only the balls.
 #pragma once
 
 #include <cstddef>

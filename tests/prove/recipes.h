@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What recipes of families draw from, and the lists of recipes that families.cpp puts together.
+// Random numbers for recipes of families, and the lists of recipes that families.cpp joins.
 #pragma once
 
 #include <cmath>
@@ -60,7 +60,7 @@ struct Recipe {
   Made (*make)(Dice&);
 };
 
-/// Balls that touch, or miss each other by a hair.
+/// Balls that touch, or miss each other slightly.
 std::vector<Recipe> touching_recipes();
 /// Balls in helices, on common spheres, in walls, lattices and orbits of symmetry operators.
 std::vector<Recipe> pattern_recipes();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The checks, cheapest first; the first that fails gives the complaint.
+// Makes the checks, cheapest first; the first that fails gives the message.
 #include "tests/prove/surface_check.h"
 
 #include <array>

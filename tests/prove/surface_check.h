@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Holds one surface against everything that is known without its own combinatorics; names whatever disagrees.
+// Checks one surface against everything that is known without its own combinatorics; names whatever disagrees.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One more surface for each input, and two that enclose it for the few that differ.
+// Computes one more surface for each input, and two that enclose it for the few that differ.
 #include "tests/prove/turning.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether a surface stays what it is when its atoms are turned and put into another order.
+// Checks that a surface stays the same when its atoms are turned and reordered.
 #pragma once
 
 #include <cstdint>

@@ -50,7 +50,7 @@ def one(xyz):
 
 
 def tried_with(name):
-    """Decorates a test of one package: if others are named it is none of this run's tests."""
+    """Decorates a test of one package: if others are named it is not one of this run's tests."""
     return lambda test: test if not NAMED or name in NAMED else None
 
 
@@ -198,7 +198,7 @@ class Frames(unittest.TestCase):
 
     def test_what_a_function_does_not_take_is_named(self):
         for function in (meniscus.from_mdtraj, meniscus.from_biopython, meniscus.from_gemmi):
-            with self.assertRaisesRegex(meniscus.InputError, rf"a builtins.dict is nothing that {function.__name__}\(\) takes"):
+            with self.assertRaisesRegex(meniscus.InputError, rf"{function.__name__}\(\) does not take a builtins.dict"):
                 function({})
 
     def test_atoms_without_elements_need_radii(self):
@@ -233,7 +233,7 @@ class Frames(unittest.TestCase):
         self.assertNotIn("sas_area", meniscus.series(Atoms(), kind="vdw").dtype.names)
 
     def test_what_is_no_source_is_named(self):
-        with self.assertRaisesRegex(meniscus.InputError, "a builtins.dict is nothing that frames"):
+        with self.assertRaisesRegex(meniscus.InputError, "a builtins.dict has no frames that can be read"):
             meniscus.frames({})
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Python package where something is missing or of another system: one sentence that says what to do. Needs the
+"""The Python package where something is missing or of another system: one sentence says what to do. Needs the
 MENISCUS_PACKAGE and MENISCUS_LIBRARY of package_test.py."""
 import importlib.util
 import os

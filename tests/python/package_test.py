@@ -150,7 +150,7 @@ class Numbers(unittest.TestCase):
 
     def test_radii(self):
         np.testing.assert_array_equal(meniscus.radii_of(["C", "zn", "D", 8]), [1.7, 1.39, 1.2, 1.52])
-        with self.assertRaisesRegex(meniscus.InputError, "atom 1: 'Qq' is no element"):
+        with self.assertRaisesRegex(meniscus.InputError, "atom 1: 'Qq' is not an element"):
             meniscus.radii_of(["C", "Qq"])
 
 
@@ -559,11 +559,11 @@ class MeshFiles(unittest.TestCase):
         for wanted, error, sentence in (
                 (lambda: mesh.save(self.folder / "there.stl"), meniscus.OutputError, "there.stl"),
                 (lambda: mesh.save(self.folder / "no" / "folder.stl"), OSError, "folder.stl"),
-                (lambda: mesh.save(self.folder / "mesh.xyz"), meniscus.UsageError, "xyz.* ends as no mesh file"),
-                (lambda: mesh.save(self.folder / "mesh"), meniscus.UsageError, "ends as no mesh file"),
+                (lambda: mesh.save(self.folder / "mesh.xyz"), meniscus.UsageError, "xyz.* does not end like a mesh file"),
+                (lambda: mesh.save(self.folder / "mesh"), meniscus.UsageError, "does not end like a mesh file"),
                 (lambda: mesh.save(self.folder / "a.stl", format="step"), meniscus.UsageError, "format is 'step'"),
                 (lambda: mesh.save(self.folder / "a.ply", attributes="b_factor"), meniscus.UsageError, "bare atoms"),
-                (lambda: mesh.save(self.folder / "a.ply", attributes="mass"), meniscus.UsageError, "no attribute"),
+                (lambda: mesh.save(self.folder / "a.ply", attributes="mass"), meniscus.UsageError, "not an attribute"),
                 (lambda: mesh.save(self.folder / "a.ply", scale=0.0), meniscus.InputError, "scale is 0"),
                 (lambda: mesh.save(self.folder / "a.ply", scale=math.nan), meniscus.InputError, "scale is nan"),
                 (lambda: mesh.save(self.folder / "a.ply", colors=(2, 0, 0)), meniscus.InputError, "atom 0 is 2; it has to be 0 to 1"),

@@ -199,7 +199,7 @@ class Atoms(Files):
                 (lambda: read(path, altloc="both"), meniscus.UsageError, "altloc is 'both'"),
                 (lambda: read(path, hydrogens="no"), meniscus.UsageError, "hydrogens is 'no', none of auto, keep, drop"),
                 (lambda: read(path, unknown_element="x"), meniscus.UsageError, "unknown_element is 'x'"),
-                (lambda: read(path, radii="amber"), meniscus.InputError, "no set of radii"),
+                (lambda: read(path, radii="amber"), meniscus.InputError, "not a set of radii"),
                 (lambda: read(path, model=0), meniscus.UsageError, "model is 0"),
                 (lambda: read(path, model="none"), meniscus.InputError, "model is 'none'"),
                 (lambda: read(path, radius={"all": -1.0}), meniscus.UsageError, "radius: the radius must be"),

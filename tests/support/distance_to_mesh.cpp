@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The nearest point of a triangle is its plane's where that is inside, else one of an edge.
+// Finds the nearest point of a triangle: that of its plane if it is inside, else one of an edge.
 #include "tests/support/distance_to_mesh.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Distances of points from a mesh, found by other code than the one that is tested.
+// Distances of points from a mesh, computed by other code than the code under test.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Uniform points on spheres and tori, and the clips of primitives.h.
+// Draws uniform points on spheres and tori, and applies the clips of primitives.h.
 #include "tests/support/patch_samples.h"
 
 #include <algorithm>
@@ -72,7 +72,7 @@ PatchSample sample_torus(const Surface& s, std::uint32_t patch, bool siblings, s
   const double theta = angle(random);
   const glm::dvec3 e = std::cos(theta) * t.start + std::sin(theta) * glm::cross(t.axis, t.start);
   double depth = torus_depth(s, t, e, psi);
-  // Patches are sorted by their atoms: those on the same circle stand together.
+  // Patches are sorted by their atoms: those on the same circle are together.
   if (siblings) {
     std::uint32_t other = patch;
     while (other > 0 && s.toroidal[other - 1].atom == t.atom) --other;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Child processes with captured output and a time limit; temporary folders; gzip.
+// Runs child processes with captured output and a time limit; makes temporary folders; packs with gzip.
 #include "tests/support/run_program.h"
 
 #include <fcntl.h>

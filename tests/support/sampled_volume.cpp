@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stratified sampling: the points of a cell share its place, so only the border's cells add to the error.
+// Samples by strata: the points of a cell share its place, so only cells at the border add to the error.
 #include "tests/support/sampled_volume.h"
 
 #include <cmath>

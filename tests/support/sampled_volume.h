@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The volume of the solid inside a surface by random points, which are asked of the oracle alone.
+// The volume inside a surface by random points, which are tested by the oracle alone.
 #pragma once
 
 #include <random>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes counts and components down.
+// Writes counts and components as one sentence.
 #include "tests/support/topology.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What must stay the same when a molecule is moved, reordered or mirrored, as one comparable sentence.
+// What stays the same when a molecule is moved, reordered or mirrored, as one comparable sentence.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Xvfb chooses a free display and keeps its pixels in a file; xdotool moves and types.
+// Starts Xvfb on a free display, reads its pixels from a file, and moves and types with xdotool.
 #include "tests/support/virtual_screen.h"
 
 #include <csignal>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A desktop that nobody sees: an X server without hardware, its pixels, and a hand on its mouse.
+// A virtual desktop: an X server without hardware, its pixels, and its mouse.
 #pragma once
 
 #include <cstdint>

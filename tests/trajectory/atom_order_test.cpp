@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Trajectories in another order than the file that names their atoms, and right ones that look odd.
+// Trajectories in another order than the file that names their atoms, and correct ones that look unusual.
 #include "core/trajectory/atom_order.h"
 
 #include <algorithm>

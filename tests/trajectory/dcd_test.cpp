@@ -188,7 +188,7 @@ TEST(Dcd, ChangesWhileOpenAreErrors) {
   folder.file("a.dcd", bytes + bytes.substr(bytes.size() - 72));  // a simulation goes on: one frame more
   trajectory->read(2, frame);
   EXPECT_EQ(trajectory->frame_count(), 3U);
-  folder.file("a.dcd", dcd({.atoms = 9, .frames = 9}));  // another one writes anew
+  folder.file("a.dcd", dcd({.atoms = 9, .frames = 9}));  // another one writes again
   EXPECT_NE(refusal([&] { trajectory->read(0, frame); }).find("was changed while it was read"), std::string::npos);
   folder.file("a.dcd", "short");
   EXPECT_NE(refusal([&] { trajectory->read(2, frame); }).find("became shorter"), std::string::npos);
@@ -213,7 +213,7 @@ TEST(Dcd, NameAndContentMustAgree) {
             std::string::npos);
   EXPECT_NE(refusal([&] {
               open_trajectory(folder.file("a.bin", std::string(9, '\0')));
-            }).find("in no trajectory format that is read"),
+            }).find("in none of the trajectory formats that are read"),
             std::string::npos);
   EXPECT_NE(refusal([&] { open_trajectory("-"); }).find("cannot be a trajectory"), std::string::npos);
   EXPECT_NE(refusal([&] { open_bytes(folder, ""); }).find("is empty"), std::string::npos);

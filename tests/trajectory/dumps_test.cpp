@@ -96,7 +96,7 @@ TEST(Mdcrd, OtherMoleculesAndDamageAreNamed) {
   const auto trajectory = open_mdcrd(folder.file("b.mdcrd", starred), 12);
   Frame frame;
   trajectory->read(0, frame);
-  expect_words(refusal([&] { trajectory->read(1, frame); }), "b.mdcrd:6: ******** stands where a coordinate");
+  expect_words(refusal([&] { trajectory->read(1, frame); }), "b.mdcrd:6: ******** marks a coordinate");
 }
 
 std::string lammps(const std::string& columns, const std::string& first, const std::string& second,
@@ -143,7 +143,7 @@ TEST(LammpsDump, CutFilesGiveTheirWholeFrames) {
     EXPECT_EQ(trajectory->cut_short(), "the file ends within frame 1; its 1 whole frame is used") << length;
   }
   expect_words(refusal([&] { open_trajectory(folder.file("a.lammpstrj", whole.substr(0, one - 1))); }),
-               "holds not one whole frame");
+               "holds no complete frame");
 }
 
 TEST(LammpsDump, WhatIsNoTrajectoryIsNamed) {
@@ -155,18 +155,18 @@ TEST(LammpsDump, WhatIsNoTrajectoryIsNamed) {
       trajectory->read(1, frame);
     });
   };
-  expect_words(said(lammps("type x y z", kFirst, kSecond)), "has no column 'id', so that nobody knows which atom");
+  expect_words(said(lammps("type x y z", kFirst, kSecond)), "has no column 'id', so its atoms cannot be identified");
   expect_words(said(lammps("id vx vy vz", kFirst, kSecond)), "neither xu yu zu, xsu ysu zsu, x y z nor xs ys zs");
   expect_words(said(lammps("id x y z", kFirst, "2 4 5 7\n8 1.5 0.25 1\n7 1 2 4\n")),
-               "has the atom 8 where the first frame has 9: a group that changes is no trajectory");
+               "has the atom 8 where the first frame has 9: a dump of a changing group is not a trajectory");
   expect_words(said(lammps("id x y z", kFirst, "2 4 5 7\n2 1.5 0.25 1\n7 1 2 4\n")), "has the atom 2 twice");
   expect_words(said(lammps("id x y z", kFirst, "2 4 5 7\n9 1.5 nan 1\n7 1 2 4\n")), "has the atom '9 1.5 nan 1'");
   expect_words(said("ITEM: UNITS\nlj\n" + lammps("id x y z", kFirst, kSecond)), "its units are 'lj'");
   expect_words(said(lammps("id x y z", kFirst, kSecond, "ITEM: BOX BOUNDS abc origin\n1 0 0 0\n0 1 0 0\n0 0 1 0\n")),
                "general triclinic box");
-  expect_words(said(lammps("id xs ys zs", kFirst, kSecond, "")), "has positions in parts of a box, and no box");
+  expect_words(said(lammps("id xs ys zs", kFirst, kSecond, "")), "has positions as fractions of a box, but no box");
   expect_words(said("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n3\nITEM: ENTRIES c_1\n1\n2\n3\n"),
-               "has 'NUMBER OF ENTRIES', which dumps of atoms");
+               "has 'NUMBER OF ENTRIES', which is not part of a dump of atoms");
   EXPECT_EQ(open_trajectory(folder.file("u.dump", lammps("id x y z", kFirst, kSecond)))->warnings().size(), 1u);
 }
 

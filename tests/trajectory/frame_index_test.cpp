@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kept index: used while the file is as it was, built anew otherwise, never in the way.
+// The kept index: used while the file is as it was, built again otherwise, never in the way.
 #include <chrono>
 #include <filesystem>
 

@@ -126,7 +126,7 @@ TEST(Xtc, HeadersThatLeadNowhereEndTheTrajectory) {
   EXPECT_NE(ending(hostile(4, -1)).find(place + " has -1 atoms"), std::string::npos);
   EXPECT_NE(ending(hostile(4, 0)).find(place + " has 0 atoms"), std::string::npos);
   EXPECT_NE(ending(hostile(4, 0x80000000U)).find(place + " has -2147483648 atoms"), std::string::npos);
-  EXPECT_NE(ending(hostile(52, 13)).find(place + " says 12 atoms first and 13 then"), std::string::npos);
+  EXPECT_NE(ending(hostile(52, 13)).find(place + " says 12 atoms first, then 13"), std::string::npos);
   EXPECT_NE(ending(hostile(88, 0x80000000U)).find("bytes of packed coordinates for 12 atoms"), std::string::npos);
   EXPECT_EQ(ending(hostile(88, 0x7fffffff)), "the file ends within frame 1; its 1 whole frame is used");
   EXPECT_NE(refusal([&] {
@@ -193,7 +193,7 @@ TEST(Trr, BothPrecisionsAndFramesWithoutPositions) {
     }
   }
   const auto none = [&] { open_trajectory(folder.file("b.trr", test::trr({.frames = 1, .without_positions = 0}))); };
-  EXPECT_NE(refusal(none).find("holds not one whole frame with positions"), std::string::npos);
+  EXPECT_NE(refusal(none).find("holds no complete frame with positions"), std::string::npos);
 }
 
 TEST(AmberNetcdf, EveryVersionInAnyOrder) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Frames made ready: nearest images against brute force, molecules whole again, superposition, smoothing, reading
-// ahead.
+// Prepared frames: nearest images against brute force, molecules made whole, superposition, smoothing, reading ahead.
 #include <algorithm>
 #include <atomic>
 #include <cmath>

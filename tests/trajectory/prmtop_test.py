@@ -133,11 +133,11 @@ class Prmtop(unittest.TestCase):
         line = self.text[:self.text.index("%FLAG CHARGE")].count("\n") + 1
         self.assertIn("has no section %FLAG MASS; is the file cut short?", said(self.without("MASS")))
         self.assertIn("has no %FLAG: prmtop files of Amber 6 and before", said("title\n    65    16\n"))
-        self.assertIn(f"b.prmtop:{line + 2}: '  2.90099016E+xx' of %FLAG CHARGE is no number",
+        self.assertIn(f"b.prmtop:{line + 2}: '  2.90099016E+xx' of %FLAG CHARGE is not a number",
                       said(self.text.replace("2.90099016E+00", "2.90099016E+xx")))
         self.assertIn("%FLAG CHARGE should have 65 fields, but 64 follow",
                       said(self.shortened("CHARGE", 1)))
-        self.assertIn("%FLAG ATOM_NAME has 'CL  ZN' behind its 63 fields; are POINTERS those of another file?",
+        self.assertIn("%FLAG ATOM_NAME has 'CL  ZN' after its 63 fields; do its POINTERS belong to another file?",
                       said(self.text.replace("      65      16", "      63      16", 1)))
         self.assertIn(f"b.prmtop:{line}: %FLAG CHARGE has no %FORMAT such as",
                       said(self.text.replace("%FLAG CHARGE\n%FORMAT(5E16.8)", "%FLAG CHARGE\n%FORMAT(*)")))

@@ -50,7 +50,7 @@ TEST_F(RunFramings, ReadEachFrameOnce) {
   EXPECT_GT(read, size * 9 / 10);
   EXPECT_LT(read, size * 3 / 2);
   EXPECT_EQ(framing.cameras.size(), 1u);
-  // Atom a of frame f stands at f + a / 8 - 10 times the axis.
+  // Atom a of frame f is at f + a / 8 - 10 times the axis.
   EXPECT_EQ(framing.extent.surface.low, glm::dvec3(-1.5, -11.5, -21.5));
   EXPECT_EQ(framing.extent.surface.high, glm::dvec3(0.375 + 1.5 + kFrames - 1) - glm::dvec3(0, 10, 20));
 }
@@ -66,7 +66,7 @@ TEST_F(RunFramings, HaveTheBoxBesideACameraOfTheirOwn) {
   EXPECT_EQ(framing.extent.surface.high.x, 0.375 + 1.5 + kFrames - 1);
 }
 
-// Atom a of frame f stands at f + a / 8 - 10 times the axis: each coordinate takes N values, 1 Å apart.
+// Atom a of frame f is at f + a / 8 - 10 times the axis: each coordinate takes N values, 1 Å apart.
 TEST_F(RunFramings, FluctuationsAreThoseOfEvenSteps) {
   FrameRun frames(molecule_, request_);
   const double expected = std::sqrt(3.0 * (double{kFrames} * kFrames - 1.0) / 12.0);
@@ -94,7 +94,7 @@ TEST_F(RunFramings, VelocitiesAreThoseBetweenFramesOfTheRun) {
   EXPECT_EQ(steps("0-60:30", 1), (std::vector<double>{30, 30, 30}));
   EXPECT_EQ(steps("0,4,24", 1), (std::vector<double>{4, 12, 20}));
   EXPECT_EQ(steps("7", 1), (std::vector<double>{0}));
-  EXPECT_EQ(steps("0,4", 2), (std::vector<double>{0, 2, 2, 0}));  // shown twice, it stands still
+  EXPECT_EQ(steps("0,4", 2), (std::vector<double>{0, 2, 2, 0}));  // shown twice, it is still
 }
 
 }  // namespace

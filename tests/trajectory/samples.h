@@ -31,7 +31,7 @@ struct XtcSample {
   std::int32_t magic = 1995;
   float precision = 1000.0F;
   std::int32_t small_class = 20;
-  std::int32_t spread = 1000;  ///< the first atom of three stands up to this many steps from the origin
+  std::int32_t spread = 1000;  ///< the first atom of three is up to this many steps from the origin
 };
 
 /// Where the sample puts an atom, in steps of the precision.

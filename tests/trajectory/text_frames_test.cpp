@@ -147,7 +147,7 @@ TEST(TextFrames, DamageIsNamedWithFrameAndLine) {
             std::string::npos);
   EXPECT_NE(refusal([&] {
               open_trajectory(folder.file("a.psf", "PSF\n\n 1 !NATOM\n1 A 1 ALA N N 0 14 0\n\n 0 !NBOND\n"));
-            }).find("it is no trajectory"),
+            }).find("it is not a trajectory"),
             std::string::npos);
 }
 

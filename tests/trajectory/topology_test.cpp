@@ -112,9 +112,9 @@ TEST(Psf, DamageIsNamedWithItsLine) {
   expect(psf("PSF", kAtoms, "\n 2 !NBOND: bonds\n 1 2\n"), "!NBOND says 2 bonds, but 1 follow; is the file cut short?");
   expect(psf("PSF", kAtoms, "\n 2 !NBOND: bonds\n 1 2\n\n 9 !NTHETA\n"), "!NBOND says 2 bonds, but 1 follow");
   expect(psf("PSF", kAtoms, "\n 1 !NBOND: bonds\n 1 4\n"), "a bond names atom '4'; the atoms are 1 to 3");
-  expect("PSF\n\n 99999999 !NATOM\n", "more than the 0 bytes behind it can hold");
+  expect("PSF\n\n 99999999 !NATOM\n", "more than the 0 bytes after it can hold");
   expect("PSF\n\n -3 !NATOM\n", "!NATOM says -3");
-  expect(psf("PSF", kAtoms.substr(0, 30) + "\n" + kAtoms), "is no atom: number, segment");
+  expect(psf("PSF", kAtoms.substr(0, 30) + "\n" + kAtoms), "is not an atom: number, segment");
   try {
     read(whole, false);
     FAIL();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures that are drawn to stay on the GPU against those of the complete surface.
+// Pictures that stay on the GPU against those of the complete surface.
 #include "core/render/renderer.h"
 
 #include <algorithm>

@@ -6,7 +6,7 @@ const JOB_TYPE = {
     description: "Frames of a molecular surface: a bundle made by meniscus farm bundle",
     settings: [
         { key: "bundle", type: "string", subtype: "dir_path", required: true,
-          description: "The bundle's folder, as the workers see it" },
+          description: "Folder of the bundle, as the workers see it" },
         { key: "tasks", type: "int32", required: true, default: 10,
           description: "Tasks of nearly equal numbers of frames" },
         { key: "threads", type: "int32", default: 0,

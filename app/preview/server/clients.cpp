@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Admits clients by token and origin, hands control on, and keeps commands until the drawing thread takes them.
+// Admits clients by token and origin, passes control on, and keeps commands until the drawing thread takes them.
 #include "app/preview/server/clients.h"
 
 #include <algorithm>
@@ -100,7 +100,7 @@ std::string random_token() {
   do {
     got = ::getrandom(bytes.data(), bytes.size(), 0);
   } while (got < 0 && errno == EINTR);
-  if (got != static_cast<ssize_t>(bytes.size())) throw Error("the system gives no random numbers");
+  if (got != static_cast<ssize_t>(bytes.size())) throw Error("the system has no random numbers");
   return fmt::format("{:02x}", fmt::join(bytes, ""));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who may talk to the preview server, who is connected and controls, and what they ask for on its way to the drawing
+// The clients of the preview server: who may connect, who controls, and their requests on the way to the drawing
 // thread.
 #pragma once
 
@@ -33,8 +33,8 @@ struct ClientCommand {
   std::vector<nlohmann::json> ids;  ///< of the messages, for their replies
 };
 
-/// Drags that nobody has seen yet become one drag, and of values such as the probe radius the latest counts, so that a
-/// slow picture never makes a queue. Every function may be called from any thread.
+/// Drags not drawn yet become one drag, and of values such as the probe radius the latest counts, so
+/// that a slow picture never makes a queue. Every function may be called from any thread.
 class Mailbox {
  public:
   /// False, and nothing happens, if too many commands wait already.
@@ -74,7 +74,7 @@ inline constexpr int kPatience = 10;                  ///< seconds for a request
 /// 128 random bits of the system as 32 hexadecimal digits. Throws Error where the system has none.
 std::string random_token();
 
-/// Is this the Host header of a request to us? 127.0.0.1:PORT and localhost:PORT are; a name that somebody else's DNS
+/// Is this the Host header of a request to us? 127.0.0.1:PORT and localhost:PORT are; a name that someone else's DNS
 /// points here is not.
 bool is_own_host(std::string_view host, std::uint16_t port);
 
@@ -116,10 +116,10 @@ struct Clients {
   /// Connections that have not shown the token yet, oldest first, each by a function that ends it.
   std::map<std::uint64_t, std::function<void()>> strangers;
   std::uint64_t next_stranger = 1;
-  ClientNumber controller = 0;  ///< 0: nobody
+  ClientNumber controller = 0;  ///< 0: none
 
   bool controls(ClientNumber client) const { return client == controller; }
-  /// This client controls from now on; both are told.
+  /// This client controls from now on; both are notified.
   void give_control(ClientNumber client);
   bool full() const;
   ClientNumber join(std::shared_ptr<Client> client);

@@ -170,7 +170,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     if (!admission.admitted)
       return refuse(http::status::forbidden, "the address lacks the token that meniscus printed");
     clients_->strangers.erase(stranger_);
-    if (request.method() != http::verb::get) return refuse(http::status::method_not_allowed, "only GET is known");
+    if (request.method() != http::verb::get) return refuse(http::status::method_not_allowed, "only GET is supported");
     if (admission.path == "socket") return open_socket();
     const std::string_view name = admission.path.empty() ? "index.html" : admission.path;
     const auto files = page_files();
@@ -207,7 +207,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     });
   }
 
-  /// The page runs its own script and style only, talks to this server only, and stands in no frame.
+  /// The page runs its own script and style only, talks to this server only, and is in no frame.
   void set_policies() {
     const std::string sockets = fmt::format("ws://127.0.0.1:{0} ws://localhost:{0}", clients_->port);
     response_.set("Content-Security-Policy",

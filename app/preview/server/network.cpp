@@ -33,8 +33,8 @@ struct Network::State {
       acceptor.listen();
       clients->port = acceptor.local_endpoint().port();
     } catch (const boost::system::system_error& error) {
-      throw RequestError(
-          fmt::format("--serve: port {} cannot be had: {}; try another, or 0 for any", port, error.code().message()));
+      throw RequestError(fmt::format("--serve: port {} is not available: {}; try another, or 0 for any", port,
+                                     error.code().message()));
     }
   }
 

@@ -18,7 +18,7 @@ namespace meniscus {
 /// functions may be called from any thread.
 class Network {
  public:
-  /// port 0: any free one. Listens when this returns. Throws RequestError if the port cannot be had, Error.
+  /// port 0: any free one. Listens when this returns. Throws RequestError if the port is not available, Error.
   Network(std::uint16_t port, Mailbox& mailbox);
   /// Says goodbye to all clients, for a second at most.
   ~Network();
@@ -29,7 +29,7 @@ class Network {
   /// http://127.0.0.1:PORT/TOKEN/
   std::string url() const;
 
-  /// Sends a message to one client, or to all. A client that is gone, or too slow to read, is no error.
+  /// Sends a message to one client, or to all. A client that is gone, or too slow to read, is not an error.
   void send(ClientNumber client, const nlohmann::json& message);
   void send_to_all(const nlohmann::json& message);
   /// A message and the picture it speaks of.

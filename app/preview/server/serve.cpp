@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The loop that carries out commands and draws what waiting pages have not seen.
+// Runs the loop that carries out commands and draws what waiting pages have not seen.
 #include "app/preview/server/serve.h"
 
 #include <algorithm>

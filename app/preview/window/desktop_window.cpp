@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// GLFW with an EGL context: opening, listening, and saying in one line why there is no window.
+// Opens a GLFW window with an EGL context, collects its events, and says in one line why there is no window.
 #include "app/preview/window/desktop_window.h"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ std::string glfw_reason() {
 
 /// Xlib ends the program when the display goes away; this keeps its exit code and its tidiness ours.
 int lose_display(void*) {
-  constexpr char kLine[] = "meniscus: error: the display went away; the preview ends\n";
+  constexpr char kLine[] = "meniscus: error: the display disappeared; the preview ends\n";
   [[maybe_unused]] const auto written = ::write(STDERR_FILENO, kLine, sizeof kLine - 1);
   remove_unfinished_outputs();
   ::_exit(kExitGpu);

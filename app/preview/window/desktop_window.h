@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A window on the desktop with a GL 4.5 context in it, and everything done to it since it was last asked.
+// A window on the desktop with a GL 4.5 context in it, and its events since the last call.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Widgets of exports, and the line that says what became of one.
+// Widgets for exports, and the line that tells their result.
 #include "app/preview/window/export_panel.h"
 
 #include <algorithm>
@@ -59,7 +59,7 @@ void ExportPanel::draw() {
   progress();
 }
 
-/// Those that a scene came with are in the fields until somebody types others.
+/// Those that a scene came with are in the fields until someone types others.
 void ExportPanel::take_wishes() {
   const Json& wishes = link_.state()["export"];
   if (wishes == wishes_) return;

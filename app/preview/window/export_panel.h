@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of the panel that exports: what, under which name, how large, and how far it is.
+// The part of the panel that exports: what to write, its name, its size, and the progress.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Widgets over the state's lists; like those of the panel they hold no value of the session.
+// Widgets for the state's lists; like those of the panel they hold no value of the session.
 #include "app/preview/window/figure_panel.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of the panel that says what a figure shows: atoms that are named, and a row for each thing shown.
+// The part of the panel for the figure: a selection of atoms, and a row for each thing shown.
 #pragma once
 
 #include <string>

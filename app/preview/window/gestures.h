@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a user does to a window, one record each, and what keys and the mouse over the picture mean as commands.
+// User input in a window, one record per event, and what keys and the mouse over the picture mean as commands.
 #pragma once
 
 #include <optional>

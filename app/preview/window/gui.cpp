@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hands events on to ImGui one frame after the other, and draws the parts that panels share.
+// Passes events to ImGui one frame after the other, and draws the parts that panels share.
 #include "app/preview/window/gui.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Dear ImGui in the preview's window: letters, colours, where a frame begins and ends, and what panels are made of.
+// Dear ImGui in the preview's window: fonts, colours, where a frame begins and ends, and the parts of panels.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Order statistics of waiting.
+// Computes order statistics of waiting times.
 #include "app/preview/window/latency.h"
 
 #include <algorithm>

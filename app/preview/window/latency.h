@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a movement to its picture, by the clock of the window.
+// Measures the time from a movement to its picture, by the clock of the window.
 #pragma once
 
 #include <cstdint>

@@ -176,7 +176,7 @@ void Panel::light() {
   label("Light from");
   glm::vec2 across(light);
   if (!ImGui::SliderFloat2("##light", &across.x, -1.0f, 1.0f, "%.2f", ImGuiSliderFlags_AlwaysClamp)) {
-    tooltip("Where the key light stands: left to right, below to above");
+    tooltip("Position of the key light: left to right, bottom to top");
     return;
   }
   const float front = std::sqrt(std::max(0.0f, 1.0f - glm::dot(across, across)));

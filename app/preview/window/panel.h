@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The column beside the picture: what can be changed, what was picked, how long a frame takes.
+// The column beside the picture: the controls, what was picked, and the time of a frame.
 #pragma once
 
 #include <string>

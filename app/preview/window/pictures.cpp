@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triple buffering, so that neither side waits for the other's frame; then a blit, which copies bytes as they are.
+// Buffers pictures three times, so that neither side waits for the other's frame, then copies bytes as they are by a
+// blit.
 #include "app/preview/window/pictures.h"
 
 #include <utility>

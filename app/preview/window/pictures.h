@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures on their way from the thread that draws them into the window, without a copy through the CPU where the GPU
-// draws them.
+// Passes pictures from the drawing thread to the window, without a copy through the CPU where the GPU draws
+// them.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the session on its thread, hands commands and replies over, and asks again what is not known yet.
+// Runs the session on its thread, passes commands and replies on, and repeats questions until they are answered.
 #include "app/preview/window/session_link.h"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ SessionThread::~SessionThread() {
 std::uint64_t SessionThread::post(nlohmann::json command) {
   const std::scoped_lock lock(mutex_);
   ++last_number_;
-  // While a picture is made, movements become one; questions are told apart by their numbers.
+  // While a picture is made, movements become one; questions are distinguished by their numbers.
   if (!queue_.empty() && !is_question(command) && merge_commands(queue_.back().command, command))
     queue_.back().number = last_number_;
   else

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The session behind the window: on a thread of its own, commands that wait for replies, and questions repeated until
-// answered.
+// The session of a window: on a thread of its own, with commands that wait for replies and questions that are repeated
+// until answered.
 #pragma once
 
 #include <chrono>
@@ -93,7 +93,7 @@ class SessionThread {
   std::thread thread_;
 };
 
-/// Every command of the window goes through here. Until the session has said how it stands, there
+/// Every command of the window goes through here. Until the session has said what its state is, there
 /// is no state.
 class SessionLink {
  public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The loop of the window: what was done becomes commands, what came back becomes a picture; else it sleeps.
+// The loop of the window: turns events into commands and shows the pictures that come back; else it sleeps.
 #include "app/preview/window/window.h"
 
 #include <algorithm>
@@ -154,7 +154,7 @@ void PreviewWindow::take_events() {
   const bool list_open = Gui::list_open();
   for (const InputEvent& event : window_.take_events()) {
     const bool elsewhere = list_open || event.position.x >= picture_area().x;
-    // A click into a field, or out of it, counts for what is typed behind it, though nothing has been drawn since.
+    // A click into a field, or out of it, counts for what is typed after it, though nothing has been drawn since.
     if (event.kind == InputEvent::Kind::press) assume_typing(elsewhere);
     letters_ += event.kind == InputEvent::Kind::text;
     const bool for_panel = unsure_frames_ > 0 ? typing_assumed_ : Gui::typing();
@@ -198,7 +198,7 @@ void PreviewWindow::take_key(const InputEvent& event) {
     case FaceAction::export_name:
       panel_shown_ = true;
       panel_.exports().ask_for_name();
-      assume_typing(true);  // what is typed behind it is for the name
+      assume_typing(true);  // what is typed after it is for the name
       break;
     case FaceAction::leave:
       if (event.kind == InputEvent::Kind::text || !std::exchange(help_, false))

@@ -20,7 +20,7 @@ inline constexpr std::size_t kLanes = 8;
 /// That multiple.
 constexpr std::size_t whole_vectors(std::size_t count) { return (count + kLanes - 1) / kLanes * kLanes; }
 
-/// Columns of doubles, all of one length: what is one number of many things stands together.
+/// Columns of doubles, all of one length: one number of many balls is contiguous.
 template <std::size_t kColumns>
 class ColumnTable {
  public:
@@ -46,12 +46,12 @@ class ColumnTable {
 /// Balls that may cover parts of circles around one first ball.
 class Blockers {
  public:
-  /// Starts anew for circles of a first ball with this weight.
+  /// Starts again for circles of a first ball with this weight.
   void restart(double first_weight);
   /// center: relative to the first ball's.
   void add(const glm::dvec3& center, double weight, std::uint32_t label);
 
-  /// Starts anew with `count` balls: write(n, x, y, z, weight, label) fills in one.
+  /// Starts again with `count` balls: write(n, x, y, z, weight, label) fills in one.
   template <typename Write>
   void assign(double first_weight, std::size_t count, const Write& write) {
     first_weight_ = first_weight;
@@ -73,7 +73,7 @@ class Blockers {
   std::uint32_t label(std::size_t n) const { return labels_[n]; }
   double first_weight() const { return first_weight_; }
 
-  /// The same number of ball after ball, up to whole vectors: beyond size() anything may stand.
+  /// The same number of ball after ball, up to whole vectors: beyond size() anything may be.
   struct Columns {
     const double *x, *y, *z, *weight, *square, *distance, *half_power;
   };

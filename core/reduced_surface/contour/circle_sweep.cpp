@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A union of arcs by its outermost ends, as loops over columns of numbers, which compilers make vectors of.
+// Computes a union of arcs by its outermost ends, in loops over columns of numbers that compilers vectorize.
 #include "core/reduced_surface/contour/circle_sweep.h"
 
 #include <algorithm>

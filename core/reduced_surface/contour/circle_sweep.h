@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All balls against one circle at once, where they leave nothing of it or a single arc: so it is for nearly all
+// Tests all balls against one circle at once, where they leave nothing of it or a single arc: nearly all
 // circles.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The vertices of a twice subdivided icosahedron as watched directions; sums of angles as products of cosines.
+// Watches the vertices of a twice subdivided icosahedron, and tests sums of angles by products of cosines.
 #include "core/reduced_surface/contour/sphere_cover.h"
 
 #include <algorithm>
@@ -239,7 +239,7 @@ void SphereCover::list_caps(std::size_t count) {
   wide_count_ = std::min(whole_steps(wide_count_), cap_count_);
 }
 
-// Keeps the directions of negative sign. They may stand in the list already: none moves behind its place.
+// Keeps the directions of negative sign. They may be in the list already: none moves behind its place.
 void SphereCover::list_uncovered(const float* x, const float* y, const float* z, std::size_t count) {
   float *to_x = uncovered_.column(0), *to_y = uncovered_.column(1), *to_z = uncovered_.column(2);
   std::size_t kept = 0;

@@ -3,7 +3,7 @@
 //
 // A sphere is watched in 162 directions so dense that every point lies within a known angle of one. A direction counts
 // as covered when one ball covers everything within that angle of it, with room for rounding; so "covered" is certain
-// and "not covered" only means that somebody has to look closer.
+// and "not covered" only means that someone has to look closer.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ class SphereCover {
   bool circle_may_be_exposed(std::size_t n) const { return signs_[n] >= 0; }
 
  private:
-  // Columns of numbers of circles, caps, or directions; up to whole vectors anything may stand behind them.
+  // Columns of numbers of circles, caps, or directions; up to whole vectors anything may be behind them.
   template <std::size_t kColumns>
   struct Rows {
     std::array<std::vector<float>, kColumns> columns;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exhaustive enumeration of RS edges, atom by atom in parallel (contour build-up: Totrov & Abagyan 1996).
+// Enumerates all RS edges, atom by atom in parallel (contour build-up: Totrov & Abagyan 1996).
 #include "core/reduced_surface/cpu/exhaustive.h"
 
 #include <algorithm>
@@ -164,7 +164,7 @@ class Enumeration {
                   [&](std::uint32_t label) { return search_.atom(label); });
   }
 
-  // By atoms: those of each stand together and are sorted already.
+  // By atoms: those of each are together and are sorted already.
   std::vector<RsArc> sorted_arcs() {
     std::vector<std::uint32_t> first(atom_count_ + 1, 0);
     for (const Group& group : groups_)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Squared distances of whole rows of cells, as loops over columns of numbers.
+// Computes squared distances for whole rows of cells, in loops that compilers vectorize.
 #include "core/reduced_surface/cpu/neighbor_search.h"
 
 #include <algorithm>

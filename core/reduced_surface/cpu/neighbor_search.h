@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which balls overlap a ball: those of a grid's cells around it, tested many at once.
+// Finds the balls that overlap a ball: tests those of the grid's cells around it, many at once.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace meniscus {
 /// places in this order name them here.
 class NeighborSearch {
  public:
-  /// atoms: van der Waals balls; weights: decision weights; those left out are no neighbours, and have none.
+  /// atoms: van der Waals balls; weights: decision weights; those left out are not neighbours, and have none.
   NeighborSearch(std::span<const Ball> atoms, double probe_radius, std::span<const double> weights,
                  const std::vector<bool>& left_out);
 

@@ -206,9 +206,7 @@ void GpuNeighbors::read_counts(BallBatch& batch) {
   readback.read();
   if (counted_.cut_short != 0)
     throw CapacityError(
-        "there are more balls about each ball than this driver's kernels can go through; use --device cpu, or a "
-        "smaller "
-        "probe");
+        "an atom has more neighbours than this driver's kernels can process; use --device cpu, or a smaller probe");
   batch.neighbor_count = counted_.neighbors;
   batch.pair_count = counted_.pairs;
   known_ = batch.count == entry_count_ ? batch : BallBatch{};

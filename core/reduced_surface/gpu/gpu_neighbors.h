@@ -65,7 +65,7 @@ class GpuNeighbors {
   /// From now on lists are made for these balls only, and pairs of two of them; all are still listed as neighbours.
   /// listed: `count` ascending indices; before: per ball and one more, how many listed ones come before it. Batches
   /// count entries of `listed`. Both buffers must stay. upload() and adopt() list all again. The count may be larger
-  /// than it is: behind the last one lists are empty.
+  /// than it is: after the last one lists are empty.
   void list_only(const Buffer& listed, const Buffer& before, std::uint32_t count);
 
   /// Of the lists; with list_only() perhaps more than there are.
@@ -143,7 +143,7 @@ class GpuNeighbors {
   TexelBuffer listed_texels_{TexelFormat::uint1}, before_texels_{TexelFormat::uint1};
   Buffer cell_first_, rank_, cell_atoms_, class_counts_;
   Buffer ball_count_;   // uint, whether loops were cut short; uint, how many balls there are
-  BallBatch resident_;  // whose lists the buffers hold; count 0: nobody's
+  BallBatch resident_;  // whose lists the buffers hold; count 0: none
   Counting counting_ = Counting::now;
   BallBatch known_, trusted_;  // of one batch: as last counted, with room
   struct Counted {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The circle a probe rolls on in contact with two atoms, the balls that stop it, and where it stops next.
 //
-// Nothing of contour build-up: no arcs are cut and kept. A rolling step compares angles from where the probe stands to
+// Nothing of contour build-up: no arcs are cut and kept. A rolling step compares angles from where the probe is to
 // where each ball is met (Sanner, Olson & Spehner 1996, section 3.1), a test of a position asks every ball in turn.
 #pragma once
 
@@ -101,7 +101,7 @@ class RollingCircle {
     return first_from(Precision::pseudo(typename Precision::real2{u, v}), real(0), true);
   }
 
-  /// Can the probe stand where it meets the n-th met ball: where that ball's covered part begins, or ends?
+  /// Can the probe are where it meets the n-th met ball: where that ball's covered part begins, or ends?
   bool accessible(std::size_t n, bool at_end) {
     const auto& at = met_[n].covered;
     const auto x = Precision::direction(at_end ? at.end : at.begin);

@@ -17,7 +17,7 @@
 namespace meniscus {
 namespace {
 
-// An RS face: the probe touches atoms a < b < c (a is where the face is filed) and stands on one side of their plane.
+// An RS face: the probe touches atoms a < b < c (a is where the face is filed) and is on one side of their plane.
 // Its edges lie on the circles (a, b), (a, c), (b, c); the arc there begins or ends at the face.
 struct RollingFace {
   std::uint32_t b;
@@ -244,7 +244,7 @@ class RollingProbe {
     }
   }
 
-  // The ends of arcs of the circle (i, j) at later atoms where the probe can stand and has not been.
+  // The ends of arcs of the circle (i, j) at later atoms where the probe can be and has not been.
   template <typename Circle>
   void list_starts(Circle& circle, std::uint32_t i, std::uint32_t j, std::vector<ArcEnd>& starts) const {
     starts.clear();

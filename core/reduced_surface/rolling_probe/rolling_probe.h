@@ -12,7 +12,7 @@ namespace meniscus {
 enum class RollingScope {
   /// What rolling over edges reaches from the leftmost atom: one component, no cavities. The classical algorithm.
   outer_component,
-  /// Everything. Rolling cannot leave its component, so each circle of two atoms is asked whether the probe can stand
+  /// Everything. Rolling cannot leave its component, so each circle of two atoms is asked whether the probe can be
   /// where a third atom meets it; where it can and has not been, it starts again. Free edges, to which no face leads,
   /// are found on the way. The result equals enumerate_reduced_surface().
   complete

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures of computed surfaces made by the CPU alone, for files and for faces that ask what a pixel shows.
+// Pictures of computed surfaces made by the CPU alone, for files and for previews that ask what a pixel shows.
 #pragma once
 
 #include <cstddef>
@@ -61,7 +61,7 @@ class CpuRenderer final : public SurfaceRenderer {
   std::string device() const override;
 
  private:
-  /// One sample of each pixel of a block and, behind the last, of what lies outside. Tiles that list nothing are never
+  /// One sample of each pixel of a block and, after the last, of what lies outside. Tiles that list nothing are never
   /// written, so that one beginning does for all samples.
   struct BlockSamples {
     std::vector<glm::vec4> color, over;
@@ -111,7 +111,7 @@ class CpuRenderer final : public SurfaceRenderer {
   BlockSamples samples_, front_;                    // front_: of pictures in which something is seen through
   std::vector<glm::vec4> front_sums_;               // of front_, finished
   std::vector<float> front_ink_;                    // share of it that lines cover
-  std::vector<float> shade_map_, front_shade_map_;  // depths of the whole picture, and behind the last that of nothing
+  std::vector<float> shade_map_, front_shade_map_;  // depths of the whole picture, and after the last that of nothing
   std::vector<std::uint8_t> rgba_;
   glm::ivec2 size_{0};                  // of rgba_
   bool drawn_ = false;                  // scene_ and hits_ are those of rgba_

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lists, on the CPU, the primitives that may show in each tile of a picture, and asks volume maps for colours of
-// points.
+// Lists, on the CPU, the primitives that may show in each tile of a picture, and reads colours of points from volume
+// maps.
 #include "core/render/cpu/host_scene.h"
 
 #include <algorithm>

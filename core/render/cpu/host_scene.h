@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What rays on the CPU read: primitives and colours in memory, and which of them each tile may show.
+// The data that rays on the CPU read: primitives and colours in memory, and the primitives that each tile may show.
 #pragma once
 
 #include <cstddef>

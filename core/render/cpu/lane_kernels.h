@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The inner loops of pictures on the CPU, compiled for vectors of several widths; what they read and write.
+// Declares the inner loops of pictures on the CPU, compiled for vectors of several widths, and their data.
 #pragma once
 
 #include <bit>
@@ -124,7 +124,7 @@ struct LayerTask {
 };
 
 /// What a look makes of one sample of each pixel of a block. Arrays of pixels, those of `samples` too, have one more
-/// behind the last: it stands for whatever lies outside.
+/// after the last: it stands for whatever lies outside.
 struct LaneLook {
   kernel::BlockView view{};
   kernel::OcclusionParameters occlusion{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Packets of four: what every processor has.
+// Compiles packets of four rays, for every processor.
 #include "core/render/cpu/lane_kernels.h"
 
 #define MENISCUS_LANES 4

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Casts opaque layers first: they tell how far others are seen. Then sorts and puts together.
+// Casts opaque layers first, which limit how far rays see the others; then sorts and composites all layers. Then sorts
+// and puts together.
 #include "core/render/cpu/layered_scene.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Several objects in one picture, each a layer that is cast by itself: put together along each ray.
+// Several objects in one picture: each is a layer that is cast by itself, and all are composited along each ray.
 //
 // A closed surface that a plane cuts needs no geometry for its cap: the next point behind the plane tells whether the
 // ray is inside the solid there, for then it goes out of it at that point.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shade, air and ink on rows of pixels in packets; included by lanes_*.cpp alone.
+// Ambient occlusion, depth cueing and silhouettes on rows of pixels in packets; included by lanes_*.cpp alone.
 #pragma once
 
 #include "core/render/cpu/lane_kernels.h"
@@ -18,7 +18,7 @@ struct LookedAtBlock {
   /// Pixels that lie in a row behind each other.
   static integer2 pixels_from(int x, int y) { return {integer(x) + lane_numbers(), integer(y)}; }
 
-  /// A pixel's place in the arrays; outside of the block that behind the last.
+  /// A pixel's place in the arrays; outside of the block that after the last.
   integer index_of(integer2 pixel) {
     return select(in_block(pixel), pixel.y * integer(view.size.x) + pixel.x, integer(view.size.x * view.size.y));
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Packets of numbers, one for each of MENISCUS_LANES rays: the words of gpu_shaders/shared/lane.glsl for C++.
+// Packets of numbers, one for each of MENISCUS_LANES rays: the types of gpu_shaders/shared/lane.glsl for C++.
 //
 // Only operations that IEEE 754 rounds correctly, one lane like another, and functions made of them: so a picture is
 // the same to the bit whatever the width of the machine's vectors. What the shared sources call is here under GLSL's

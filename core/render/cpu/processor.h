@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which wide instructions this processor has and this system lets programs use. Not every compiler's runtime knows
+// Which wide instructions this processor has and the system lets programs use. Not every compiler's runtime knows
 // (__builtin_cpu_supports).
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Balls drawn into depths of samples, and a pyramid over the pixels.
+// Draws balls into the depths of samples, and builds a pyramid over the pixels.
 #include "core/render/cpu/ray_depths.h"
 
 #include <algorithm>

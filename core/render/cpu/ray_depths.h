@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far the rays of a block see at most, so that what lies behind need not be made.
+// How far the rays of a block can see, so that nothing beyond is made.
 #pragma once
 
 #include <cstddef>

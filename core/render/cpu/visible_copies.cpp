@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Looks at clusters of patches, then at patches, of one copy after another.
+// Tests clusters of patches, then patches, of one copy after another.
 #include "core/render/cpu/visible_copies.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a block of a picture shows of many copies of surfaces, found without ever having all of them in memory.
+// Finds what a block of a picture shows of many copies of surfaces, without holding all of them in memory.
 //
 // First the atoms are drawn, as balls that no ray goes through. Then patches that may show in front of them are moved
 // and packed, copy after copy from front to back; when there are many they are cast, and whatever no ray shows is
@@ -28,14 +28,14 @@ namespace meniscus {
 /// The balls of every copy, in the order of merged(); of `objects`, which must stay as long as they.
 std::vector<BallGroup> ball_groups(std::span<const SurfaceObject> objects);
 
-/// A copy, and where its atoms stand among those of a scene or of all copies.
+/// A copy, and where its atoms are among those of a scene or of all copies.
 struct CopyPlace {
   std::uint32_t object = 0;  ///< which of the objects
   std::uint32_t copy = 0;    ///< which of SurfaceObject::copies
   std::uint32_t first_atom = 0;
 };
 
-/// Which of them has the atom of a scene; they stand by first_atom, and the first has 0.
+/// Which of them has the atom of a scene; they are by first_atom, and the first has 0.
 std::size_t place_of(std::span<const CopyPlace> places, std::uint32_t atom);
 
 class VisibleCopies {
@@ -72,7 +72,7 @@ class VisibleCopies {
     float nearest = 0.0f;   // as Primitive::nearest
   };
 
-  /// Patches that stand together, and a ball around them at home.
+  /// Patches that are together, and a ball around them at home.
   struct Cluster {
     std::size_t first = 0, count = 0;  // of Home::patches
     geometry::PatchBound bound{};

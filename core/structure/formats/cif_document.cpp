@@ -23,7 +23,7 @@ namespace {
     line = std::strtoul(message.c_str() + 4, nullptr, 10);
     what = message.substr(std::min(message.size(), message.find(": ") + 2));
   }
-  throw InputError(file.path, line, "is no readable mmCIF file: " + escaped(what));
+  throw InputError(file.path, line, "is not a readable mmCIF file: " + escaped(what));
 }
 
 }  // namespace

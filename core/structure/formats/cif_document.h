@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one place where CIF text is parsed, by gemmi.
+// Parses CIF text with gemmi, at this one place.
 #pragma once
 
 #include <gemmi/cifdoc.hpp>
@@ -8,7 +8,7 @@
 
 namespace meniscus {
 
-/// Parses the whole file once. Throws InputError with the line where it is no CIF.
+/// Parses the whole file once. Throws InputError with the line where it is not CIF.
 gemmi::cif::Document parse_cif(const TextFile& file);
 
 }  // namespace meniscus

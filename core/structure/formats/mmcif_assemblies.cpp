@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the assemblies of an mmCIF file: which chains (label_asym_id) stand under which products of operators.
+// Reads the assemblies of an mmCIF file: which chains (label_asym_id) are under which products of operators.
 #include <cmath>
 #include <map>
 
@@ -33,10 +33,11 @@ std::map<std::string, RigidMotion> operators_of(const TextFile& file, cif::Block
     for (std::size_t n = 0; n < 12; ++n) {
       double& number = matrix[n / 4][n % 4];
       if (!parse_number(row[n + 1], number) || std::abs(number) > kLargestCoordinate) {
-        throw InputError(file.path, 0,
-                         fmt::format("operator {} of _pdbx_struct_oper_list has {} for {}, no number of at most {}; "
-                                     "correct the matrix",
-                                     in_quotes(row.str(0)), in_quotes(row[n + 1]), tags[n + 1], kLargestCoordinate));
+        throw InputError(
+            file.path, 0,
+            fmt::format(
+                "operator {} of _pdbx_struct_oper_list has {} for {}, not a number of at most {}; correct the matrix",
+                in_quotes(row.str(0)), in_quotes(row[n + 1]), tags[n + 1], kLargestCoordinate));
       }
     }
     operators.emplace(row.str(0), rigid_motion(matrix, file.path, 0));

@@ -219,7 +219,7 @@ class Remark350 {
     const char row = text.size() > 5 ? text[5] : ' ';
     if (row != static_cast<char>('1' + rows_)) {
       throw InputError(file_.path, lines_.number(),
-                       fmt::format("BIOMT{} stands where BIOMT{} is missing; a matrix has three rows",
+                       fmt::format("BIOMT{} was found where BIOMT{} is missing; a matrix has three rows",
                                    escaped({&row, 1}), rows_ + 1));
     }
     if (row == '1') {

@@ -78,7 +78,7 @@ class GroReader {
     if (static_cast<std::uint64_t>(count) > (lines_.bytes_left() + 1) / kShortestLine) {
       throw InputError(
           file_.path, lines_.number(),
-          fmt::format("the count says {} atoms, more than the {} bytes behind it can hold; correct it, or "
+          fmt::format("the count says {} atoms, more than the {} bytes after it can hold; correct it, or "
                       "is the file cut short?",
                       with_thousands(static_cast<std::uint64_t>(count)), with_thousands(lines_.bytes_left())));
     }
@@ -107,32 +107,33 @@ class GroReader {
   void read_box(std::size_t count) {
     std::string_view line;
     if (!lines_.next(line)) {
-      throw InputError(
-          file_.path, lines_.number(),
-          "is the last line; the box (three or nine numbers) is missing behind it: is the file cut short?");
+      throw InputError(file_.path, lines_.number(),
+                       "is the last line; the box (three or nine numbers) is missing after it; is the file cut short?");
     }
     if (!is_box_line(line)) {
-      throw InputError(file_.path, lines_.number(),
-                       fmt::format("{} stands where the box (three or nine numbers) should be by the count of {}; "
-                                   "correct the count",
-                                   in_quotes(line), with_thousands(count)));
+      throw InputError(
+          file_.path, lines_.number(),
+          fmt::format(
+              "{} was found where the box (three or nine numbers) should be by the count of {}; correct the count",
+              in_quotes(line), with_thousands(count)));
     }
   }
 
   void take_atom(std::string_view line) {
     const std::size_t width = coordinate_width(line);
     if (width == 0) {
-      throw InputError(file_.path, lines_.number(),
-                       fmt::format("{} has no three coordinates behind column 20; is it cut short, or does the count "
-                                   "say too many atoms?",
-                                   in_quotes(line)));
+      throw InputError(
+          file_.path, lines_.number(),
+          fmt::format("{} does not have three coordinates after column 20; is it cut short, or does the count "
+                      "say too many atoms?",
+                      in_quotes(line)));
     }
     Atom atom;
     atom.model = static_cast<std::int32_t>(contents_.models);
     std::int64_t residue = 0;
     if (!parse_whole_number(line.substr(0, 5), residue)) {
       throw InputError(file_.path, lines_.number(),
-                       fmt::format("residue number {} in columns 1 to 5 is no number; columns may have shifted",
+                       fmt::format("residue number {} in columns 1 to 5 is not a number; columns may have shifted",
                                    in_quotes(line.substr(0, 5))));
     }
     atom.residue_number = static_cast<std::int32_t>(residue);

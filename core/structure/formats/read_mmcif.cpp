@@ -135,7 +135,7 @@ std::int32_t residue_number(const TextFile& file, const cif::Table& table, const
   return number;
 }
 
-/// In single precision; missing where the text is no number or beyond its range.
+/// In single precision; missing where the text is not a number or beyond its range.
 float kept_number(const std::string& value) {
   const double number = cif::as_number(value);
   const bool fits = std::abs(number) <= std::numeric_limits<float>::max();

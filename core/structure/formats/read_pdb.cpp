@@ -58,10 +58,10 @@ class PdbReader {
     occupancy_.warn(warnings, "no readable occupancy; treated as missing");
     b_factor_.warn(warnings, "no readable B-factor; treated as missing");
     element_.warn(warnings, "no element column; elements were guessed from the names");
-    symbol_.warn(warnings, "a symbol of no element; it was guessed from the name");
+    symbol_.warn(warnings, "an unknown element symbol; the element was guessed from the name");
     if (unmarked_models_ > 0) {
       warnings.emplace_back(
-          fmt::format("{} {} no MODEL or ENDMDL record; atoms behind END or MODEL were taken for a further model",
+          fmt::format("{} {} no MODEL or ENDMDL record; atoms after END or MODEL were read as another model",
                       unmarked_models_, unmarked_models_ == 1 ? "model has" : "models have"));
     }
     return std::move(contents_);
@@ -92,7 +92,7 @@ class PdbReader {
     }
   }
 
-  /// chain, number and insertion code of the first residue and of the last stand in columns from these on, but for a
+  /// chain, number and insertion code of the first residue and of the last are in columns from these on, but for a
   /// blank between chain and number in HELIX. Records that cannot be read are passed over: they colour nothing.
   void take_range(std::string_view line, SecondaryStructure kind, std::size_t first, std::size_t last) {
     const std::size_t gap = kind == SecondaryStructure::helix ? 2 : 1;

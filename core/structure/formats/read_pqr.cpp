@@ -41,7 +41,7 @@ bool read_residue_number(std::string_view field, PqrRecord& record) {
   return true;
 }
 
-/// Blank-separated: serial, name, residue, chain if there is one, number, insertion code if it stands alone; then five
+/// Blank-separated: serial, name, residue, chain if there is one, number, insertion code if it is alone; then five
 /// numbers.
 std::optional<PqrRecord> by_blanks(std::string_view line) {
   std::vector<std::string_view> fields = fields_of(line.substr(line[0] == 'A' || line[0] == 'a' ? 4 : 6), 13);
@@ -164,7 +164,8 @@ class PqrReader {
     if (!record) {
       throw InputError(
           file_.path, number,
-          fmt::format("{} cannot be taken apart: fields are missing or touch; a line is: {}", in_quotes(line), kLine));
+          fmt::format("{} cannot be split into fields: some are missing or touch; the expected line is: {}",
+                      in_quotes(line), kLine));
     }
     Atom atom;
     atom.model = model;
@@ -179,9 +180,9 @@ class PqrReader {
           parse_coordinate(file_, number, "xyz"[axis], record -> numbers[static_cast<std::size_t>(axis)]);
     }
     if (!parse_single(record->numbers[3], atom.charge)) {
-      throw InputError(
-          file_.path, number,
-          fmt::format("charge is {}, not a finite number; a line is: {}", in_quotes(record->numbers[3]), kLine));
+      throw InputError(file_.path, number,
+                       fmt::format("charge is {}, not a finite number; the expected line is: {}",
+                                   in_quotes(record->numbers[3]), kLine));
     }
     atom.radius = parse_radius(file_, number, record->numbers[4], kLine);
     residues_.number(atom);

@@ -27,7 +27,7 @@ namespace meniscus {
 namespace {
 
 /// Fields of a section are asked for by its name and their number; each of these functions throws InputError with file
-/// and line: no such section, columns that nobody understands, fewer or more fields, a field that is no number.
+/// and line: no such section, columns that nobody understands, fewer or more fields, a field that is not a number.
 class PrmtopSections {
  public:
   /// The file must outlive this object. Throws InputError where there is no section at all.
@@ -95,9 +95,9 @@ PrmtopSections::PrmtopSections(const TextFile& file) : file_(file) {
     }
   }
   if (sections_.empty())
-    throw InputError(file.path, 0,
-                     "has no %FLAG: prmtop files of Amber 6 and before are not read; write it anew, by ParmEd's "
-                     "'outparm'");
+    throw InputError(
+        file.path, 0,
+        "has no %FLAG: prmtop files of Amber 6 and before are not read; write it again with ParmEd's 'outparm'");
 }
 
 const PrmtopSections::Section& PrmtopSections::find(std::string_view name) const {
@@ -107,7 +107,7 @@ const PrmtopSections::Section& PrmtopSections::find(std::string_view name) const
   const Section& section = found->second;
   if (section.per_line == 0 || section.width == 0)
     throw InputError(file_.path, section.line,
-                     fmt::format("%FLAG {} has no %FORMAT such as (20a4) or (5E16.8) behind it", name));
+                     fmt::format("%FLAG {} has no %FORMAT such as (20a4) or (5E16.8) after it", name));
   return section;
 }
 
@@ -129,7 +129,7 @@ void PrmtopSections::each_field(std::string_view name, std::size_t count, Fields
     }
     if (kind != Fields::first_numbers && taken == count && !trimmed(line).empty())
       throw InputError(file_.path, section.first_line + lines.number() - 1,
-                       fmt::format("%FLAG {} has {} behind its {} fields; are POINTERS those of another file?", name,
+                       fmt::format("%FLAG {} has {} after its {} fields; do its POINTERS belong to another file?", name,
                                    in_quotes(trimmed(line)), with_thousands(count)));
   }
   if (taken < count)
@@ -150,7 +150,7 @@ std::vector<double> PrmtopSections::numbers(std::string_view name, std::size_t c
   each_field(name, count, Fields::numbers, [&](std::string_view field, std::size_t line) {
     double number = 0.0;
     if (!parse_number(field, number))
-      throw InputError(file_.path, line, fmt::format("{} of %FLAG {} is no number", in_quotes(field), name));
+      throw InputError(file_.path, line, fmt::format("{} of %FLAG {} is not a number", in_quotes(field), name));
     numbers.push_back(number);
   });
   return numbers;
@@ -160,7 +160,7 @@ void PrmtopSections::take_number(std::string_view name, std::string_view field, 
                                  std::vector<std::int64_t>& numbers) const {
   std::int64_t number = 0;
   if (!parse_whole_number(field, number))
-    throw InputError(file_.path, line, fmt::format("{} of %FLAG {} is no whole number", in_quotes(field), name));
+    throw InputError(file_.path, line, fmt::format("{} of %FLAG {} is not a whole number", in_quotes(field), name));
   numbers.push_back(number);
 }
 

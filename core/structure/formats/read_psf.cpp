@@ -44,7 +44,7 @@ class PsfReader {
       if (static_cast<std::uint64_t>(count) > lines_.bytes_left() / 2) {
         throw InputError(
             file_.path, lines_.number(),
-            fmt::format("{} says {}, more than the {} bytes behind it can hold; is the file cut short?", name,
+            fmt::format("{} says {}, more than the {} bytes after it can hold; is the file cut short?", name,
                         with_thousands(static_cast<std::uint64_t>(count)), with_thousands(lines_.bytes_left())));
       }
       return static_cast<std::size_t>(count);
@@ -73,14 +73,14 @@ class PsfReader {
   std::array<std::string_view, 7> columns_of(std::string_view line) const {
     std::vector<std::string_view> fields = fields_of(line, 12);
     if (fields.size() == 8) {
-      // A blank segment, or, where the residue's number stands behind one, a blank type, as ProDy writes.
+      // A blank segment, or, where the residue's number is behind one, a blank type, as ProDy writes.
       const bool has_segment = !is_residue_number(fields[1]) && is_residue_number(fields[2]);
       fields.insert(fields.begin() + (has_segment ? 5 : 1), std::string_view());
     }
     if (fields.size() < 9) {
       throw InputError(
           file_.path, lines_.number(),
-          fmt::format("{} is no atom: number, segment, residue, residue name, name, type, charge, mass and "
+          fmt::format("{} is not an atom: number, segment, residue, residue name, name, type, charge, mass and "
                       "a flag; is the file cut short, or the number of atoms wrong?",
                       in_quotes(line)));
     }
@@ -116,7 +116,7 @@ class PsfReader {
     std::int64_t number = 0;
     if (!parse_whole_number(digits, number) || number < -99'999'999 || number > 99'999'999) {
       throw InputError(file_.path, lines_.number(),
-                       fmt::format("residue {} is no number; columns may have run together", in_quotes(field)));
+                       fmt::format("residue {} is not a number; columns may have run together", in_quotes(field)));
     }
     atom.residue_number = static_cast<std::int32_t>(number);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chooses the reader, then decides atom by atom what is used, and keeps the account.
+// Chooses the reader, decides for each atom whether it is used, and counts the decisions.
 #include "core/structure/formats/read_structure.h"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ bool is_virtual_site(const Atom& atom) {
 bool is_hydrogen(const Atom& atom) { return atom.element == 1; }
 
 /// Whether a potential of the file's charges has this atom's, too, and a surface of the whole file its ball. Atoms of
-/// other alternate locations stand where one is used.
+/// other alternate locations are where one is used.
 bool has_charge_and_room(const Atom& atom, std::string_view reason) {
   return atom.charge != 0.0f && !std::isnan(atom.charge) && reason != kExcludedAltloc && reason != kExcludedVirtual &&
          reason != kExcludedRadius;
@@ -60,7 +60,7 @@ void leave_out(std::vector<Atom>& atoms, std::vector<Atom>& beside, ReadReport& 
   atoms.resize(kept);
 }
 
-/// What selections mean: what they select of atoms where these stand, or all that they may select somewhere. In a frame
+/// What selections mean: what they select of atoms where these are, or all that they may select somewhere. In a frame
 /// of a run nothing may be drawn beside the surface.
 enum class Meaning { here, in_a_frame, anywhere };
 
@@ -71,7 +71,8 @@ std::vector<bool> selected_of(const Selection& selection, const std::vector<Atom
 std::vector<bool> evaluate(const Selection& selection, const std::vector<Atom>& atoms, const RadiiChoice& radii,
                            const std::string& path, Meaning meaning) {
   if (selection.uses_radius() && !radii.from_molecule_file()) {
-    throw InputError(path, 0, "has no radii to select by yet; they are given to atoms once these are selected");
+    throw InputError(path, 0,
+                     "has no radii yet: they are assigned after the selection, so 'radius' cannot be used in it");
   }
   std::vector<bool> selected = selected_of(selection, atoms, meaning);
   if (std::find(selected.begin(), selected.end(), true) == selected.end()) {
@@ -117,11 +118,11 @@ void mark_shown(std::vector<Atom>& atoms, std::span<const ShownAtoms> shown, con
                 const RadiiChoice& radii, const std::string& path, Meaning meaning) {
   if (shown.size() > kMostShown)
     throw CapacityError(
-        fmt::format("{} sets of atoms are to be shown beside the surface; the most is {}", shown.size(), kMostShown));
+        fmt::format("{} sets of atoms beside the surface are too many; the most is {}", shown.size(), kMostShown));
   for (std::size_t bit = 0; bit < shown.size(); ++bit) {
     const Selection& selection = shown[bit].atoms;
     if (selection.uses_radius() && !radii.from_molecule_file())
-      throw InputError(path, 0, fmt::format("has no radii yet for {} to select by", shown[bit].option));
+      throw InputError(path, 0, fmt::format("has no radii yet, so {} cannot select by them", shown[bit].option));
     const std::vector<bool> selected = selected_of(selection, atoms, meaning), named = selection.names(atoms);
     bool any = false;
     for (std::size_t n = 0; n < atoms.size(); ++n) {
@@ -179,7 +180,7 @@ void assemble_beside(Structure& structure, const Assembly& assembly) {
   structure.beside = std::move(beside.atoms);
 }
 
-/// The bonds of all shown atoms, which stand in atoms and, behind them, in beside.
+/// The bonds of all shown atoms, which are in atoms and, after them, in beside.
 std::vector<Bond> bonds_of_shown(const Structure& structure, std::span<const Bond> listed) {
   const std::size_t own = structure.atoms.size();
   const auto atom = [&](std::uint32_t n) -> const Atom& {
@@ -205,7 +206,7 @@ std::vector<Bond> bonds_of_shown(const Structure& structure, std::span<const Bon
 void refuse_no_atoms(const Structure& structure) {
   if (!structure.atoms.empty()) return;
   throw InputError(structure.file, 0,
-                   fmt::format("leaves no atoms to make a surface of: {}; {} and {} use more",
+                   fmt::format("no atoms are left to make a surface of: {}; {} and {} use more",
                                structure.report.sentence(), option_name("keep-water"), option_name("keep-ions")));
 }
 
@@ -242,15 +243,15 @@ void warn_of_missing_altloc(Structure& structure, const std::vector<Atom>& atoms
       fmt::format("no atom has the alternate location {}; the best one of each residue is used", choice.letter));
 }
 
-/// Leaves what a trajectory has of the atoms and bonds, counted anew.
+/// Leaves what a trajectory has of the atoms and bonds, counted again.
 void keep_trajectory_atoms(FileContents& contents, const Selection& selection, const TextFile& file,
                            ReadReport& report) {
   const auto refuse = [&](const std::string& what) {
     throw InputError(file.path, 0, fmt::format("--trajectory-atoms {}: {}", in_quotes(selection.text()), what));
   };
-  if (selection.uses_radius()) refuse("radii are given to atoms only once it is known which are there");
+  if (selection.uses_radius()) refuse("'radius' cannot be used here: radii are assigned later");
   if (contents.without_positions && selection.uses_positions())
-    refuse("this file has no positions to select by; name atoms, residues or classes");
+    refuse("this file has no positions; select by names, residues or classes");
   const std::vector<bool> is_kept = selection.evaluate(contents.atoms);
   constexpr std::uint32_t kGone = 0xffffffffu;
   std::vector<std::uint32_t> place(contents.atoms.size(), kGone);
@@ -268,7 +269,7 @@ void keep_trajectory_atoms(FileContents& contents, const Selection& selection, c
     for (std::uint32_t& end : bond) end = place[end];
 }
 
-/// The atoms of a topology stand where the options say.
+/// The atoms of a topology are where the options say.
 void place_atoms(FileContents& contents, const ReadOptions& options, const TextFile& file) {
   if (!contents.without_positions) return;
   if (options.positions.empty())
@@ -277,7 +278,7 @@ void place_atoms(FileContents& contents, const ReadOptions& options, const TextF
         fmt::format("lists atoms without coordinates; add {} with a file that has them", option_name("trajectory")));
   if (options.positions.size() != contents.atoms.size()) {
     throw InputError(file.path, 0,
-                     fmt::format("lists {} atoms, a frame of the trajectory has {}: {}",
+                     fmt::format("lists {} atoms, but a frame of the trajectory has {}: {}",
                                  with_thousands(contents.atoms.size()), with_thousands(options.positions.size()),
                                  advice_on_count(contents.atoms, options.positions.size())));
   }
@@ -296,7 +297,7 @@ void use_assemblies(Structure& structure, const TextFile& file, const Reader& re
   if (options.assembly.empty()) return;
   if (!reader.assemblies) {
     throw InputError(structure.file, 0,
-                     fmt::format("is {}, which describes no assemblies; leave {} away", reader.metadata.name,
+                     fmt::format("is {}, which describes no assemblies; leave {} out", reader.metadata.name,
                                  option_name("assembly")));
   }
   const std::vector<Assembly> assemblies = reader.assemblies(file);
@@ -305,7 +306,7 @@ void use_assemblies(Structure& structure, const TextFile& file, const Reader& re
   assemble_beside(structure, assembly);
 }
 
-/// Of atoms shown together, places in Structure::atoms and, behind them, in beside, by Atom::index.
+/// Of atoms shown together, places in Structure::atoms and, after them, in beside, by Atom::index.
 std::vector<Bond> places_of(const Structure& structure, const std::vector<Bond>& by_index) {
   std::unordered_map<std::uint32_t, std::uint32_t> places;
   std::uint32_t next = 0;
@@ -344,7 +345,7 @@ struct StructureFile::Parts {
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
 
-  /// atoms: those of the contents, wherever they stand. Without bonds of what is shown.
+  /// atoms: those of the contents, wherever they are. Without bonds of what is shown.
   Structure choose(std::vector<Atom> atoms, Meaning meaning) const {
     Structure structure;
     structure.file = file.path;

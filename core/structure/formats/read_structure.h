@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a file name to the atoms of a surface: format by content, one model, one alternate location, no water, no ions.
+// Reads the atoms of a surface from a file: format by content, one model, one alternate location, no water, no ions.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@
 
 namespace meniscus {
 
-/// What to do with atoms whose element nobody can tell.
+/// What to do with atoms of unknown element.
 enum class UnknownElement { halt, guess, skip };
 
 /// What to do with hydrogens. `automatic`: kept with radii for explicit hydrogens, left out with united atoms.
@@ -52,7 +52,7 @@ struct ReadOptions {
   /// before anything else, and Atom::index counts what is left. By names and classes; positions only where the file
   /// has them.
   std::optional<Selection> trajectory_atoms = {};
-  /// Where the atoms of a file without positions (PSF) stand, Å, one each in the order of the file.
+  /// Where the atoms of a file without positions (PSF) are, Å, one each in the order of the file.
   std::vector<glm::dvec3> positions{};
   /// Fills in Atom::shown, Structure::beside and, of all shown atoms, shown_bonds. At most kMostShown.
   std::vector<ShownAtoms> shown{};
@@ -66,7 +66,7 @@ struct ReadOptions {
 /// elements), CapacityError.
 Structure read_structure(const std::string& path, const ReadOptions& options = {});
 
-/// A file that is read once, for structures of its atoms wherever they stand.
+/// A file that is read once, for structures of its atoms wherever they are.
 class StructureFile {
  public:
   /// Throws as read_structure.
@@ -78,7 +78,7 @@ class StructureFile {
   /// All atoms that at() takes or marks anywhere, where the file or the options place them.
   const Structure& reach() const { return reach_; }
 
-  /// What read_structure gives for atoms that stand there: one position, Å, of each atom of the file, or of
+  /// What read_structure gives for atoms that are there: one position, Å, of each atom of the file, or of
   /// ReadOptions::trajectory_atoms. ReadOptions::shown may mean none of them, and bonds are those found in reach(), so
   /// that they stay. Throws as read_structure.
   Structure at(std::span<const glm::dvec3> positions) const;

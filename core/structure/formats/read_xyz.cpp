@@ -107,7 +107,7 @@ class XyzReader {
     if (static_cast<std::uint64_t>(count) > (lines_.bytes_left() + 1) / kShortestLine) {
       throw InputError(
           file_.path, lines_.number(),
-          fmt::format("the count says {} atoms, more than the {} bytes behind it can hold; correct it",
+          fmt::format("the count says {} atoms, more than the {} bytes after it can hold; correct it",
                       with_thousands(static_cast<std::uint64_t>(count)), with_thousands(lines_.bytes_left())));
     }
     return static_cast<std::size_t>(count);

@@ -39,7 +39,7 @@ FileContents read(const TextFile& file, const ModelChoice& models) {
     if (fields.empty()) continue;
     if (fields.size() < 4) {
       throw InputError(file.path, lines.number(),
-                       fmt::format("{} has fewer than four columns; a line is: {}", in_quotes(line), kLine));
+                       fmt::format("{} has fewer than four columns; the expected line is: {}", in_quotes(line), kLine));
     }
     Atom atom;
     atom.index = atom.residue = static_cast<std::uint32_t>(contents.atoms.size());
@@ -53,9 +53,9 @@ FileContents read(const TextFile& file, const ModelChoice& models) {
     if (flag != 1) {
       throw InputError(
           file.path, lines.number(),
-          fmt::format("the fifth column is {}: only 1, for a ball of the surface, is understood; a line is: "
-                      "{}",
-                      flag, kLine));
+          fmt::format(
+              "the fifth column is {}: only 1, for a ball of the surface, is understood; the expected line is: {}",
+              flag, kLine));
     }
     if (fields.size() > 4) atom.name = fields[flagged ? 5 : 4];
     if (models.takes(1)) {

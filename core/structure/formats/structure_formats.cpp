@@ -84,7 +84,7 @@ const Reader& choose_reader(const TextFile& file) {
                                  by_name->metadata.name, reader->metadata.name));
   }
   if (by_name) return *by_name;  // its reader says what is missing, and where
-  throw InputError(file.path, 0, fmt::format("is in no format that is read ({})", format_names()));
+  throw InputError(file.path, 0, fmt::format("is in none of the formats that are read ({})", format_names()));
 }
 
 }  // namespace meniscus

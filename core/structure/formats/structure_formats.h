@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of structure formats, what each reader provides, and the choice among them for a file.
+// The table of structure formats and their readers, and the choice of one for a file.
 #pragma once
 
 #include <array>

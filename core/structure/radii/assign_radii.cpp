@@ -60,8 +60,9 @@ RadiiChoice::RadiiChoice(const RadiiOptions& options, const std::string& molecul
   } else {
     set_ = find_radii_set(options.set);
     if (!set_) {
-      throw InputError(molecule_file, 0,
-                       fmt::format("{} is no set of radii; there are {}", in_quotes(options.set), radii_set_names()));
+      throw InputError(
+          molecule_file, 0,
+          fmt::format("{} is not a set of radii; choose one of {}", in_quotes(options.set), radii_set_names()));
     }
   }
 }
@@ -103,9 +104,8 @@ void RadiiChoice::override_radii(Structure& structure, std::vector<Given>& given
   for (const RadiusOverride& replacement : options_.overrides) {
     const std::vector<bool> selected = replacement.atoms.evaluate(structure.atoms);
     if (std::find(selected.begin(), selected.end(), true) == selected.end()) {
-      structure.report.warnings.emplace_back(
-          fmt::format("the radius of {} Å is given to no atom: none is selected by {}", replacement.radius,
-                      in_quotes(replacement.atoms.text())));
+      structure.report.warnings.emplace_back(fmt::format("the radius of {} Å is not used: no atom is selected by {}",
+                                                         replacement.radius, in_quotes(replacement.atoms.text())));
     }
     for (std::size_t n = 0; n < given.size(); ++n) {
       if (!selected[n]) continue;
@@ -134,7 +134,7 @@ void RadiiChoice::warn(Structure& structure, const std::vector<Given>& given) co
   }
   if (hydrogens > 0 && united(true)) {
     structure.report.warnings.emplace_back(
-        fmt::format("{} {} used beside radii of united atoms ({}), which contain them already; drop the hydrogens or "
+        fmt::format("{} {} used with radii of united atoms ({}), which already include them; drop the hydrogens or "
                     "choose radii for explicit ones",
                     with_thousands(hydrogens), hydrogens == 1 ? "hydrogen is" : "hydrogens are", name()));
   }

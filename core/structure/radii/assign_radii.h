@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which radius each atom gets: tables and sets in their order, overrides, and the account of it.
+// Gives each atom its radius: by tables, sets and overrides in their order, with an account of where each came from.
 #pragma once
 
 #include <string>
@@ -44,13 +44,13 @@ class RadiiChoice {
   /// Gives every atom its radius and leaves out those whose radius is zero (tables say so of some hydrogens). Fills in
   /// Structure::radii_set and radius_classes. Warns of atoms that neither files nor set cover, which get Bondi's radius
   /// of their element; of explicit hydrogens beside united atoms; of elements without a published radius; of overrides
-  /// that select nothing. Returns the labels of atoms whose radius is a guess because nobody knows their element.
+  /// that select nothing. Returns the labels of atoms whose radius is a guess, because their element is unknown.
   std::vector<std::string> assign(Structure& structure) const;
 
  private:
   struct Given {
     FoundRadius found;
-    bool covered = true;  // by what the user chose, not by the element for want of better
+    bool covered = true;  // by what the user chose, not by the element as a last resort
   };
   Given radius_for(const Atom& atom, bool hydrogens_used) const;
   std::vector<Given> radii_for(const Structure& structure, bool hydrogens_used) const;

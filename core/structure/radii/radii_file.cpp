@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Looks radii up by name, from the exact one to the general; a name walks a pattern in all ways at once.
+// Looks radii up by name, from the exact one to the general; patterns are matched in all ways at once.
 #include "core/structure/radii/radii_file.h"
 
 #include <cctype>
@@ -61,7 +61,7 @@ std::vector<NamePattern::Piece> NamePattern::pieces_of(std::string_view alternat
   for (std::size_t n = 0; n < alternative.size(); ++n) {
     const char c = alternative[n];
     if (c == '*' || c == '+' || c == '?') {
-      if (pieces.empty()) refuse(alternative, "begins with a sign of repetition");
+      if (pieces.empty()) refuse(alternative, "begins with a repetition sign");
       pieces.back().optional |= c != '+';
       pieces.back().repeated |= c != '?';
       continue;

@@ -77,7 +77,7 @@ class RadiiTable {
   bool has_hydrogens_ = false;
 };
 
-/// Reads files, told apart by content: atom types with radius lines (MSMS's atmtypenumbers), FreeSASA's .config, force
+/// Reads files, recognized by content: atom types with radius lines (MSMS's atmtypenumbers), FreeSASA's .config, force
 /// fields of PDB2PQR (.DAT: residue atom charge radius), CHARMM topologies with their parameters (both must be among
 /// the files; half of Rmin is the radius), or lines "RESIDUE ATOM RADIUS" with * or ANY for every residue. One table a
 /// file, in order; one for all CHARMM files, in the place of the last. Throws InputError with file and line.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tells files of radii apart and reads them: lines of an atom or pattern each, and CHARMM's topologies with parameters.
+// Recognizes and reads files of radii: one atom or pattern per line, and CHARMM's topologies with parameters.
 
 #include <algorithm>
 #include <array>
@@ -168,7 +168,7 @@ RadiiFormat format_of(const TextFile& file) {
   if (most_fields >= 4) return RadiiFormat::force_field;
   if (most_fields == 3) return RadiiFormat::plain;
   throw InputError(file.path, 0,
-                   "is no table of radii that is read: atmtypenumbers, FreeSASA .config, CHARMM topology and "
+                   "is not a table of radii; the kinds read are atmtypenumbers, FreeSASA .config, CHARMM topology and "
                    "parameters, PDB2PQR .DAT, or lines RESIDUE ATOM RADIUS");
 }
 
@@ -223,12 +223,12 @@ RadiiTable read_freesasa(const TextFile& file) {
     } else if (section == "atoms:" && fields.size() >= 3) {
       const auto type = types.find(fields[2]);
       if (type == types.end()) {
-        throw InputError(file.path, lines.number(), fmt::format("{} is none of its types", in_quotes(fields[2])));
+        throw InputError(file.path, lines.number(), fmt::format("{} is not one of its types", in_quotes(fields[2])));
       }
       table.add(fields[0] == "ANY" ? "*" : std::string(fields[0]), std::string(fields[1]),
                 {type->second, type->second, std::string(fields[2])});
     } else if (section != "name:") {
-      throw InputError(file.path, lines.number(), "belongs to no section types: or atoms:, or is too short");
+      throw InputError(file.path, lines.number(), "is outside of the sections types: and atoms:, or too short");
     }
   }
   return table;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Evaluates understood selections: each step over all atoms at once, sets on a stack.
+// Evaluates parsed selections: each step for all atoms at once, with sets on a stack.
 #include "core/structure/selection/selection.h"
 
 #include <algorithm>
@@ -369,7 +369,8 @@ std::string advice_on_count(std::span<const Atom> atoms, std::size_t frame_atoms
     if (static_cast<std::size_t>(std::ranges::count(selected, true)) == frame_atoms)
       return fmt::format("as many as it has {}: choose --trajectory-atoms '{}'", part.words, part.selection);
   }
-  return "they do not belong together; if the trajectory has a part of these atoms, name it by --trajectory-atoms";
+  return "they do not belong together; if the trajectory has only some of these atoms, select them by "
+         "--trajectory-atoms";
 }
 
 }  // namespace meniscus

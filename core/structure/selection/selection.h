@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sets of atoms by expression, in the words that users of PyMOL, VMD, MDAnalysis and gmx know.
+// Sets of atoms by expression, in the words that users of PyMOL, VMD, MDAnalysis and GROMACS know.
 #pragma once
 
 #include <memory>
@@ -36,13 +36,13 @@ class Selection {
   /// and from frame to frame the answer changes.
   bool uses_positions() const;
 
-  /// What it may select of these atoms, wherever they stand, and from which of them it measures distances.
+  /// What it may select of these atoms, wherever they are, and from which of them it measures distances.
   struct Reach {
     std::vector<bool> selected, measured;
   };
   Reach reach(std::span<const Atom> atoms) const;
 
-  /// The same expression, which wherever atoms stand means those that are `selected` of these, by Atom::index.
+  /// The same expression, which wherever atoms are means those that are `selected` of these, by Atom::index.
   Selection settled(std::span<const Atom> atoms, const std::vector<bool>& selected) const;
 
   const std::string& text() const { return text_; }

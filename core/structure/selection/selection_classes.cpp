@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Residue by residue where the answer depends on its other atoms, else atom by atom.
+// Classifies atoms residue by residue where the answer depends on the other atoms, else atom by atom.
 #include "core/structure/selection/selection_classes.h"
 
 #include <algorithm>
@@ -65,7 +65,7 @@ bool answers(AtomFlag flag, Chemistry chemistry, const Atom& atom) {
   }
 }
 
-/// Of residues that are told apart by all their atoms.
+/// Of residues that are distinguished by all their atoms.
 bool answers(AtomFlag flag, std::span<const Atom> residue) {
   const bool carbon = std::any_of(residue.begin(), residue.end(), [](const Atom& atom) { return atom.element == 6; });
   const bool ligand = residue.front().kind == AtomClass::ligand;

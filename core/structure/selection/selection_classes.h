@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Answers the questions of a selection that are about what an atom is: protein, backbone, water, ...
+// Answers the questions of a selection about the kind of an atom: protein, backbone, water, ...
 #pragma once
 
 #include <span>

@@ -109,7 +109,7 @@ std::vector<Ends> ends_of(std::string_view text, const std::vector<SelectionValu
     const SelectionValue& value = values[n];
     if (!value.quoted && (value.text == "to" || value.text == "TO")) {
       if (all.empty() || all.back().high || n + 1 == values.size()) {
-        throw SelectionError("'to' stands between two values, as in 5 to 10", pointed_at(text, value.position));
+        throw SelectionError("'to' goes between two values, as in 5 to 10", pointed_at(text, value.position));
       }
       all.back().high = values[++n];
       continue;
@@ -137,7 +137,7 @@ ResidueTest::Id residue_id(std::string_view text, const SelectionValue& value) {
   const bool with_code = end + 1 == last && std::isalpha(static_cast<unsigned char>(*end));
   if (error != std::errc() || (end != last && !with_code)) {
     throw SelectionError(
-        fmt::format("{} is no residue number; they look like 52, -3, 52A, 5-10", in_quotes(value.text)),
+        fmt::format("{} is not a residue number; write one such as 52, -3, 52A or 5-10", in_quotes(value.text)),
         pointed_at(text, value.position));
   }
   return {number, with_code ? *end : ' '};
@@ -171,7 +171,8 @@ std::vector<std::array<double, 2>> read_elements(std::string_view text, const st
   for (const SelectionValue& value : values) {
     const double element = element_of_symbol(value.text);
     if (element == 0.0) {
-      throw SelectionError(fmt::format("{} is no element", in_quotes(value.text)), pointed_at(text, value.position));
+      throw SelectionError(fmt::format("{} is not an element", in_quotes(value.text)),
+                           pointed_at(text, value.position));
     }
     elements.push_back({element, element});
   }
@@ -193,11 +194,12 @@ std::vector<std::array<ResidueTest::Id, 2>> read_residue_ranges(std::string_view
 double read_number(std::string_view text, const SelectionValue& value, bool whole) {
   double number = 0.0;
   if (!parse_number(value.text, number)) {
-    throw SelectionError(fmt::format("{} is no finite number", in_quotes(value.text)),
+    throw SelectionError(fmt::format("{} is not a finite number", in_quotes(value.text)),
                          pointed_at(text, value.position));
   }
   if (whole && number != std::floor(number)) {
-    throw SelectionError(fmt::format("{} is no whole number", in_quotes(value.text)), pointed_at(text, value.position));
+    throw SelectionError(fmt::format("{} is not a whole number", in_quotes(value.text)),
+                         pointed_at(text, value.position));
   }
   return number;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cuts a selection into words, quoted texts, brackets and operators, and reads the values behind its words.
+// Cuts a selection into words, quoted texts, brackets and operators, and reads the values after its words.
 #pragma once
 
 #include <cstddef>

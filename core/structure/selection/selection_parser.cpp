@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Understands selections by recursive descent; the result is a flat list, so only brackets and prefixes nest.
+// Parses selections by recursive descent into a flat list, so that only brackets and prefixes nest.
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/structure/selection/foreign_selections.h"
 #include "core/structure/selection/selection.h"
 #include "core/structure/selection/selection_lexer.h"
 #include "core/structure/selection/selection_steps.h"
@@ -138,15 +139,16 @@ class Parser {
         parse_same(keyword);
         break;
       case WordKind::operation:
-        fail_at(keyword.position, fmt::format("a set is missing before {}", in_quotes(keyword.text)));
+        fail_at(keyword.position, fmt::format("a selection is missing before {}", in_quotes(keyword.text)));
     }
   }
 
   [[noreturn]] void refuse_unknown() const {
-    if (token().kind == TokenKind::end) fail("a set is missing at the end");
-    if (token().kind != TokenKind::word) fail(fmt::format("a set is missing before {}", in_quotes(token().text)));
+    if (token().kind == TokenKind::end) fail("a selection is missing at the end");
+    if (token().kind != TokenKind::word) fail(fmt::format("a selection is missing before {}", in_quotes(token().text)));
+    if (const std::string advice = advice_on_foreign_selection(token().text); !advice.empty()) fail(advice);
     const std::string_view nearest = nearest_selection_word(token().text);
-    fail(fmt::format("{} is no word of selections{}", in_quotes(token().text),
+    fail(fmt::format("{} is not a selection keyword{}", in_quotes(token().text),
                      nearest.empty() ? std::string("; see meniscus help selections")
                                      : fmt::format("; did you mean '{}'?", nearest)));
   }
@@ -219,9 +221,9 @@ class Parser {
     const std::string what = lower(token().text);
     const bool chains = what == "chain" || what == "segid";
     if (token().kind != TokenKind::word || (!chains && what != "residue"))
-      fail("'residue as' or 'chain as' belongs here");
+      fail("'residue as' or 'chain as' is expected here");
     take();
-    if (token().kind != TokenKind::word || lower(token().text) != "as") fail("'as' belongs here");
+    if (token().kind != TokenKind::word || lower(token().text) != "as") fail("'as' is expected here");
     take();
     parse_operand(keyword);
     steps_.push_back(WholeStep{chains});
@@ -234,7 +236,8 @@ class Parser {
     const bool in_brackets = token().kind == TokenKind::open;
     parse_unary();
     if (!in_brackets && (at_and() || at_or())) {
-      fail_at(position, fmt::format("how much belongs to {}? Put brackets around it", in_quotes(keyword.text)));
+      fail_at(position, fmt::format("it is unclear where the selection of {} ends; put brackets around it",
+                                    in_quotes(keyword.text)));
     }
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a selection is made of once it is understood: tests of atoms and operations on sets, in postfix order.
+// A parsed selection: tests of atoms and operations on sets, in postfix order.
 #pragma once
 
 #include <array>

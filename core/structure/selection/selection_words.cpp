@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lists the words of the selection language, and makes a manual page of them.
+// Lists the words of the selection language, and makes a page of help of them.
 #include "core/structure/selection/selection_words.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ constexpr SelectionWord kWords[] = {
     {"altloc alt", WordKind::text, of(AtomField::altloc), "altloc A", "alternate location; '' for none"},
     {"index", WordKind::whole, of(AtomField::index), "index 0 to 99", "place in the file, from 0"},
     {"serial bynum", WordKind::whole, of(AtomField::serial), "serial 1 to 100",
-     "place in the file, from 1, whatever numbers it gives"},
+     "position in the file, from 1; not the file's own serial numbers"},
     {"model", WordKind::whole, of(AtomField::model), "model 1", "model of the file, from 1"},
 
     {"bfactor b beta tempfactor", WordKind::number, of(AtomField::b_factor), "bfactor > 40",
@@ -45,7 +45,7 @@ constexpr SelectionWord kWords[] = {
     {"protein polymer.protein", WordKind::flag, of(AtomFlag::protein), "protein", "amino acids and their caps"},
     {"nucleic polymer.nucleic", WordKind::flag, of(AtomFlag::nucleic), "nucleic", "DNA and RNA"},
     {"polymer", WordKind::flag, of(AtomFlag::polymer), "polymer", "all chains of residues"},
-    {"ligand", WordKind::flag, of(AtomFlag::ligand), "ligand", "what is no polymer, water or ion"},
+    {"ligand", WordKind::flag, of(AtomFlag::ligand), "ligand", "everything that is not polymer, water or ion"},
     {"water waters solvent", WordKind::flag, of(AtomFlag::water), "water", "water molecules"},
     {"ion ions", WordKind::flag, of(AtomFlag::ion), "ion", "free ions: lone metal and halogen atoms"},
     {"organic", WordKind::flag, of(AtomFlag::organic), "organic", "ligands that have carbon"},
@@ -59,14 +59,15 @@ constexpr SelectionWord kWords[] = {
     {"sidechain", WordKind::flag, of(AtomFlag::sidechain), "sidechain",
      "protein without its main chain (with its hydrogens and ends); bases of nucleic"},
     {"helix", WordKind::flag, of(AtomFlag::helix), "helix", "residues in helices: as the file says, else by DSSP"},
-    {"sheet strand", WordKind::flag, of(AtomFlag::strand), "sheet", "residues in strands of sheets, found alike"},
-    {"coil loop", WordKind::flag, of(AtomFlag::coil), "coil", "residues of protein in neither"},
+    {"sheet strand", WordKind::flag, of(AtomFlag::strand), "sheet",
+     "residues in strands of sheets, found the same way"},
+    {"coil loop", WordKind::flag, of(AtomFlag::coil), "coil", "protein residues in neither"},
 
     {"within expand", WordKind::distance, 1, "within 5 of (EXPR)", "at most 5 Å from an atom of EXPR; EXPR itself too"},
     {"exwithin around", WordKind::distance, 0, "exwithin 5 of (EXPR)", "the same without EXPR itself"},
     {"byres byresidue", WordKind::group, 0, "byres (EXPR)", "whole residues that have an atom in EXPR"},
     {"bychain", WordKind::group, 1, "bychain (EXPR)", "whole chains that have an atom in EXPR"},
-    {"same", WordKind::same, 0, "same residue as (EXPR)", "as byres; same chain as: as bychain"},
+    {"same", WordKind::same, 0, "same residue as (EXPR)", "the same as byres; 'same chain as' is bychain"},
 
     {"not", WordKind::operation, 0, "not EXPR", "or !; binds most tightly"},
     {"and", WordKind::operation, 0, "EXPR and EXPR", "or &"},
@@ -103,22 +104,22 @@ constexpr std::string_view kExamples = R"(Examples:
 
 constexpr std::string_view kRules = R"(
 Rules:
-  Keywords are read in any case; values (chains, names) as they stand, only elements in any case.
-  Lists of values: A B C, A,B,C or A+B+C. * stands for any letters and ? for one; quotes ("..." or
-  '...') take a value as it is, and are needed for a value that is also a keyword.
-  Ranges of residues follow number and insertion code: 52 < 52A < 53.
-  A set after within, around, byres, bychain or same ... as stands in parentheses where and/or follows.
-  SET within 5 of (EXPR) is what of SET is near it. (EXPR) around 5 and (EXPR) expand 5 work as in PyMOL.
-  Distances are exact and between the atoms of the file, without periodic images. In a run of frames
-  within, x, y, z, helix, strand and coil mean in each frame what they mean there; --select-once keeps
-  what they mean in its first.
-  Values that an atom lacks (B-factor, charge) meet no comparison.
+  Keywords and elements may be in any case; chains and names are case-sensitive.
+  Lists of values: A B C, A,B,C or A+B+C. * stands for any letters and ? for one. Quotes ("..." or
+  '...') take a value literally; they are needed for a value that is also a keyword.
+  Ranges of residues are ordered by number and insertion code: 52 < 52A < 53.
+  After within, around, byres, bychain or same ... as, put EXPR in parentheses if and/or follows.
+  SET within 5 of (EXPR): the atoms of SET near EXPR. (EXPR) around 5 and (EXPR) expand 5 work as in PyMOL.
+  Distances are exact, between the atoms of the file, without periodic images. In a run of frames
+  within, x, y, z, helix, strand and coil are evaluated in each frame; with --select-once in the first
+  frame only.
+  An atom without a value (B-factor, charge) never matches a comparison.
 
 Water and free ions:
-  They take part in the expression (within 5 of water works), but are left out of the surface even where
-  chain A or all selects them, unless --keep-water or --keep-ions is given or the expression names them:
-  water by the keyword or its residue name; ions by the keyword, residue name, element or atom name (a
-  name that other atoms of the file have too, as CA, does not name an ion). Then the expression decides.
+  Expressions see them (within 5 of water works), but the surface leaves them out even if chain A or all
+  selects them, unless --keep-water or --keep-ions is given or the expression names them: water by the
+  keyword or its residue name; ions by the keyword, residue name, element or atom name (a name that other
+  atoms of the file also have, such as CA, does not name an ion). Then the expression decides.
 )";
 
 }  // namespace

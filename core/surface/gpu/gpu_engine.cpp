@@ -26,7 +26,7 @@ namespace {
 
 class GpuEngine final : public ReducedSurfaceEngine {
  public:
-  /// own: this very context, if it shall end with the engine.
+  /// own: this very context, if it should end with the engine.
   explicit GpuEngine(const EglContext& context, std::unique_ptr<EglContext> own = {})
       : own_(std::move(own)),
         device_(context.renderer() + ", GL " + context.version()),
@@ -52,7 +52,7 @@ class GpuEngine final : public ReducedSurfaceEngine {
     rs.exact_within = decided_within(growth_as_roundoff(arcs_.weights()), stats().ties, protruding);
     // Some atom is exposed, whatever the atoms: with arcs, or as a whole.
     if (rs.arcs.empty() && rs.lone_atoms.empty())
-      throw GpuError("the GPU finds no surface at all, which cannot be; run again, or on another --device");
+      throw GpuError("the GPU found no surface, which is impossible; run again, or choose another --device");
     return rs;
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Walks from frame to frame, and keeps what it found beside a checksum.
+// Finds the frames of a file one after another, and stores their places with a checksum.
 #include "core/trajectory/formats/frame_index.h"
 
 #include <algorithm>
@@ -151,7 +151,7 @@ FrameIndex find_frames(BinaryFile& file, const std::string& folder,
   file.check_unchanged();
   if (index.offsets.empty()) {
     throw InputError(file.path(), 0,
-                     fmt::format("holds not one whole frame{} in its {} bytes",
+                     fmt::format("holds no complete frame{} in its {} bytes",
                                  index.cut_short.empty() ? " with positions" : "", with_thousands(file.size())));
   }
   if (!folder.empty() && !changed_just_now(file)) keep_index(file, folder, index);

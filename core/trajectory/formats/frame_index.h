@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the frames of a file begin, for formats that tell it only from frame to frame; kept for the next time.
+// The places where the frames of a file begin, for formats without an index; kept for the next time.
 #pragma once
 
 #include <cstdint>

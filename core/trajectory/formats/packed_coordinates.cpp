@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bit stream of XTC: three whole numbers in one, in as few bits as their product needs.
+// Decodes the bit stream of XTC: three whole numbers in one, in as few bits as their product needs.
 #include "core/trajectory/formats/packed_coordinates.h"
 
 #include <bit>
@@ -24,7 +24,7 @@ constexpr std::array<std::uint32_t, 73> kSmallSizes{
     330280,  416127,  524287,  660561,  832255,   1048576,  1321122, 1664510, 2097152, 2642245, 3329021,
     4194304, 5284491, 6658042, 8388607, 10568983, 13316085, 16777216};
 constexpr std::int32_t kFirstClass = 9;
-constexpr std::uint32_t kLargestJointSize = 0xffffff;  // beyond it the three numbers stand one after the other
+constexpr std::uint32_t kLargestJointSize = 0xffffff;  // beyond it the three numbers are one after the other
 
 constexpr std::size_t kMostBytesLeft = 8;  // none are usual; a writer might fill up a word
 
@@ -186,7 +186,7 @@ std::string unpack(const PackedCoordinates& packed, std::span<glm::dvec3> positi
       if (run >= positions.size() - n) return fmt::format("is damaged at atom {}: too many atoms follow", n + 1);
       if (!steps.small_class_is_known())
         return fmt::format("is damaged at atom {}: class {} of differences", n + 1, steps.small_class());
-      // The first near atom stands before the full one: the oxygen of a water is near to both hydrogens.
+      // The first near atom is before the full one: the oxygen of a water is near to both hydrogens.
       Steps near = full;
       for (std::size_t k = 0; k < run; ++k) {
         near = steps.take_near(near);
@@ -199,7 +199,7 @@ std::string unpack(const PackedCoordinates& packed, std::span<glm::dvec3> positi
     if (class_change != 0) steps.set_small_class(steps.small_class() + class_change);
   }
   if (steps.bits().bytes_left() > kMostBytesLeft)
-    return fmt::format("is damaged: {} bytes are left behind its last atom", steps.bits().bytes_left());
+    return fmt::format("is damaged: {} bytes are left after its last atom", steps.bits().bytes_left());
   return {};
 }
 

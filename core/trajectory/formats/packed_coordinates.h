@@ -23,7 +23,7 @@ struct PackedCoordinates {
 
 inline constexpr std::size_t kPackedPadding = 32;
 
-/// Unpacks as many positions as there is room for, in Å. Returns what is wrong with the bits or with what stands in
+/// Unpacks as many positions as there is room for, in Å. Returns what is wrong with the bits or with what is in
 /// front of them; empty if nothing is.
 std::string unpack(const PackedCoordinates& packed, std::span<glm::dvec3> positions);
 

@@ -57,7 +57,7 @@ class HeaderReader {
     const std::string magic = text_of(4);
     if (magic == "\x89HDF") refuse("is NetCDF-4; convert it to the classic format: nccopy -k nc6 OLD NEW");
     if (!magic.starts_with("CDF") || (magic[3] != 1 && magic[3] != 2 && magic[3] != 5))
-      refuse("begins like no NetCDF file of the classic formats");
+      refuse("does not begin like a NetCDF file of the classic formats");
     version_ = magic[3];
     NetcdfLayout layout;
     layout.records = count();
@@ -91,7 +91,7 @@ class HeaderReader {
     if (tag == 0 && entries == 0) return 0;
     if (tag != expected_tag) refuse(fmt::format("is damaged: a list in its NetCDF header begins with {}", tag));
     if (entries > (bytes_.size() - next_) / 8)
-      refuse(fmt::format("is damaged: {} entries are promised in its NetCDF header", with_thousands(entries)));
+      refuse(fmt::format("is damaged: its NetCDF header announces {} entries", with_thousands(entries)));
     return entries;
   }
 
@@ -268,7 +268,7 @@ class AmberNetcdf final : public Trajectory {
     frame_count_ = known ? std::min(promised, present) : present;
     if (frame_count_ == 0) {
       throw InputError(path_, 0,
-                       present == 0 ? "holds not one whole frame; is it cut short?" : "its header says 0 frames");
+                       present == 0 ? "holds no complete frame; is it cut short?" : "its header says 0 frames");
     }
     if (known && present < promised) cut_short_ = cut_short_sentence(frame_count_);
     if (known && present > promised) {

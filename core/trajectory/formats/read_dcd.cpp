@@ -112,7 +112,7 @@ class Dcd final : public Trajectory {
     std::string start(std::min<std::uint64_t>(file_.size(), 16), '\0');
     file_.read(0, std::as_writable_bytes(std::span(start)));
     const auto markers = markers_of(start);
-    if (!markers) refuse(0, "is no DCD file: it does not begin with a record of 84 bytes and CORD");
+    if (!markers) refuse(0, "is not a DCD file: it does not begin with a record of 84 bytes and CORD");
     markers_ = *markers;
     std::uint64_t offset = 0;
     const std::vector<std::byte> header = record(offset, kHeaderRecord, "the header");
@@ -181,7 +181,7 @@ class Dcd final : public Trajectory {
     const std::uint64_t rest = file_.size() - offset;
     if (rest < first) {
       throw InputError(path_, 0,
-                       fmt::format("holds not one whole frame: {} of the {} bytes of the first", with_thousands(rest),
+                       fmt::format("holds no complete frame: {} of the {} bytes of the first", with_thousands(rest),
                                    with_thousands(first)));
     }
     frame_count_ = 1 + (rest - first) / others;
@@ -249,7 +249,7 @@ class Dcd final : public Trajectory {
     file_.read(first_frame_ + markers_.size, record);
     const std::array<double, 6> box = box_at(record.data());
     if (stands_for_no_box(box) || cell_of_record(box, charmm_itself_)) return;
-    warnings_.emplace_back("the box of its first frame is no box in any of the forms DCD knows; it is left out");
+    warnings_.emplace_back("the box of its first frame has none of the forms that DCD knows; it is left out");
   }
 
   BinaryFile file_;
@@ -259,7 +259,7 @@ class Dcd final : public Trajectory {
   bool has_cell_ = false, has_fourth_axis_ = false, charmm_itself_ = false;
   std::vector<std::uint32_t> free_atoms_;  // empty: all of them
   std::uint64_t first_frame_ = 0;          // its offset
-  Frame first_;                            // where the fixed atoms stand
+  Frame first_;                            // where the fixed atoms are
   std::vector<std::byte> bytes_;
 };
 

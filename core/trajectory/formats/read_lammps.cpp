@@ -46,7 +46,7 @@ struct PositionColumns {
 constexpr std::array<PositionColumns, 4> kPositionColumns{
     {{{"xu", "yu", "zu"}, false}, {{"xsu", "ysu", "zsu"}, true}, {{"x", "y", "z"}, false}, {{"xs", "ys", "zs"}, true}}};
 
-/// What stands above the atoms of a frame.
+/// What is above the atoms of a frame.
 struct DumpHeader {
   std::optional<std::int64_t> step;
   std::optional<double> time;
@@ -105,15 +105,15 @@ class HeaderReader {
     if (item == "UNITS") {
       header.units = trimmed(line);
     } else if (item == "TIME") {
-      if (!parse_number(line, time)) throw fault("has the time {}, which is no number", line);
+      if (!parse_number(line, time)) throw fault("has the time {}, which is not a number", line);
       header.time = time;
     } else if (item == "TIMESTEP") {
-      if (!parse_whole_number(line, number)) throw fault("has the timestep {}, which is no whole number", line);
+      if (!parse_whole_number(line, number)) throw fault("has the timestep {}, which is not a whole number", line);
       header.step = number;
     } else if (item == "NUMBER OF ATOMS") {
       if (!parse_whole_number(line, header.atoms) || header.atoms < 1) throw fault("has {} atoms", line);
     } else {
-      throw fault("has {}, which dumps of atoms (dump atom, dump custom) have not", item);
+      throw fault("has {}, which is not part of a dump of atoms (dump atom, dump custom)", item);
     }
     return true;
   }
@@ -192,10 +192,10 @@ class LammpsDump final : public Trajectory {
     }
     const auto found = std::ranges::find(kUnitStyles, std::string_view(name), &UnitStyle::name);
     if (found == kUnitStyles.end())
-      throw InputError(path_, 0,
-                       fmt::format("its units are {}, which are no lengths in Å; real, metal, si, cgs, electron, micro "
-                                   "and nano are",
-                                   in_quotes(name)));
+      throw InputError(
+          path_, 0,
+          fmt::format("its units are {}, which give no lengths in Å; real, metal, si, cgs, electron, micro and nano do",
+                      in_quotes(name)));
     length_ = found->length;
     time_ = found->time;
   }
@@ -208,7 +208,7 @@ class LammpsDump final : public Trajectory {
     } catch (const HeaderReader::Fault& fault) {
       refuse(number, fault.words);
     }
-    if (!whole || header.atoms < 1) refuse(number, "is no dump of atoms any more");
+    if (!whole || header.atoms < 1) refuse(number, "is not a dump of atoms");
   }
 
   [[noreturn]] void refuse(std::uint64_t number, const std::string& what) const {
@@ -231,13 +231,13 @@ class LammpsDump final : public Trajectory {
     Columns columns{};
     columns.place[0] = place("id");
     if (columns.place[0] == names.size())
-      refuse(number, "has no column 'id', so that nobody knows which atom is which; add id to dump custom");
+      refuse(number, "has no column 'id', so its atoms cannot be identified; add id to dump custom");
     for (const PositionColumns& kind : kPositionColumns) {
       for (std::size_t axis = 0; axis < 3; ++axis) columns.place[axis + 1] = place(kind.names[axis]);
       columns.last = std::ranges::max(columns.place);
       columns.scaled = kind.scaled;
       if (columns.last == names.size()) continue;
-      if (kind.scaled && !header.has_box) refuse(number, "has positions in parts of a box, and no box");
+      if (kind.scaled && !header.has_box) refuse(number, "has positions as fractions of a box, but no box");
       return columns;
     }
     refuse(number, fmt::format("has the columns {}, but neither xu yu zu, xsu ysu zsu, x y z nor xs ys zs",
@@ -263,7 +263,7 @@ class LammpsDump final : public Trajectory {
 
   void take_atom(std::uint64_t number, const DumpHeader& header, const Columns& columns) {
     std::string_view line;
-    if (!lines_.next(line)) refuse(number, "has less atoms than before");
+    if (!lines_.next(line)) refuse(number, "has fewer atoms than before");
     line = without_return(line);
     std::string_view rest = line;
     std::array<std::string_view, 4> fields;
@@ -302,8 +302,9 @@ class LammpsDump final : public Trajectory {
     if (numbers_.empty() || found_.size() != numbers_.size()) return;  // the first, or of another number of atoms
     const auto other = std::ranges::mismatch(found_, numbers_);
     if (other.in1 != found_.end())
-      refuse(number, fmt::format("has the atom {} where the first frame has {}: a group that changes is no trajectory",
-                                 *other.in1, *other.in2));
+      refuse(number,
+             fmt::format("has the atom {} where the first frame has {}: a dump of a changing group is not a trajectory",
+                         *other.in1, *other.in2));
   }
 
   BinaryFile file_;

@@ -140,8 +140,8 @@ class Mdcrd final : public Trajectory {
       left -= expected;
       if (lines.next(line) && without_blanks_behind(line).size() == expected * kWidth) continue;
       refuse(number, n,
-             fmt::format("{} has not the {} numbers of eight columns that a frame of {} atoms has here; has FILE the "
-                         "same atoms as this trajectory?",
+             fmt::format("{} does not have the {} numbers of eight columns that a frame of {} atoms has here; does "
+                         "FILE have the same atoms as this trajectory?",
                          in_quotes(line), expected, with_thousands(atom_count_)));
     }
   }
@@ -167,9 +167,9 @@ class Mdcrd final : public Trajectory {
     double number = 0.0;
     if (parse_number(field, number)) return number;
     refuse(frame, line,
-           field == "********" ? "******** stands where a coordinate did not fit into eight columns; image the frames "
+           field == "********" ? "******** marks a coordinate that did not fit into eight columns; image the frames "
                                  "into their box, or write NetCDF"
-                               : fmt::format("{} is no coordinate", in_quotes(field)));
+                               : fmt::format("{} is not a coordinate", in_quotes(field)));
   }
 
   BinaryFile file_;

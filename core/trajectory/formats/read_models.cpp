@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The models of a structure file (PDB, mmCIF, GRO, XYZ, ...) as the frames of a trajectory, found without parsing
-// atoms.
+// Reads the models of a structure file (PDB, mmCIF, GRO, XYZ, ...) as frames of a trajectory, which it finds without
+// parsing atoms.
 
 #include <algorithm>
 #include <array>
@@ -126,7 +126,7 @@ TextFrames walk_by_counts(const BinaryFile& file, bool title_first) {
     std::int64_t count = 0;
     const bool counted = whole && parse_whole_number(without_return(line), count) && count >= 0;
     for (std::int64_t n = 0; whole && (!counted || n <= count); ++n) advance();
-    if (blank) break;  // lines behind the last frame
+    if (blank) break;  // lines after the last frame
     last_bytes_before = std::exchange(last_bytes, line.size());
     const bool ends_in_last_line = !lines.ended_by_newline() && last_bytes < last_bytes_before;
     const bool cut = ends_in_count || (counted && (!whole || ends_in_last_line));
@@ -151,7 +151,7 @@ std::optional<double> number_behind(std::string_view text, std::string_view word
 
 std::string_view first_line(std::string_view text) { return text.substr(0, text.find('\n')); }
 
-/// All numbers of a line; none if something else stands in it.
+/// All numbers of a line; none if something else is in it.
 std::vector<double> numbers_of(std::string_view line) {
   std::vector<double> numbers;
   for (const std::string_view field : fields_of(line)) {
@@ -234,7 +234,8 @@ class ModelsInMemory final : public Trajectory {
     const Reader& reader = choose_reader(file);
     format_ = fmt::format("models of {}", reader.metadata.name);
     const FileContents contents = reader.read(file, ModelChoice{1, true});
-    if (contents.without_positions) throw InputError(path, 0, "lists atoms without coordinates: it is no trajectory");
+    if (contents.without_positions)
+      throw InputError(path, 0, "lists atoms without coordinates: it is not a trajectory");
     for (const Atom& atom : contents.atoms) {
       const auto model = static_cast<std::size_t>(atom.model);  // mmCIF may list models in turn
       if (frames_.size() < model) frames_.resize(model);
@@ -253,7 +254,7 @@ class ModelsInMemory final : public Trajectory {
   std::vector<std::vector<glm::dvec3>> frames_;
 };
 
-/// Keeps in memory where each model stands in the file, and parses the one that is asked for.
+/// Keeps in memory where each model is in the file, and parses the one that is asked for.
 class ModelsInFile final : public Trajectory {
  public:
   ModelsInFile(const std::string& path, const Reader& reader)

@@ -32,7 +32,7 @@ struct TrrHeader {
   std::size_t atoms = 0;
   std::int32_t step = 0;
   std::uint64_t header_bytes = 0;
-  std::uint64_t box_bytes = 0, between_bytes = 0, position_bytes = 0;  // box, what stands before the positions, these
+  std::uint64_t box_bytes = 0, between_bytes = 0, position_bytes = 0;  // box, what is before the positions, these
   std::uint64_t rest_bytes = 0;                                        // velocities and forces
 
   std::uint64_t position_offset() const { return header_bytes + box_bytes + between_bytes; }
@@ -116,7 +116,7 @@ class Trr final : public Trajectory {
     file_.check_unchanged();
     if (!fault.empty()) {
       throw InputError(path_, 0,
-                       fmt::format("frame {} at byte {} {}; leave it out by --frames, or write the file anew", number,
+                       fmt::format("frame {} at byte {} {}; leave it out by --frames, or write the file again", number,
                                    with_thousands(offset), fault));
     }
     time_precision_ = header.doubles ? kDoublePrecision : kSinglePrecision;

@@ -52,7 +52,7 @@ std::string parse(std::span<const std::byte> bytes, XtcHeader& header) {
   header.atoms = static_cast<std::size_t>(atoms);
   if (bytes.size() < kHeader) return {};
   if (const auto again = big_endian<std::int32_t>(bytes.data() + 52); again != atoms)
-    return fmt::format("says {} atoms first and {} then", atoms, again);
+    return fmt::format("says {} atoms first, then {}", atoms, again);
   if (header.atoms <= kMostPlainAtoms) {
     header.data_offset = kHeader;
     header.data_bytes = header.atoms * 3 * sizeof(float);
@@ -112,7 +112,7 @@ class Xtc final : public Trajectory {
     if (fault.empty()) fault = unpack_frame(header, frame);
     if (!fault.empty()) {
       throw InputError(path_, 0,
-                       fmt::format("frame {} at byte {} {}; leave it out by --frames, or write the file anew", number,
+                       fmt::format("frame {} at byte {} {}; leave it out by --frames, or write the file again", number,
                                    with_thousands(offset), fault));
     }
   }

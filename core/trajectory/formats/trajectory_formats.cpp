@@ -66,9 +66,10 @@ bool is_run_input(std::string_view start) {
 }
 
 [[noreturn]] void refuse_run_input(const std::string& path) {
-  throw InputError(path, 0,
-                   "is a run input file of GROMACS (TPR), which is another in each version and is not read; give its "
-                   "atoms as a PDB file: gmx editconf -f run.tpr -conect -o run.pdb");
+  throw InputError(
+      path, 0,
+      "is a run input file of GROMACS (TPR), whose format changes with each version and is not read; give its "
+      "atoms as a PDB file: gmx editconf -f run.tpr -conect -o run.pdb");
 }
 
 const TrajectoryFormat& choose_format(const std::string& path, const std::string& start) {
@@ -76,7 +77,7 @@ const TrajectoryFormat& choose_format(const std::string& path, const std::string
   const std::string name = lower_case(path);
   const bool packed = start.starts_with("\x1f\x8b");
   if (packed && name.ends_with(".gz") && format_by_name(name.substr(0, name.size() - 3)))
-    throw InputError(path, 0, "is packed with gzip; unpack it first: frames are read where they stand in the file");
+    throw InputError(path, 0, "is packed with gzip; unpack it first: frames are read in any order");
   const TrajectoryFormat* by_name = format_by_name(name);
   if (by_name && by_name->recognizes(start)) return *by_name;
   const TrajectoryFormat* by_content = format_by_content(start);
@@ -90,8 +91,8 @@ const TrajectoryFormat& choose_format(const std::string& path, const std::string
   if (by_content) return *by_content;
   if (!packed && start.find('\0') != std::string::npos) {
     throw InputError(path, 0,
-                     fmt::format("is in no trajectory format that is read ({}or models of {})", bare_format_names(),
-                                 format_names()));
+                     fmt::format("is in none of the trajectory formats that are read ({}or models of {})",
+                                 bare_format_names(), format_names()));
   }
   return kModelsFormat;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colours as callers pass them: one for all atoms, or one each.
+// Colours that callers pass: one for all atoms, or one for each.
 #pragma once
 
 #include <cstddef>

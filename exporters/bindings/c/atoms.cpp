@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Looks at every number before anything is computed from it.
+// Checks every number before anything is computed from it.
 #include "exporters/bindings/c/atoms.h"
 
 #include <cmath>

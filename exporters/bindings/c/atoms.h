@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Positions and radii as they come from other programs.
+// Positions and radii passed by other programs.
 #pragma once
 
 #include <vector>

@@ -16,8 +16,8 @@ std::size_t require_rows(const void* data, const CallerRows& rows, const char* n
   if (address % rows.number != 0)
     refuse(MENISCUS_USAGE, "{} is not aligned: its address is not a multiple of {}", name, rows.number);
   if (stride > kMostBytes)
-    refuse(MENISCUS_USAGE, "{}_stride is {} bytes, which is -{} with a sign; rows stand in ascending order", name,
-           stride, ~stride + 1);
+    refuse(MENISCUS_USAGE, "{}_stride is {} bytes, which is -{} with a sign; rows must ascend", name, stride,
+           ~stride + 1);
   if (stride < row || stride % rows.number != 0)
     refuse(MENISCUS_USAGE, "{}_stride is {} bytes; rows of {} numbers of {} bytes need a multiple of {}, at least {}",
            name, stride, rows.width, rows.number, rows.number, row);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Memory that callers pass, looked at here before it is followed: pointers, counts, strides, and structs of other
-// versions' sizes.
+// Memory that callers pass, checked before it is used: pointers, counts, strides, and structs of other versions' sizes.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +20,7 @@ namespace meniscus::c_api {
 /// Bytes that one array can have: half the address space. More is a negative number, or a product that overflowed.
 inline constexpr std::size_t kMostBytes = std::numeric_limits<std::size_t>::max() / 2;
 
-/// Refuses with MENISCUS_USAGE a NULL, and what is no address of such an object.
+/// Refuses with MENISCUS_USAGE a NULL, and what is not an address of such an object.
 template <typename Object>
 void require(const Object* pointer, const char* name) {
   if (!pointer) refuse(MENISCUS_USAGE, "{} is NULL", name);

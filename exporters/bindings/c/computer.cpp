@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From arrays to a surface, on the thread that called or, where GL may be needed, on one that has a context.
+// Computes surfaces from arrays, on the calling thread or, where GL may be needed, on one with a context.
 #include <cmath>
 #include <memory>
 #include <mutex>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Objects of the C interface count who holds them.
+// Reference counts of the objects of the C interface.
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a call runs on: the devices of the C interface in the words of the library, and how many CPU threads.
+// The device of a call, in the library's words, and its number of CPU threads.
 #pragma once
 
 #include <cstdint>

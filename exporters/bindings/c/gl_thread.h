@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A thread for a GL context: contexts belong to threads, and those of the caller have contexts of their own.
+// A thread for a GL context: contexts belong to threads, and the caller's threads have contexts of their own.
 #pragma once
 
 #include <functional>

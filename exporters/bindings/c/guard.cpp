@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which exception is which code, and the last text of each thread.
+// Maps exceptions to codes, and keeps the last message of each thread.
 #include "exporters/bindings/c/guard.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The boundary of the C interface: exceptions become codes here, and texts for meniscus_last_error().
+// The boundary of the C interface: turns exceptions into codes, and messages for meniscus_last_error().
 #pragma once
 
 #include <exception>

@@ -36,7 +36,8 @@ meniscus_mesh_options checked(const meniscus_mesh_options* given) {
     case MENISCUS_MESH_EVEN:
       check_number("mesh.tolerance", "tolerance", options.tolerance, "Å");
       if (options.density != kDefaults.density)
-        refuse(MENISCUS_USAGE, "density is {}, which is of MENISCUS_MESH_BY_DENSITY; choose that, or leave it at {}",
+        refuse(MENISCUS_USAGE,
+               "density is {}, which is only for MENISCUS_MESH_BY_DENSITY; choose that, or leave it at {}",
                options.density, kDefaults.density);
       break;
     case MENISCUS_MESH_BY_DENSITY:
@@ -107,7 +108,7 @@ const MeshFormat& format_of(const meniscus_mesh_file& file, const char* path) {
   if (!found && file.format)
     refuse(MENISCUS_USAGE, "format is {}, none of {}", in_quotes(file.format), mesh_format_words());
   if (!found)
-    refuse(MENISCUS_USAGE, "{} ends as no mesh file does, and format is NULL; there are {}", in_quotes(path),
+    refuse(MENISCUS_USAGE, "{} does not end like a mesh file, and format is NULL; the formats are {}", in_quotes(path),
            mesh_format_words());
   return *found;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stands behind the handle of a mesh.
+// The object behind the handle of a mesh.
 #pragma once
 
 #include <memory>

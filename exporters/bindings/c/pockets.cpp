@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pockets between the atoms of a surface, as tables.
+// Finds pockets between the atoms of a surface, and hands them out as tables.
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -13,7 +13,7 @@
 #include "exporters/bindings/c/caller_memory.h"
 #include "exporters/bindings/c/surface.h"
 
-/// What stands behind the handle of pockets: their rows, one after the other.
+/// What is behind the handle of pockets: their rows, one after the other.
 struct meniscus_pockets : meniscus::c_api::Counted {
   std::vector<meniscus_pocket> pockets;
   std::vector<double> mouths;
@@ -29,14 +29,14 @@ const meniscus_pocket_options kDefaults{sizeof(meniscus_pocket_options), PocketR
 
 PocketRequest request_of(const FinishedSurface& finished, const meniscus_pocket_options* given) {
   if (finished.kind != MENISCUS_SES || !(finished.probe_radius > 0.0))
-    refuse(MENISCUS_USAGE, "pockets are what a probe above 0 fills, of a surface of MENISCUS_SES");
+    refuse(MENISCUS_USAGE, "pockets need a probe above 0 and a surface of MENISCUS_SES");
   const meniscus_pocket_options options = given ? read_struct(given, kDefaults, "meniscus_pocket_options") : kDefaults;
   check_number("pockets.large_probe", "large_probe_radius", options.large_probe_radius, "Å");
   check_number("pockets.trim", "trim", options.trim, "Å");
   check_number("pockets.min_volume", "min_volume", options.min_volume, "Å³");
   check_number("pockets.mouth_tolerance", "mouth_tolerance", options.mouth_tolerance, "Å");
   if (options.large_probe_radius <= finished.probe_radius)
-    refuse(MENISCUS_INPUT, "large_probe_radius is {} Å, not above the probe's {} Å, so nothing lies between the two",
+    refuse(MENISCUS_INPUT, "large_probe_radius is {} Å; it has to be above the probe's {} Å",
            options.large_probe_radius, finished.probe_radius);
   return {finished.probe_radius, options.large_probe_radius, options.trim, options.mouth_tolerance, options.min_volume};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads molecules by the readers of the program, with the options of a caller.
+// Reads molecules with the readers of the program and the options of a caller.
 #include "exporters/bindings/c/read_file.h"
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a path and the options of a caller to the atoms that the program would take.
+// From a path and the options of a caller to the atoms that the program would use.
 #pragma once
 
 #include "core/structure/structure.h"

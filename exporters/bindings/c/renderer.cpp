@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ray casts pictures on the CPU, or on GL in a context of their own.
+// Ray casts pictures on the CPU, or on GL in a context of its own.
 #include "exporters/bindings/c/renderer.h"
 
 #include <string_view>
@@ -63,7 +63,7 @@ void check_of_surface(const Scene& scene) {
              value_name(*property));
   const ColorScheme& color = scene.molecule.color;
   if ((scene.molecule.color_named && color.by != ColorScheme::By::fixed) || !color.rules.empty())
-    refuse(MENISCUS_USAGE, "color: a surface does not know what its atoms are; give one colour, or atom_colors");
+    refuse(MENISCUS_USAGE, "color: a bare surface does not know its atoms' elements; give one colour, or atom_colors");
 }
 
 Coloring coloring_for(const Scene& scene, const float* of_atoms, std::size_t atoms) {

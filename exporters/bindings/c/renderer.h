@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stands behind the handle of a renderer, and how its pictures become bytes.
+// The object behind the handle of a renderer, and the conversion of its pictures to bytes.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sets and gives the values of scenes by their names, as the table of properties has them.
+// Sets and gets the values of scenes by their keys in the table of properties.
 #include "exporters/bindings/c/scene.h"
 
 #include <algorithm>

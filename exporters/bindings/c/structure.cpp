@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Molecules of the C interface: their atoms as columns, seen where they lie.
+// Molecules of the C interface: their atoms as columns, without a copy.
 #include <algorithm>
 #include <cstring>
 #include <memory>

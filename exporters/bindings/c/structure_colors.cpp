@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Takes the schemes that colour atoms by what their file says of them.
+// Colours atoms by the schemes that need the data of their file.
 #include "exporters/bindings/c/structure_colors.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ std::vector<glm::vec3> structure_colors(const Structure& structure, std::string_
   using By = ColorScheme::By;
   constexpr std::array kOfMore{By::kind, By::component, By::buried, By::rmsf, By::file};
   const std::optional<ColorScheme> by = parse_color_scheme(scheme);
-  if (!by) refuse(MENISCUS_USAGE, "scheme: {} is none of {}", in_quotes(scheme), color_scheme_words());
+  if (!by) refuse(MENISCUS_USAGE, "scheme: {} is not one of {}", in_quotes(scheme), color_scheme_words());
   if (std::ranges::find(kOfMore, by->by) != kOfMore.end())
     refuse(MENISCUS_USAGE, "scheme: {} needs more than the atoms of a file; a scene has it", in_quotes(scheme));
   return color_atoms(structure, *by).atom;

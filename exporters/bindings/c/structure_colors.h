@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The colours of a molecule's atoms by the word of a scheme.
+// The colours of a molecule's atoms by the name of a scheme.
 #pragma once
 
 #include <string_view>

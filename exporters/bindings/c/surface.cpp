@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reading a surface: its numbers, its tables as they stand in memory, distances to it.
+// Reads a surface: its numbers, its tables without a copy, and distances to it.
 #include "exporters/bindings/c/surface.h"
 
 #include <cmath>
@@ -187,7 +187,7 @@ Gradient find_gradient(const FinishedSurface& finished, std::int32_t quantity, c
   if (!is_ses && quantity >= MENISCUS_GRADIENT_SAS_AREA)
     refuse(MENISCUS_USAGE,
            "gradients of MENISCUS_GRADIENT_SAS_... are of MENISCUS_SES surfaces; see MENISCUS_GRADIENT_AREA");
-  if (given && !by_atom) refuse(MENISCUS_USAGE, "only the gradients of areas that are a sum over atoms take weights");
+  if (given && !by_atom) refuse(MENISCUS_USAGE, "only gradients of areas, which are sums over atoms, take weights");
   const std::span<const double> weights(given, given ? s.atoms.size() : 0);
   for (std::size_t n = 0; n < weights.size(); ++n)
     if (!std::isfinite(weights[n]))

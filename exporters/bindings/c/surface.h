@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stands behind the handle of a surface.
+// The object behind the handle of a surface.
 #pragma once
 
 #include <memory>

@@ -6,8 +6,8 @@
 namespace meniscus::c_api {
 
 Structure read_file(const char* path, const meniscus_read_options*) {
-  refuse(MENISCUS_USAGE,
-         "{}: this build reads no molecule files, for it was made without gemmi; give positions and radii", path);
+  refuse(MENISCUS_USAGE, "{}: this build reads no molecule files: it was made without gemmi; give positions and radii",
+         path);
 }
 
 }  // namespace meniscus::c_api

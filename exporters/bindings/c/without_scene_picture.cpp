@@ -8,14 +8,14 @@ namespace {
 meniscus_status refused(const char* what) {
   using namespace meniscus::c_api;
   return guarded([&] {
-    refuse(MENISCUS_USAGE, "this build {} no scenes, for it was made without gemmi, nlohmann_json or FreeType", what);
+    refuse(MENISCUS_USAGE, "this build {} no scenes: it was made without gemmi, nlohmann_json or FreeType", what);
   });
 }
 
 }  // namespace
 
 std::vector<glm::vec3> meniscus::c_api::structure_colors(const Structure&, std::string_view) {
-  refuse(MENISCUS_USAGE, "this build has no schemes of colours, for it was made without nlohmann_json or FreeType");
+  refuse(MENISCUS_USAGE, "this build has no colour schemes: it was made without nlohmann_json or FreeType");
 }
 
 meniscus_status meniscus_scene_read(const char*, meniscus_scene**) { return refused("reads"); }

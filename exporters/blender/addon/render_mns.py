@@ -389,7 +389,7 @@ def run_sequence(options):
     chosen = chosen_frames(options, frames)
     for path in (options.output, options.passes):
         if path and "#" not in path and len(chosen) > 1:
-            fail(2, f"{path}: {len(chosen)} frames need a run of # for their numbers")
+            fail(2, f"{path}: {len(chosen)} frames need # in the path for their numbers")
     stage = Stage(options, frames)
     dress(bpy.context.scene, stage.camera, options, [stage.item])
     code = 0

@@ -314,11 +314,11 @@ class Wording(WithFolder):
             self.assertNotRegex(wording.for_panel(text), r"(?<![\w/-])--[a-z]", text)
 
     def test_options_become_fields_and_others_say_what_they_are(self):
-        cases = {"--select: a set is missing": "Selection: a set is missing",
-                 "name it by --trajectory-atoms": "name it by Trajectory's atoms",
+        cases = {"--select: a selection is missing": "Selection: a selection is missing",
+                 "select them by --trajectory-atoms": "select them by Trajectory's atoms",
                  "a.pdb: add --trajectory with a file": "a.pdb: add Trajectory with a file",
                  "--keep-water and --keep-ions use more":
-                     '"keep-water" and "keep-ions" use more (keep-water, keep-ions: options of the program meniscus that this panel has not)',
+                     '"keep-water" and "keep-ions" use more (keep-water, keep-ions: options of the program meniscus that this panel does not have)',
                  "/x/my--run.pdb: has no atoms": "/x/my--run.pdb: has no atoms"}
         for text, wanted in cases.items():
             self.assertEqual(wording.for_panel(text), wanted)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The zips of the Blender extension, made of wheels that are none: SCRIPT (scripts/extension.sh) ADDON. Blender's own validator and
-installer, which are not in Debian's, run in scripts/newer_blenders.sh."""
+"""The zips of the Blender extension, made of stand-ins for wheels: SCRIPT (scripts/extension.sh) ADDON. Blender's own
+validator and installer, which are not in Debian's, run in scripts/newer_blenders.sh."""
 
 import os
 import subprocess
@@ -95,8 +95,8 @@ class Extension(unittest.TestCase):
         self.refused(f"{bare}: it has no file LICENSE")
         with open(bare, "w", encoding="ascii") as file:
             file.write("none")
-        self.refused(f"{bare}: it is no wheel")
-        self.refused("amiga is none of linux-x64", "amiga")
+        self.refused(f"{bare}: it is not a wheel")
+        self.refused("amiga is not one of linux-x64", "amiga")
         self.wheels += "x"
         self.refused(f"{self.wheels}: No such file or directory")
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What window_test.py does in Blender's window, step after step between its redraws; what was found goes to a file."""
+"""The steps of window_test.py in Blender's window, one after another between its redraws; the results go to a file."""
 
 import faulthandler
 import json

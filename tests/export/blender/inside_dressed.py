@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A scene that somebody has dressed: whatever comes in or is computed anew, nothing of theirs changes, in its data and in its picture.
+"""A scene that a user has edited: whatever is imported or computed again, nothing of theirs changes, in its data and in
+its picture.
 
 MENISCUS_KEEP_PICTURES: a folder for the pictures, which are larger then, to look at."""
 

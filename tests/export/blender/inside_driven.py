@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of sequences by the driver: baked, streamed and driven frames are the same, and a fault is an exit code."""
+"""Pictures of sequences by the driver: baked, streamed and driven frames are the same, and an error is an exit code."""
 
 import json
 import os

@@ -185,7 +185,7 @@ class Looks(unittest.TestCase):
         self.assertGreater(likeness, 0.8)
 
     def test_glass_mirrors_as_glass_does(self):
-        """A lamp that glass is no window for: what shows is what its surface mirrors, 3.4 % of it at a right angle."""
+        """A lamp seen only as its mirror image in the glass, 3.4 % of it at a right angle."""
         world = bpy.data.worlds.new("bright")
         tree = compat.node_tree(world)
         background = compat.find_or_add(tree, "BACKGROUND", "ShaderNodeBackground")

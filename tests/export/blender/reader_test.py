@@ -138,7 +138,7 @@ class Reader(unittest.TestCase):
         self.assertIsNone(surface.get("mesh.smooth_mean_curvature"))
         self.assertTrue((surface["mesh.patch_area"][surface["mesh.kind"] == mns_reader.CAP] == 0).all())
         done = self.run_program(*words, "--attributes", "nonsense")
-        self.assertIn("'nonsense' is no attribute", done.stderr)
+        self.assertIn("'nonsense' is not an attribute", done.stderr)
 
     def test_the_same_command_writes_the_same_bytes(self):
         files = []

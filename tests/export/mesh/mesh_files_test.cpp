@@ -98,7 +98,7 @@ TEST(MeshFiles, PlyNormalsAtCuspsAreTheMeanOfThoseAround) {
   Coloring gray_atoms;
   gray_atoms.atom.assign(balls.size(), glm::vec3(0.5f));
   const std::vector<PlyVertex> vertices = ply_vertices(surface, mesh, gray_atoms);
-  std::size_t bent = 0;  // where the mean is none of those around
+  std::size_t bent = 0;  // where the mean is not one of those around
   for (const auto& [vertex, normals] : sum) {
     if (glm::length(normals) < 1e-6) continue;
     EXPECT_LT(glm::distance(glm::dvec3(vertices[vertex].normal), glm::normalize(normals)), 1e-6) << vertex;

@@ -288,7 +288,7 @@ class Contents(Case):
                 ((MOLECULE,), "a.xyz", "--format", 2),
                 ((MOLECULE, "--density", "0.001"), "a.stl", "--density", 2),
                 ((MOLECULE, "--density", "1", "--tolerance", "0.1"), "a.stl", "--tolerance", 2),
-                ((MOLECULE, "--attributes", "curves"), "a.ply", "'curves' is no attribute", 2),
+                ((MOLECULE, "--attributes", "curves"), "a.ply", "'curves' is not an attribute", 2),
                 ((MOLECULE, "--scale", "0"), "a.stl", "--scale", 2),
                 ((MOLECULE, "--scale", "2", "--unit", "nanometer"), "a.stl", "--unit", 2),
                 ((MOLECULE, "--density", "1", "--show", "resid 1-10"), "a.stl", "--select", 2),

@@ -30,7 +30,7 @@ class Mesh:
         if not faces or (triangles["count"] != 3).any() or triangles["corner"].max() >= vertices:
             raise ValueError(f"{path}: no mesh of triangles")
         if not np.isfinite(rows).all() or len(np.unique(triangles["corner"])) != vertices:
-            raise ValueError(f"{path}: vertices that are no numbers, or are not used")
+            raise ValueError(f"{path}: vertices that are not numbers, or are not used")
         self.positions, self.normals = rows[:, 0:3], rows[:, 3:6]
         self.colors = rows[:, 6:9] if columns[6:] == ["r", "g", "b"] else None
         if columns[:6] != ["x", "y", "z", "nx", "ny", "nz"] or (self.colors is None and columns[6:]):

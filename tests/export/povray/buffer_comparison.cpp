@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One oracle ray a pixel, and four more where that one disagrees.
+// Traces one oracle ray per pixel, and four more where that one disagrees.
 #include "tests/export/povray/buffer_comparison.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Export, render, compare.
+// Exports a scene, renders it, and compares the result.
 #include "tests/export/povray/exported_scene.h"
 
 #include <array>

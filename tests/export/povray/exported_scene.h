@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A molecule with its surface, its oracle, and the way from a camera to the pixels that differ.
+// A molecule with its surface and its oracle, and the comparison of rendered pixels for a camera.
 #pragma once
 
 #include <functional>
@@ -37,7 +37,7 @@ class ExportedScene {
   SphereTracer tracer_;
 };
 
-/// The surface from a direction (of the molecule's axes) that is no symmetry of anything; turn picks one of several.
+/// The surface from a direction (of the molecule's axes) that is not a symmetry of anything; turn picks one of several.
 Camera oblique_camera(const Surface& surface, Projection projection, double aspect, int turn = 0);
 
 }  // namespace meniscus::testing

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small molecules that between them have every kind of patch.
+// Small molecules that together have every kind of patch.
 #pragma once
 
 #include <ostream>

@@ -52,7 +52,7 @@ TEST(PovrayCommand, TextOfAMoleculeNeverReachesTheScene) {
       // Residue names choose colours; otherwise not a byte may differ.
       if (color != "residue") {
         std::string expected = test::read_bytes(folder.path() / "a" / file);
-        // A name that might do something is no comment, either.
+        // A name that might do something is not a comment, either.
         const std::size_t name = color == "chain" ? expected.find(comment) : std::string::npos;
         if (name != std::string::npos) expected.erase(name, comment.size());
         EXPECT_TRUE(expected == text) << file << " by " << color;

@@ -128,7 +128,7 @@ TEST(PovrayExport, PrintedCommandRendersFromAnywhere) {
 }
 
 TEST(PovrayExport, SwitchesOfTheCommandLineAreUnderstood) {
-  const ExportedScene scene({"gas", gas(3, 12, 8.0, 1.2, 1.8)});  // some stand in the light of others
+  const ExportedScene scene({"gas", gas(3, 12, 8.0, 1.2, 1.8)});  // some are in the light of others
   const test::TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "scene";
   scene.write(oblique_camera(scene.surface(), Projection::perspective, kAspect), 32, 24, path);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Faults seeded into the geometry's text must be seen by the comparison, or it would prove nothing.
+// The comparison must see faults planted in the geometry's text, or it would prove nothing.
 #include <cmath>
 #include <regex>
 #include <sstream>
@@ -27,7 +27,7 @@ Mutation on_lines(const std::string& primitive, const std::string& pattern, cons
 }
 
 BufferDifference with_fault(const NamedBalls& molecule, const Mutation& fault) {
-  // One colour, so that no plane but those of the geometry stands in the text.
+  // One colour, so that no plane but those of the geometry is in the text.
   const ExportedScene scene(molecule, 1);
   const Camera camera = oblique_camera(scene.surface(), Projection::perspective, static_cast<double>(kWidth) / kHeight);
   return scene.difference(camera, kWidth, kHeight, fault);

@@ -27,7 +27,7 @@ void check_colors(const ColorScheme& scheme) {
   }
 }
 
-/// Words as they stand behind options.
+/// Words as they are behind options.
 void check_words(std::string_view text) {
   if (const auto color = parse_color(text)) require_color(*color);
   try {

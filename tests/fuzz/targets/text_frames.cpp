@@ -41,7 +41,7 @@ void check_against_reader(const std::string& path) {
     if (!trajectory->cut_short().empty()) return;
     positions = all_frames(*trajectory);
   } catch (const Error&) {
-    return;  // models of different sizes, which are no frames
+    return;  // models of different sizes, which are not frames
   }
   require(positions.size() == contents->atoms.size(), "the frames hold the atoms of the models");
   std::vector<std::vector<glm::dvec3>> models(contents->models);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Objects that must come to a good end when `new` gets no memory, wherever that happens.
+// Objects that must end well if `new` gets no memory, wherever that happens.
 #include <cstdlib>
 #include <filesystem>
 #include <new>

@@ -150,23 +150,22 @@ TEST(CameraFiles, AreToldApartByContent) {
 }
 
 TEST(CameraFiles, SayWhatIsWrong) {
-  EXPECT_EQ(
-      fault_of("1 2 3"),
-      "v: camera: this is neither JSON, nor the 18 numbers of PyMOL's get_view (there are 3 words), nor ChimeraX's "
-      "`view matrix`");
+  EXPECT_EQ(fault_of("1 2 3"),
+            "v: camera: this is not a camera: expected JSON, the 18 numbers of PyMOL's get_view (here are 3 words), or "
+            "ChimeraX's `view matrix`");
   EXPECT_EQ(fault_of("1 0 0 0 1 0 0 0 x  1 2 -50  3 4 5  10 90 0"),
-            "v: camera: 'x' is no finite number of PyMOL's get_view");
+            "v: camera: 'x' is not a finite number of PyMOL's get_view");
   EXPECT_EQ(fault_of("2 0 0 0 1 0 0 0 1  1 2 -50  3 4 5  10 90 0"),
-            "v: camera: the matrix of PyMOL's get_view is no rotation");
+            "v: camera: the matrix of PyMOL's get_view is not a rotation");
   EXPECT_EQ(fault_of("1 0 0 0 1 0 0 0 1  1 2 50  3 4 5  10 90 0"),
             "v: camera: PyMOL's get_view has the molecule behind the camera");
-  EXPECT_EQ(fault_of("view matrix camera 1,0,0"), "v: camera: ChimeraX's camera has less than its 12 numbers");
+  EXPECT_EQ(fault_of("view matrix camera 1,0,0"), "v: camera: ChimeraX's camera has fewer than 12 numbers");
   EXPECT_EQ(fault_of("view matrix camera 1,0,0,0,1,0,0,0,1,2,3,4"),
-            "v: camera: the matrix of ChimeraX's camera is no rotation");
-  EXPECT_EQ(fault_of(kChimeraX + " shapes"), "v: camera: 'shapes' is no part of ChimeraX's `view matrix`");
-  EXPECT_EQ(
-      fault_of(kChimeraX + " models #1,1,0,0,7,0,1,0,0,0,0,1,0,#2,1,0,0,8,0,1,0,0,0,0,1,0"),
-      "v: camera: ChimeraX has moved its models apart; one camera cannot stand for all: reset their places first");
+            "v: camera: the matrix of ChimeraX's camera is not a rotation");
+  EXPECT_EQ(fault_of(kChimeraX + " shapes"), "v: camera: 'shapes' is not part of ChimeraX's `view matrix`");
+  EXPECT_EQ(fault_of(kChimeraX + " models #1,1,0,0,7,0,1,0,0,0,0,1,0,#2,1,0,0,8,0,1,0,0,0,0,1,0"),
+            "v: camera: ChimeraX has moved its models relative to each other, which one camera cannot show; reset "
+            "their positions first");
   EXPECT_EQ(fault_of("{"), "v:1: camera: this is not JSON");
 }
 

@@ -44,11 +44,11 @@ TEST(Colors, NumbersByResidueAndOfTables) {
   const std::tuple<const char*, const char*, const char*> faults[] = {
       {table, "", "n:1: is a table; choose one of its columns by --color-column: ses, sas"},
       {table, "vdw", "n:1: has no column 'vdw'; it has ses, sas"},
-      {"a,b\n1,2\n", "b", "n:1: is the header of a table without a column index"},
+      {"a,b\n1,2\n", "b", "n:1: is the header of a table that does not identify its atoms"},
       {"chain,number,x\nA,1\n", "", "n:2: has 2 cells, the header 3"},
-      {"chain,number,x\nA,1x9,2\n", "", "n:2: '1x9' is no number of a residue"},
+      {"chain,number,x\nA,1x9,2\n", "", "n:2: '1x9' is not a residue number"},
       {"chain,number,x\nA,1,red\n", "", "n:2: 'red' is not a finite number"},
-      {"index,x\n-1,2\n", "", "n:2: '-1' is no index of an atom"},
+      {"index,x\n-1,2\n", "", "n:2: '-1' is not an atom index"},
       {"index,x\n1,2\n1,3\n", "", "n:3: gives atom 1 a second number"},
       {"A 1 2\nA 1 3\n", "", "n:2: gives residue 1 of chain 'A' a second number"},
       {"A 1 2\nB 2\n", "", "n:2: should be a chain, the number of a residue and a value"},
@@ -83,11 +83,11 @@ TEST(Colors, NumbersOfFramesHaveOneScale) {
   }
   const std::tuple<const char*, std::optional<std::uint64_t>, const char*> faults[] = {
       {"frame,index,x\n0,0,1\n2,0,2\n", 1, "holds numbers of 2 frames, 0 to 2, but none of frame 1"},
-      {"frame,index,x\n0,0,1\n", {}, "holds numbers of 1 frames, 0 to 0; ask for a run of frames"},
-      {"frame,index,x\n-1,0,1\n", 0, "n:2: '-1' is no number of a frame; they count from 0"},
-      {"frame,index,x\n1.5,0,1\n", 0, "n:2: '1.5' is no number of a frame"},
+      {"frame,index,x\n0,0,1\n", {}, "holds numbers of 1 frames, 0 to 0; add --frames, or leave out its column frame"},
+      {"frame,index,x\n-1,0,1\n", 0, "n:2: '-1' is not a frame number; frames count from 0"},
+      {"frame,index,x\n1.5,0,1\n", 0, "n:2: '1.5' is not a frame number"},
       {"frame,index,x\n3,0,1\n3,0,2\n", 0, "n:3: gives atom 0 a second number"},
-      {"frame,x\n3,1\n", 0, "n:1: is the header of a table without a column index"}};
+      {"frame,x\n3,1\n", 0, "n:1: is the header of a table that does not identify its atoms"}};
   for (const auto& [text, frame, reason] : faults) {
     const std::string said = complaint([&, text = text, frame = frame] { numbers(text, frame); });
     EXPECT_NE(said.find(reason), std::string::npos) << text << ": " << said;

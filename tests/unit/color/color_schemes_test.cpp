@@ -140,11 +140,11 @@ TEST(Colors, RulesByANumberTakeTheMapAndTheRange) {
 }
 
 TEST(Colors, RulesOfWhatAtomsHaveNotAreRefused) {
-  const std::pair<const char*, const char*> reasons[] = {{"chain A=crimsom", "'crimsom' is none of element"},
-                                                         {"chain A=", "'' is none of element"},
-                                                         {"b>=20", "'20' is none of element"},
-                                                         {"chain A=kind", "is nothing that single atoms have"},
-                                                         {"chain A=component", "is nothing that single atoms have"},
+  const std::pair<const char*, const char*> reasons[] = {{"chain A=crimsom", "'crimsom' is not one of element"},
+                                                         {"chain A=", "'' is not one of element"},
+                                                         {"b>=20", "'20' is not one of element"},
+                                                         {"chain A=kind", "cannot colour some of the atoms"},
+                                                         {"chain A=component", "cannot colour some of the atoms"},
                                                          {"chian A=red", "chian"}};
   for (const auto& [rule, reason] : reasons) {
     const std::string said = complaint([&, rule = rule] { parse_color_rule(rule); });
@@ -186,9 +186,9 @@ TEST(Colors, MapsOfOnesOwn) {
     EXPECT_EQ(ramp.color(1.0), blue) << text;
   }
   EXPECT_EQ(read_color_ramp(folder.file("ramp", "0 red\n1 white\n4 blue\n")).color(0.25), white);
-  const std::pair<const char*, const char*> faults[] = {{"red\nbleu\n", "ramp:2: 'bleu' is no colour"},
+  const std::pair<const char*, const char*> faults[] = {{"red\nbleu\n", "ramp:2: 'bleu' is not a colour"},
                                                         {"red\n", "holds 1 colours"},
-                                                        {"0 red\nblue\n", "ramp:2: some colours have a place"},
+                                                        {"0 red\nblue\n", "ramp:2: some colours have a position"},
                                                         {"1 red\n1 blue\n", "ramp:2: the place 1 does not lie"},
                                                         {"[\"red\", 7]", "entry 2 is neither"},
                                                         {"[\"red\"", "is not valid JSON"},
@@ -220,7 +220,8 @@ TEST(Colors, OpacitiesGoToTheAtomsMeantAndTheLastCounts) {
 
 TEST(Colors, OpacitiesOutsideZeroToOneAreRefused) {
   for (const char* bad : {"", "=", "1.1", "chain A=-0.1", "chain A=nan", "chain A=0.5x", "chain A"})
-    EXPECT_NE(complaint([&] { parse_opacity_rule(bad); }).find("is no opacity from 0 (hidden) to 1"), std::string::npos)
+    EXPECT_NE(complaint([&] { parse_opacity_rule(bad); }).find("is not an opacity from 0 (hidden) to 1"),
+              std::string::npos)
         << bad;
   EXPECT_THROW(parse_opacity_rule("=0.5"), SelectionError);
   EXPECT_THROW(parse_opacity_rule("b>=0.5"), SelectionError);
@@ -325,7 +326,7 @@ TEST(Colors, TheCategoricalMapGivesEachNumberAColorOfItsOwn) {
   wish.file.numbers.clear();
   for (int n = 0; n < 22; ++n) wish.file.numbers.push_back(n);
   EXPECT_EQ(complaint([&] { color_atoms(many, wish); }),
-            "four: has 22 different numbers to colour by, the categorical map 21 colours; choose another --map");
+            "four: has 22 different numbers, but the categorical map has 21 colours; choose another --map");
 }
 
 TEST(Colors, KindAndOrder) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which devices a wish leads to, on machines made up here.
+// The devices that a choice leads to, on invented machines.
 #include "core/gpu/device_choice.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ std::vector<GlDevice> workstation() {
           {3, true, "EGL_MESA_device_software", {}, "", ""}};
 }
 
-/// Places in EGL's list, in the order they are tried; negative and less one where software is no answer.
+/// Places in EGL's list, in the order they are tried; negative and less one where software is not an answer.
 std::vector<int> tried(const DeviceChoice& choice, const std::vector<GlDevice>& devices) {
   std::vector<int> places;
   for (const DeviceAttempt& attempt : device_attempts(choice, devices))

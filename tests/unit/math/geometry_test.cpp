@@ -115,7 +115,7 @@ struct PlacedProbe {
   bool on_its_side;  ///< of the plane of the atoms
 };
 
-/// A probe over three atoms that stand `off_line` Å from being in line.
+/// A probe over three atoms that are `off_line` Å from being in line.
 PlacedProbe place(double off_line, Random& random) {
   const glm::dvec3 along = glm::normalize(random.vector());
   const glm::dvec3 aside = glm::normalize(glm::cross(along, random.vector()));

@@ -74,7 +74,7 @@ void expect_exact_normals(const Surface& surface, const TriangleMesh& mesh) {
         ASSERT_LT(glm::distance(normal, (x - ball.center) / ball.radius), 1e-4);
       } else if (mesh.kind[t] == PatchKind::concave) {
         ASSERT_LT(glm::distance(normal, (surface.concave[patch].center - x) / surface.probe_radius), 1e-4);
-      } else {  // the probe that touches x stands on the SAS circle
+      } else {  // the probe that touches x is on the SAS circle
         const ToroidalPatch& torus = surface.toroidal[patch];
         const glm::dvec3 probe = x + surface.probe_radius * normal - torus.center;
         ASSERT_NEAR(glm::dot(probe, torus.axis), 0.0, 1e-4);

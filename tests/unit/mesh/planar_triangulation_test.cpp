@@ -25,7 +25,7 @@ std::vector<GridPoint> random_points(int count, std::int64_t limit, unsigned see
   return points;
 }
 
-// What llround() makes of a point that is no number; before this was refused flips went on for ever.
+// What llround() makes of a point that is not a number; before this was refused flips went on for ever.
 TEST(PlanarTriangulation, RefusesPointsOffTheGrid) {
   for (const GridPoint point :
        {GridPoint{INT64_MIN, INT64_MIN}, GridPoint{0, kGridLimit + 1}, GridPoint{INT64_MAX, 0}}) {

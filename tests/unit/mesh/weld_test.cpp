@@ -37,7 +37,7 @@ int euler_if_closed(const TriangleMesh& mesh) {
 
 Welding weld(TriangleMesh& mesh) { return meniscus::weld(mesh, 0.001, 1.0); }
 
-// An octahedron whose upper corner is two, 0 and 6. Beside the edge from 0 to 2 a fin stands between them: pairs of
+// An octahedron whose upper corner is two, 0 and 6. Beside the edge from 0 to 2 a fin is between them: pairs of
 // triangles back to back, one for each tip, the tip of one the foot of the next. Without tips 0 and 6 share that edge.
 TriangleMesh octahedron_with_a_double_corner(double apart, const std::vector<glm::dvec3>& tips = {}) {
   std::vector<glm::dvec3> points{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}, {apart, 0, 1}};

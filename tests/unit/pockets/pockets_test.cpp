@@ -125,7 +125,7 @@ TEST(Pockets, AHoleIsAMouthAndTwoAreATunnel) {
   const Pockets cup = pockets_of(shell(5.5, 4.4), PocketRequest{});
   ASSERT_EQ(cup.pockets.size(), 1u);
   EXPECT_STREQ(cup.pockets[0].kind(), "pocket");
-  // The rim's atoms stand on a circle of 3.3 Å.
+  // The rim's atoms are on a circle of 3.3 Å.
   EXPECT_GT(cup.pockets[0].mouth_area(), std::numbers::pi * 1.0 * 1.0);
   EXPECT_LT(cup.pockets[0].mouth_area(), std::numbers::pi * 4.0 * 4.0);
   // The probe reaches the far wall, 5.5 - 1.7 - 1.4 below the middle, and the large one does not come in.
@@ -344,7 +344,7 @@ TEST(Pockets, WhatMakesNoSenseIsRefused) {
   EXPECT_NE(fault(&PocketRequest::trim, nan).find("--trim"), std::string::npos);
   EXPECT_NE(fault(&PocketRequest::tolerance, 0.0).find("--mouth-tolerance"), std::string::npos);
 
-  // An open surface, of the molecule or of the molecule among large probes, is no surface.
+  // An open surface, of the molecule or of the molecule among large probes, is not a surface.
   const Balls cage = shell(5.5, 4.4);
   for (const std::size_t open : {std::size_t{0}, std::size_t{1}, std::size_t{2}}) {
     std::size_t computed = 0;

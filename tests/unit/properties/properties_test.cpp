@@ -75,7 +75,7 @@ TEST(Properties, RangesAreThoseOfTheCode) {
   expect("mesh.scale", kSmallestFileScale, kLargestFileScale);
 }
 
-// A number of the look that had no property, or whose property is none of scenes, bundles and the preview, would be
+// A number of the look that had no property, or whose property is not one of scenes, bundles and the preview, would be
 // missing there without a word.
 TEST(Properties, EveryNumberOfALookIsEverywhere) {
   EXPECT_EQ(look_numbers().size(), 12u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces put together are what one computation of all their atoms gives, and copies stand where they are put.
+// Surfaces put together are what one computation of all their atoms gives, and copies are where they are put.
 #include "core/queries/copies.h"
 
 #include <algorithm>

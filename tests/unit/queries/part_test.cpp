@@ -41,7 +41,7 @@ std::size_t mixed_patches(const Surface& s) {
   return count;
 }
 
-// Every border has its two faces, and areas and volumes measured anew are those that came along.
+// Every border has its two faces, and areas and volumes measured again are those that came along.
 void expect_closed(Surface part) {
   for (const Border& border : part.borders)
     for (const std::uint32_t face : border.face) ASSERT_LT(face, part.faces.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Atoms within others, found from pairs that are kept from frame to frame, are those that are found anew.
+// Atoms within others, found from pairs that are kept from frame to frame, are those that are found again.
 #include <algorithm>
 #include <random>
 #include <vector>

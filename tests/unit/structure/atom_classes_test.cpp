@@ -101,7 +101,7 @@ TEST(ClassesOfEntries, OfTheRibosomeAreThoseOfItsEntities) {
 }
 
 /// Residues one behind the other, each with the atoms given; a `gap` of 1.4 Å between the last of one and the first of
-/// the next is a bond, and atoms within a residue stand as far apart.
+/// the next is a bond, and atoms within a residue are as far apart.
 class Chain {
  public:
   Chain& add(const std::string& record, const std::string& residue, std::initializer_list<const char*> atoms,

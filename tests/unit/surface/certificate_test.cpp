@@ -267,7 +267,7 @@ TEST(TieLadder, GrowsOnlyWhatDoesNotClose) {
   EXPECT_EQ(none.atoms[5].radius, balls[5].radius);
 }
 
-// From the least that decisions do not see, by threes; each rung draws anew.
+// From the least that decisions do not see, by threes; each rung draws again.
 TEST(TieLadder, GrowsByThreesAndDrawsAnew) {
   EXPECT_EQ(tie_growth(0), 0.0);
   EXPECT_DOUBLE_EQ(tie_growth(1), 1e-8);
@@ -318,7 +318,7 @@ TEST(ExactWithin, IsNoLessThanTheGrowthOfRadii) {
   }
 }
 
-// Ties as such are told apart by the decisions; radii grow only where positions contradict them.
+// Ties as such are distinguished by the decisions; radii grow only where positions contradict them.
 TEST(TieLadder, IsNotNeededForTiesThatDecisionsTellApart) {
   for (const NamedBalls& molecule : degenerate_molecules())
     EXPECT_EQ(compute_surface_cpu(molecule.balls, molecule.probe_radius).certificate.grown_by, 0.0) << molecule.name;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From half-borders to loops, faces and areas: small cases whose answer is plain.
+// From half-borders to loops, faces and areas: small cases with a known answer.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -47,7 +47,7 @@ TEST(LargeTables, HaveTheRowsOfAnyTable) {
   }
 }
 
-// The system is asked for all whole pages between two that are partly somebody else's, and for no others.
+// The system is asked for all whole pages between two that are partly someone else's, and for no others.
 TEST(LargeTables, GetTheirMemoryBeforeItIsWritten) {
   constexpr std::size_t kPage = 4096, kPages = 10000;
   void* const memory = ::mmap(nullptr, kPages * kPage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);

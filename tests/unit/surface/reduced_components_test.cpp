@@ -24,7 +24,7 @@ ComponentSurface component_surface(const Balls& balls, double probe_radius = kWa
 }
 
 // Six carbons on the axes. The probe is held in the middle, and at each of the eight windows, too narrow for it, a
-// probe inside and one outside stand 1.97 Å apart, which is less than two radii.
+// probe inside and one outside are 1.97 Å apart, which is less than two radii.
 constexpr double kCage = 3.6;
 Balls cage() { return octahedron(kCage * std::numbers::sqrt2); }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The planes of a convex patch leave what a probe can touch and nothing else, however shallow a cover is; and probes
-// are merged where they stand within 10⁻⁶ Å, not farther apart.
+// are merged where they are within 10⁻⁶ Å, not farther apart.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -29,7 +29,7 @@ std::vector<glm::dvec3> directions(int count) {
   return all;
 }
 
-/// How deep a probe that touches atom a in this direction stands in another atom at most: power, Å².
+/// How deep a probe that touches atom a in this direction is in another atom at most: power, Å².
 double depth(const Balls& atoms, std::size_t a, const glm::dvec3& direction, double p) {
   const glm::dvec3 probe = atoms[a].center + (atoms[a].radius + p) * direction;
   double deepest = -1e300;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Volume maps: a linear field comes back exactly from every format, skewed and turned; faults are named by line.
+// Volume maps: a linear field is read back exactly from every format, skewed and turned; errors name the line.
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -229,7 +229,7 @@ TEST_F(Volume, FaultsAreNamed) {
   std::vector<float> infinite = values_of(ccp4_frame());
   infinite[7] = INFINITY;
   const std::pair<std::string, const char*> cases[] = {
-      {"hello\n", "is none of the volume maps that are read"},
+      {"hello\n", "is not one of the volume maps that are read"},
       {"object 1 class gridpositions counts 3 4 5\n", "ends without an array of values"},
       {changed(dx, "counts 3 4 5", "counts 3 4"), "map:5: gridpositions end with 'counts' and three"},
       {changed(dx, "counts 3 4 5", "counts 3 1 5"), "a grid has at least two along each axis"},
@@ -239,14 +239,14 @@ TEST_F(Volume, FaultsAreNamed) {
       {changed(dx, "delta -0.2 0.1 1.25", "delta 0.1 0.75 0"), "lie in one plane"},
       {changed(dx, "delta -0.2 0.1 1.25\n", ""), "before the grid's counts and its three 'delta'"},
       {changed(dx, "data follows", "data file x"), "do not follow as text"},
-      {dx_text(frame, "1 2 x\n" + values), "map:12: 'x' stands where value 3 of 60 should"},
-      {dx_text(frame, "1 2 nan\n" + values), "map:12: 'nan' stands where value 3 of 60 should"},
-      {dx_text(frame, values.substr(0, values.size() / 2)), "stands where value"},
-      {dx.substr(0, dx.find("follows") + 8) + "1 2\n", "more than the 4 bytes behind it can hold"},
+      {dx_text(frame, "1 2 x\n" + values), "map:12: 'x' was found in place of value 3 of 60"},
+      {dx_text(frame, "1 2 nan\n" + values), "map:12: 'nan' was found in place of value 3 of 60"},
+      {dx_text(frame, values.substr(0, values.size() / 2)), "was found in place of value"},
+      {dx.substr(0, dx.find("follows") + 8) + "1 2\n", "more than the 4 bytes after it can hold"},
       {dx_text(frame, changed(values, "\n", " 7 ")), "holds more than the 60 values"},
       {cube_text(frame, values.substr(0, 700), 1.0, -1), "is the file cut short?"},
       {changed(cube_text(frame, values, 1.0, -1), "-4 ", "4 "), "some numbers of points are negative"},
-      {changed(cube_text(frame, values, 1.0, 1), " 1\n", " 2\n"), "several values a point"},
+      {changed(cube_text(frame, values, 1.0, 1), " 1\n", " 2\n"), "several values per point"},
       {std::string("a\0b\0c", 5), "is binary, but has no stamp"},
       {map.substr(0, 900), "is cut short: a header of a CCP4 map has 1,024 bytes"},
       {map.substr(0, map.size() - 1), "is cut short: 60 values of 4 bytes"},
@@ -254,7 +254,7 @@ TEST_F(Volume, FaultsAreNamed) {
       {with_word(2, 1 << 30), "more than this program reads"},
       {with_word(4, 4), "has values of mode 4"},
       {with_word(8, 0), "has 0 intervals"},
-      {with_word(17, 1), "each of 1, 2, 3 must stand there once"},
+      {with_word(17, 1), "each of 1, 2, 3 must appear once"},
       {with_word(24, -1), "is cut short"},
       {with_word(54, 0), "machine stamp"},
       {ccp4_bytes({}, ccp4_frame(), infinite), "holds inf as value 8, which is not finite"},

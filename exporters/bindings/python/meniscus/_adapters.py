@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Surfaces of what other packages hold, of one frame and of all."""
+"""Surfaces of molecules of other packages, of one frame or of all."""
 from __future__ import annotations
 
 import copy
@@ -42,7 +42,7 @@ def _surfaces(source: Source, radii: Optional[Any], options: SurfaceOptions) -> 
 def _first(thing: Any, package: str, radii: Optional[Any], options: SurfaceOptions) -> Surface:
     if package_of(thing) != package:
         kind = f"{type(thing).__module__}.{type(thing).__qualname__}"
-        raise InputError(f"a {kind} is nothing that {TAKEN_BY[package]}() takes")
+        raise InputError(f"{TAKEN_BY[package]}() does not take a {kind}")
     return next(_surfaces(opened(thing, package, False), radii, options))
 
 
@@ -176,6 +176,6 @@ def frames(source: Any, *, radii: Optional[Any] = None, **options: Unpack[Surfac
     [1796.57, 1972.7]"""
     package = package_of(source)
     if not package:
-        raise InputError(f"a {type(source).__module__}.{type(source).__qualname__} is nothing that frames can be taken "
-                         f"of; known are those of {', '.join(TAKEN_BY)}")
+        raise InputError(f"a {type(source).__module__}.{type(source).__qualname__} has no frames that can be read; "
+                         f"supported are those of {', '.join(TAKEN_BY)}")
     return _surfaces(opened(source, package, True), radii, options)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Arrays between numpy and the library, without copies where that can be."""
+"""Arrays between numpy and the library, without copies where possible."""
 from __future__ import annotations
 
 import ctypes
@@ -47,7 +47,7 @@ def view(owner: Handle, function: str, table: int, row: Any, columns: int = 0) -
 
 
 def texts(owner: Handle, function: str, table: int) -> Texts:
-    """A table whose rows are texts of one length, filled with zeros, or letters. What is no UTF-8 stays as names of
+    """A table whose rows are texts of one length, filled with zeros, or letters. What is not UTF-8 stays as names of
     files do in Python."""
     array = Array()
     call(function, owner.pointer, table, ctypes.byref(array))

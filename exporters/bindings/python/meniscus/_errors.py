@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The errors of the library as exceptions, a class a status."""
+"""The errors of the library as exceptions, one class for each status."""
 from __future__ import annotations
 
 

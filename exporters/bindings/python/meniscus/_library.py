@@ -89,7 +89,7 @@ def flag(name: str, value: Any) -> bool:
 
 
 def listed(name: str, values: Any, what: str) -> list[Any]:
-    """Of what can be walked through and is no text."""
+    """Of what can be walked through and is not a text."""
     try:
         if not isinstance(values, (str, bytes)):
             return list(values)

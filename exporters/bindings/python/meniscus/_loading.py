@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Why a library cannot be loaded, and what to do about it, in one sentence."""
+"""Explains in one sentence why a library cannot be loaded, and what to do."""
 from __future__ import annotations
 
 import platform

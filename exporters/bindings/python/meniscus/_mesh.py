@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Closed triangle meshes of a surface, and as other packages have them."""
+"""Closed triangle meshes of a surface, and their conversion for other packages."""
 from __future__ import annotations
 
 import copy

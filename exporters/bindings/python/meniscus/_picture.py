@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures, the cameras that they are taken from, and what draws them."""
+"""Pictures, their cameras, and the renderers that draw them."""
 from __future__ import annotations
 
 import atexit

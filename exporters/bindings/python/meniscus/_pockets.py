@@ -45,7 +45,7 @@ class Pocket(NamedTuple):
 
     @property
     def wall_area(self) -> float:
-        """Å² of its border that is none of its mouths.
+        """Å² of its border that is not one of its mouths.
 
         >>> round(pocket.wall_area, 2)
         386.13"""

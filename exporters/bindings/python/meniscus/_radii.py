@@ -27,14 +27,14 @@ def _radius(element: int) -> float:
 
 def radii_of(elements: Iterable[Union[str, int]]) -> Floats:
     """Å, one per symbol or atomic number: Bondi (1964, 1966), then Mantina et al. (2009), 2.0 for metals that neither
-    has. InputError where a symbol is no element's.
+    has. InputError where a symbol is not an element's.
 
     >>> meniscus.radii_of(["C", "Zn", 8]).tolist()
     [1.7, 1.39, 1.52]
     >>> meniscus.radii_of(["Qq"])
     Traceback (most recent call last):
         ...
-    meniscus.InputError: atom 0: 'Qq' is no element; give radii"""
+    meniscus.InputError: atom 0: 'Qq' is not an element; give radii"""
     given = listed("elements", elements, "symbols or atomic numbers")
     given = [element if isinstance(element, str) else whole_number(f"atom {n}: the element", element)
              for n, element in enumerate(given)]
@@ -44,6 +44,6 @@ def radii_of(elements: Iterable[Union[str, int]]) -> Floats:
             continue
         number = _element(element) if isinstance(element, str) else element
         if number == 0:
-            raise InputError(f"atom {n}: {str(element)!r} is no element; give radii")
+            raise InputError(f"atom {n}: {str(element)!r} is not an element; give radii")
         known[element] = _radius(number)
     return np.array([known[element] for element in given], dtype=np.float64)

@@ -12,69 +12,72 @@ Text = Union[str, float]
 
 class SurfaceValues(TypedDict, total=False):
     """Of the picture of a surface: look and size."""
-    #: SCHEME: Colour scheme: element, element-cpk (darker), chain, copy (of an assembly), residue (type), kind
-    #: (of patch), component, a colour (red, #rrggbb); or by a number: bfactor, occupancy, charge,
-    #: hydrophobicity (Kyte & Doolittle 1982), index, radial (for capsids); meniscus colors explains them.
-    #: EXPR=COLOR colours some atoms, as in 'ligand=orange'. Repeatable; the last counts [element]
+    #: SCHEME: Colour: a scheme, a colour (red, #rrggbb), or EXPR=COLOR. Schemes: element, element-cpk (darker),
+    #: chain, copy (of an assembly), residue (type), kind (of patch), component; by a number: bfactor,
+    #: occupancy, charge, hydrophobicity (Kyte & Doolittle 1982), index, radial (for capsids). EXPR=COLOR
+    #: colours some atoms, as in 'ligand=orange'. Repeatable; the last one counts. meniscus colors explains the
+    #: schemes [element]
     color: Union[Text, Sequence[Text]]
-    #: WORD: Look on which the other options of light and lines build, in any order: publication (shade, thin
-    #: lines, colours as given), cover (studio light, highlights), flat (constant colours and lines), soft
-    #: (matt, no lines), classic (studio light alone). Where colours show numbers or a legend explains them,
-    #: light changes only their lightness [publication]
+    #: WORD: Look: publication, cover, flat, soft or classic. publication: shade, thin lines, colours as given;
+    #: cover: studio light, highlights; flat: constant colours and lines; soft: matt, no lines; classic: studio
+    #: light alone. Other options of light and lines change single values of it. Where colours show numbers or a
+    #: legend explains them, light changes only their lightness [publication]
     preset: Literal["publication", "cover", "flat", "soft", "classic"]
-    #: X,Y,Z: Direction towards the lamp: right, up, towards the viewer [-0.45,0.65,0.75]
+    #: X,Y,Z: Direction towards the lamp, as X,Y,Z: right, up, to the viewer [-0.45,0.65,0.75]
     light: Text
     #: F: Strength of the lamp, 0 to 10 [1]
     light_strength: float
-    #: F: Share of light that comes evenly from everywhere, 0 to 1; with 1 colours are exactly those given
+    #: F: Share of light that comes evenly from all sides, 0 to 1. With 1, colours are exactly those given
     ambient: float
-    #: F: Roughness, from wax (0), which darkens towards its edges, to chalk (1)
+    #: F: Roughness of the material, from 0 (wax, darker at edges) to 1 (chalk)
     roughness: float
     #: F: Strength of highlights, 0 (none) to 1
     specular: float
-    #: F: Specular exponent, 1 to 1000; a larger one makes smaller highlights
+    #: F: Specular exponent, 1 to 1000; larger gives smaller highlights
     shininess: float
-    #: F: Strength of the shade in pockets and clefts, 0 (none) to 1; only what the picture shows casts shade
+    #: F: Shade in pockets and clefts, 0 (none) to 1. Only what the picture shows casts shade
     ambient_occlusion: float
-    #: Å: Farthest distance that shade is cast, in Å
+    #: Å: Largest distance at which shade is cast, in Å
     ambient_occlusion_radius: float
-    #: WIDTH: Width of black lines around what stands in front and between chains: pixels, 0.5pt or 0.2mm; 0: no
-    #: lines
+    #: WIDTH: Width of black outlines: pixels, 0.5pt or 0.2mm; 0: no lines. They are drawn around whatever is in
+    #: front, and between chains
     silhouettes: Text
-    #: WIDTH: Width of the outline of the whole [--silhouettes]
+    #: WIDTH: Width of the outline around the whole molecule [--silhouettes]
     outer_lines: Text
-    #: WIDTH: Width of lines where something stands in front of something else [--silhouettes]
+    #: WIDTH: Width of lines where one part is in front of another [--silhouettes]
     inner_lines: Text
     #: WIDTH: Width of lines where chains meet [--silhouettes]
     part_lines: Text
-    #: F: How much the farthest atoms fade into the background (into white where it is transparent), 0 to 1.
+    #: F: Fade of the farthest atoms into the background, 0 to 1. A transparent background counts as white.
     #: Presets do not fade where colours show numbers or a legend explains them
     depth_cue: float
-    #: Make the edges of transparent .png and .tif for programs that blend in linear light; without it they look
+    #: Make transparent edges for programs that blend in linear light. Without it .png and .tif pictures look
     #: right on a page
     linear_alpha: bool
-    #: WORD: Material of the surface, in the words of the renderer
+    #: WORD: Material of the surface
     material: Text
-    #: Write a comment before each patch: convex, toroidal or concave, and the atoms that it touches
+    #: Write a comment before each patch: its kind and its atoms
     comments: bool
-    #: WORD: Projection of the default camera: perspective or orthographic [perspective]
+    #: WORD: Projection of the camera: perspective or orthographic [perspective]
     projection: Literal["perspective", "orthographic"]
-    #: WxH: Size in pixels [1280x960]
+    #: WxH: Size of the picture in pixels [1280x960]
     size: Text
-    #: LENGTH: Width of the picture: 85mm, 8.5cm, 3.5in, 1000px; the height follows
+    #: LENGTH: Width of the picture: 85mm, 8.5cm, 3.5in or 1000px
     width: Text
-    #: LENGTH: Height of the picture in the same units; the width follows unless it is given
+    #: LENGTH: Height of the picture in the same units
     height: Text
-    #: N: Dots per inch, for lengths and for programs that print [300 for lengths]
+    #: N: Resolution of the picture in dots per inch [300 for lengths]
     dpi: float
-    #: N: Rays per pixel; the first goes through its centre [9]
+    #: N: Rays per pixel, for smooth edges [9]
     samples: int
-    #: COLOR: transparent, white, black or #rrggbb [transparent]
+    #: COLOR: Background: transparent, white, black, or a colour (grey, #rrggbb) [transparent]
     background: Text
-    #: Add Z, N.xyz, P.xyz, atom, kind and component of each pixel's centre to an .exr
+    #: Add depth, normals, positions and atoms to an .exr. Channels: Z, N.xyz, P.xyz, atom, kind and component
+    #: at each pixel's centre
     aovs: bool
-    #: WORD: Compute on the GPU only what this view needs: visible (the same picture, pixel for pixel); complete
-    #: (everything, by the same method); paper (as Krone et al. 2010 select it: deep clefts may have holes)
+    #: WORD: Part of the surface that the GPU computes: visible, complete or paper. visible: what this view
+    #: needs, for the same picture; complete: everything, by the same method; paper: as Krone et al. 2010 select
+    #: it, where deep clefts may have holes
     extent: Text
 
 
@@ -82,221 +85,228 @@ class SceneValues(SurfaceValues, total=False):
     """Of a scene."""
     #: Molecule
     file: Path
-    #: N|all: Model or frame to read, from 1; all: all models as one molecule [1]
+    #: N|all: Model to read, from 1; all: all models as one molecule [1]
     model: Text
-    #: WORD: Alternate location to keep in each residue: best (highest occupancy), first, a letter, or all
-    #: [best]
+    #: WORD: Alternate location to keep: best, first, a letter, or all. best: that of the highest occupancy in
+    #: each residue [best]
     altloc: Text
-    #: EXPR: Use only these atoms, as in 'chain A and resid 10-50'; see meniscus help selections
+    #: EXPR: Use only these atoms, such as 'chain A and resid 10-50'. See meniscus help selections
     select: Text
-    #: Use water molecules too
+    #: Use water molecules, too
     keep_water: bool
-    #: Use free ions too: lone metal and halogen atoms
+    #: Use free ions, too: lone metal and halogen atoms
     keep_ions: bool
-    #: WORD: Atoms of unknown element: halt with an error, guess a radius of 2.0 Å, or skip them [halt]
+    #: WORD: Atoms of unknown element: halt, guess or skip. halt: stop with an error; guess: use a radius of 2.0
+    #: Å; skip: leave them out [halt]
     unknown_element: Literal["halt", "guess", "skip"]
-    #: WORD: Hydrogens: keep, drop, or auto: drop them where the radii of heavy atoms include them [auto]
+    #: WORD: Hydrogens: keep, drop or auto. auto: drop them if the radii of heavy atoms include them [auto]
     hydrogens: Literal["keep", "drop", "auto"]
-    #: SET: Van der Waals radii: bondi (by element); united (Chothia 1976) or protor (Tsai et al. 1999), which
-    #: include hydrogens; or file, those of the molecule's file [file if it has radii, else bondi]
+    #: SET: Van der Waals radii: bondi, united, protor or file. bondi: by element; united (Chothia 1976) and
+    #: protor (Tsai et al. 1999) include hydrogens; file: those of FILE [file if it has radii, else bondi]
     radii: Text
-    #: FILE: Radii by residue and atom, used before those of --radii: atmtypenumbers of MSMS, FreeSASA .config,
-    #: CHARMM .rtf with .prm (or .str), PDB2PQR .DAT, or lines RESIDUE ATOM RADIUS. Repeatable; the last file
-    #: that has the atom counts
+    #: FILE: File of radii by residue and atom, used before --radii. Formats: atmtypenumbers of MSMS, FreeSASA
+    #: .config, CHARMM .rtf with .prm (or .str), PDB2PQR .DAT, or lines RESIDUE ATOM RADIUS. Repeatable; the
+    #: last file that has an atom counts
     radii_file: Union[Path, Sequence[Path]]
-    #: EXPR=R: Radius R in Å of the atoms that EXPR selects, before all other radii. Repeatable; the last counts
+    #: EXPR=R: Radius R in Å of the atoms of EXPR, before all others. Repeatable; the last one counts
     radius: Union[Text, Sequence[Text]]
-    #: ID: Build this biological assembly (REMARK 350 or mmCIF); list: print the assemblies of the file and stop
+    #: ID: Build this biological assembly; list: print all of FILE and stop. Assemblies come from REMARK 350 or
+    #: mmCIF
     assembly: Text
-    #: WORD: Compute one copy and draw it many times. exact: refuse where a probe can touch two copies at once;
-    #: separate: each copy has a surface of its own, as if alone
+    #: WORD: Compute one copy of an assembly and draw it many times. exact: refuse if a probe can touch two
+    #: copies at once; separate: give each copy a surface as if it were alone
     instances: Literal["exact", "separate"]
-    #: PATH: Coordinates of the atoms of FILE, frame by frame (meniscus formats lists the formats). Repeatable:
-    #: one after the other. Without it the models of FILE are the frames
+    #: PATH: Trajectory: coordinates of the atoms of FILE, frame by frame. Repeatable: one after the other.
+    #: Without it the models of FILE are the frames; meniscus formats lists the formats
     trajectory: Union[Path, Sequence[Path]]
-    #: EXPR: The atoms of FILE that the trajectory has, such as 'not water'; all others are left out first
+    #: EXPR: Atoms of FILE that the trajectory contains, such as 'not water'
     trajectory_atoms: Text
-    #: Assume that the trajectory has the atoms of FILE in its order, even where bonds come out too long
+    #: Accept the trajectory's atom order even if bonds are too long
     trust_atom_order: bool
-    #: LIST: Frames of the run: all, or a list such as 0-99:10,250,last; frames count from 0, -10- are the last
-    #: ten
+    #: LIST: Frames of the run: all, or a list such as 0-99:10,250,last. Frames count from 0; -10- means the
+    #: last ten
     frames: Text
-    #: N: Use every Nth of them [1]
+    #: N: Use every Nth frame [1]
     stride: int
-    #: WHEN: Leave out what comes before this frame or time: 300ps, 2.5ns
+    #: WHEN: First frame or time to use, such as 10, 300ps or 2.5ns
     begin: Text
-    #: WHEN: Leave out what comes after this frame or time
+    #: WHEN: Last frame or time to use
     end: Text
-    #: N: Show each frame N times in a row, for slow motion or a camera that moves around a molecule at rest;
-    #: files of frame F are then numbered F*N, F*N + 1 and so on [1]
+    #: N: Show each frame N times, for slow motion or a moving camera. The files of frame F are numbered F*N,
+    #: F*N + 1 and so on [1]
     repeat: int
-    #: LIST: Make only these frames of the run, as one of many chunks; camera, colours and scene stay those of
-    #: the whole run
+    #: LIST: Make only these frames, as one part of the whole run. Camera, colours and scene stay those of the
+    #: whole run
     only: Text
-    #: Evaluate selections by distance, coordinates or secondary structure in the first frame only; without it,
-    #: in each frame anew
+    #: Evaluate selections in the first frame only, not in each. This matters for distances, coordinates and
+    #: secondary structure
     select_once: bool
-    #: WORD: Make molecules whole that the periodic box cuts, and gather them: by bonds (of FILE and of standard
-    #: residues), or guess bonds by distance [bonds]
+    #: WORD: Make molecules whole that the periodic box cuts, and gather them. bonds: by those of FILE and of
+    #: standard residues; guess: by distance [bonds]
     whole: Text
-    #: EXPR: Rotate and move each frame so that these atoms fit the reference frame best
+    #: EXPR: Superpose each frame on the reference frame by these atoms
     superpose: Text
-    #: EXPR: Move each frame so that the centre of these atoms stays in place
+    #: EXPR: Move each frame so that the centre of these atoms stays fixed
     center: Text
     #: N: Reference frame of --superpose and --center: a number, or last [0]
     reference: Text
-    #: N: Average positions over N frames of the trajectory around each frame; an odd number [1]
+    #: N: Average positions over N frames around each frame; N is odd [1]
     smooth: int
     #: N: Frames per second of a film [25]
     fps: float
-    #: WORD: Codec of a film: h264 (.mp4, .mov, .mkv), h265, vp9 (.webm), prores, prores4444 (.mov, keeps
-    #: transparency), dnxhr, gif [by the file's ending]
+    #: WORD: Codec: h264, h265, vp9, prores, prores4444, dnxhr or gif. h264 is for .mp4, .mov and .mkv, vp9 for
+    #: .webm; prores4444 (.mov) keeps transparency [by the file's ending]
     codec: Text
-    #: N: Rate factor of a film: lower is better and larger [h264 18, h265 20, vp9 24]
+    #: N: Quality of a film (rate factor): lower is better and larger [h264 18, h265 20, vp9 24]
     crf: int
-    #: N: Bits of each channel of a film: 8 or 10 [8; prores 10]
+    #: N: Bits per channel of a film: 8 or 10 [8; prores 10]
     bits: int
     #: N: Chroma subsampling of a film: 420, 422 or 444 [420; prores, dnxhr 422]
     chroma: int
-    #: Draw only what is shown beside the surface
+    #: Hide the surface; show only what is beside it
     hide_surface: bool
-    #: A:B: Open the contact of two groups like a book, both sides facing the viewer, coloured by buried area:
-    #: chains (A:B, A,C:B) or EXPR:EXPR
+    #: A:B: Open the contact of two groups like a book: A:B, A,C:B or EXPR:EXPR. Both sides face the viewer and
+    #: are coloured by buried area
     interface: Text
-    #: KIND: ses: solvent-excluded; sas: solvent-accessible; vdw: van der Waals, without a probe [ses]
+    #: KIND: Kind of surface: ses, sas or vdw. ses: solvent-excluded; sas: solvent-accessible; vdw: van der
+    #: Waals, without a probe [ses]
     surface: Literal["ses", "sas", "vdw"]
     #: RADIUS: Radius of the probe in Å; 0 gives the van der Waals surface [1.4]
     probe: Text
-    #: EXPR: Compute the surface of all atoms used, but draw and export only the part of these
+    #: EXPR: Show only the surface of these atoms. It is still computed with all atoms
     show: Text
-    #: WORD: Several objects: chain, model, class (polymer, ligand, ...) or residue: each a surface of its own,
-    #: as if it were alone; component: each closed part of the one surface
+    #: WORD: Split into objects: by chain, model, class, residue or component. chain, model, class (polymer,
+    #: ligand, ...), residue: each has a surface as if it were alone; component: each closed part of the one
+    #: surface
     by: Text
-    #: WORD: keep them; drop: only what can be reached from outside; only: cavities and what lies in them [keep]
+    #: WORD: Cavities: keep, drop or only. drop: leave out what cannot be reached from outside; only: cavities
+    #: and what lies in them [keep]
     cavities: Literal["keep", "drop", "only"]
-    #: DEVICE: auto (a GPU if there is one, else cpu), gpu, gpu:N (or UUID, PCI address), software (OpenGL
-    #: without a GPU), or cpu [auto]
+    #: DEVICE: Device: auto, gpu, gpu:N, software or cpu. auto: a GPU if there is one, else cpu; N: a number,
+    #: UUID or PCI address; software: OpenGL without a GPU [auto]
     device: Text
-    #: Fail (exit code 4) where there is no hardware GPU, instead of using the CPU or software OpenGL
+    #: Fail with exit code 4 if there is no hardware GPU. Without it the CPU or software OpenGL is used
     require_gpu: bool
     #: N: Number of CPU threads [all]
     threads: int
-    #: Compute on GPU and CPU, mesh, and report every difference
+    #: Compute on GPU and CPU, and report every difference
     verify: bool
-    #: NUMBERS: Colour by numbers from a file: one for each atom of FILE or each atom used; lines of chain,
-    #: residue and number; or a CSV table, such as meniscus surface --csv-residues writes. nan, ? or - mean
+    #: NUMBERS: Colour by numbers from a file. One number per atom of FILE or per atom used; lines of chain,
+    #: residue and number; or a CSV table, such as meniscus surface --csv-residues writes. nan, ? and - mean
     #: missing
     color_by_file: Path
-    #: NAME: Column of that table
+    #: NAME: Column of the table of --color-by-file
     color_column: Text
-    #: FILE: Colour each point of the surface by a volume map, such as a potential from APBS: OpenDX (.dx),
-    #: Gaussian cube, CCP4/MRC; needs --color-range. Its --map is red-white-blue unless you choose another
+    #: FILE: Colour by a volume map, such as a potential from APBS. Formats: OpenDX (.dx), Gaussian cube,
+    #: CCP4/MRC. Needs --color-range; the default --map is red-white-blue
     color_map_file: Path
-    #: Å: Sample the volume map this far outside the surface, along its normal; centres of solvent lie at 1.4
-    #: [0]
+    #: Å: Distance outside the surface at which the map is sampled, in Å. Centres of solvent molecules lie at
+    #: 1.4 [0]
     map_offset: float
-    #: MAP: Colour map of numbers: viridis, cividis, magma, blue-white-red (default for hydrophobicity), red-
-    #: white-blue (default for charge: negative is red), blues and ylorrd (light), consurf (grades 1 to 9),
-    #: categorical (each number has its own colour) [viridis]
+    #: MAP: Colour map for numbers, such as viridis or blue-white-red. Others: cividis, magma, red-white-blue
+    #: (default for charge: negative is red), blues and ylorrd (light), consurf (grades 1 to 9), categorical
+    #: (each number has its own colour). blue-white-red is the default for hydrophobicity [viridis]
     map: Text
-    #: FILE: A colour map of your own: lines with a colour, or a position and a colour; or a JSON list of them
+    #: FILE: File of a colour map: one colour per line, or a position and a colour. A JSON list of them is read,
+    #: too
     map_file: Path
-    #: LO:HI: Numbers at the ends of the colour map, or auto: the smallest and the largest (charge is symmetric
-    #: about 0, hydrophobicity has -4.5:4.5) [auto]
+    #: LO:HI: Numbers at the ends of the colour map, or auto. auto: the smallest and the largest; for charge
+    #: symmetric about 0, for hydrophobicity -4.5:4.5 [auto]
     color_range: Text
-    #: COLOR: Colour of atoms without a number, and of points outside the volume map [#808080; cividis #cc79a7;
-    #: consurf #ffff96]
+    #: COLOR: Colour of atoms without a number and points outside the map [#808080; cividis #cc79a7; consurf
+    #: #ffff96]
     missing_color: Text
     #: TEXT: Title of the colour scale in the legend
     color_title: Text
     #: TEXT: Unit of the colour scale, such as kT/e
     color_unit: Text
-    #: EXPR=N: Opacity from 0 (hidden) to 1: EXPR=0.4 for some atoms, or a number alone for all. Repeatable; the
-    #: last counts
+    #: EXPR=N: Opacity from 0 (hidden) to 1: a number, or EXPR=0.4 for some atoms. Repeatable; the last one
+    #: counts
     opacity: Union[Text, Sequence[Text]]
-    #: Make transparent surfaces denser where the line of sight grazes them, like a thin film
+    #: Make transparent surfaces denser at grazing angles, like a thin film
     film_opacity: bool
-    #: PLANE: Keep the part of the surface where this holds, with exact caps: x<20, 1,1,0>35 (a direction), or
-    #: depth>0.5 along the line of sight (0 nearest, 1 farthest). Repeatable; all apply
+    #: PLANE: Cut by a plane with exact caps: x<20, 1,1,0>35 or depth>0.5. The part where this holds is kept.
+    #: depth runs along the line of sight from 0 (nearest) to 1 (farthest). Repeatable; all apply
     clip: Union[Text, Sequence[Text]]
-    #: COLOR: Colour of caps: atom (that of the nearest atom) or a colour (red, #rrggbb) [atom]
+    #: COLOR: Colour of caps: atom (that of the nearest) or a colour (red, #rrggbb) [atom]
     cap_color: Text
-    #: Å: Distance in Å between dark lines on caps; 0: no lines [0]
+    #: Å: Distance of dark lines on caps, in Å; 0: no lines [0]
     cap_hatching: float
-    #: EXPR: Draw the bonds of these atoms as sticks. Repeatable; may name atoms outside --select
+    #: EXPR: Draw these atoms as sticks, also outside --select. Repeatable
     sticks: Union[Text, Sequence[Text]]
     #: EXPR: Draw these atoms as balls and sticks
     balls: Union[Text, Sequence[Text]]
     #: EXPR: Draw these atoms as spheres of their van der Waals radii
     spheres: Union[Text, Sequence[Text]]
-    #: EXPR: Draw the backbone of these atoms as a tube, helices as ribbons, strands as arrows
+    #: EXPR: Draw the backbone of these atoms as a cartoon: tubes, ribbons, arrows. Helices are ribbons, strands
+    #: are arrows
     tube: Union[Text, Sequence[Text]]
     #: Å: Radius of sticks in Å [0.25; 0.15 between balls]
     stick_radius: float
-    #: Å: Radius of tubes in Å; ribbons and arrows scale with it [0.3]
+    #: Å: Radius of tubes in Å. Ribbons and arrows scale with it [0.3]
     tube_radius: float
-    #: JSON: Draw one more object with its own colour, opacity, material and cuts, as in a scene file:
-    #: '{"representation": "surface", "selection": "chain B", "color": "red"}'. Repeatable
+    #: JSON: Draw one more object with its own look, as JSON of a scene file. Such as '{"representation":
+    #: "surface", "selection": "chain B", "color": "red"}'. Repeatable
     object: Union[Text, Sequence[Text]]
-    #: FILE: Camera as JSON, in a file or typed here; or PyMOL's get_view or ChimeraX's view matrix [shows
+    #: FILE: Camera: JSON, PyMOL's get_view or ChimeraX's view matrix. A file, or the text itself [shows
     #: everything]
     camera: Path
-    #: SIDE: Side that faces the viewer: front (the broad side), back, top, bottom, right, left; x, y, z: axes
-    #: of the file; 1, 2, 3: axes of inertia, longest first; symmetry: along the axis of --assembly, symmetry-
-    #: side: with that axis upright. A minus sign in front turns to the opposite side [front]
+    #: SIDE: Side that faces the viewer: front, back, top, bottom, right or left. front: the broad side; x, y,
+    #: z: axes of the file; 1, 2, 3: axes of inertia, longest first; symmetry: along the axis of --assembly;
+    #: symmetry-side: with that axis upright. A minus sign before it shows the opposite side [front]
     view: Text
-    #: AXISANGLE: Turn the molecule about an axis of the picture, in degrees: y90, x-30, z45 (x points right, y
-    #: up, z to the viewer). Repeatable, in this order
+    #: AXISANGLE: Turn the molecule about an axis by degrees: y90, x-30, z45. x points right, y up, z to the
+    #: viewer. Repeatable, applied in this order
     turn: Union[Text, Sequence[Text]]
     #: EXPR: Fill the picture with these atoms [all that --show leaves]
     zoom_to: Text
-    #: FILE: Key frames of a moving camera as JSON: frame, camera
+    #: FILE: JSON file of key frames (frame, camera) of a moving camera
     camera_path: Path
-    #: TURNS: Turns of the camera around the molecule's middle over the run; negative: the other way round
+    #: TURNS: Turns of the camera around the molecule over the run. Negative numbers turn the other way
     turntable: float
-    #: EXPR: Move the camera with the middle of these atoms
+    #: EXPR: Move the camera with the centre of these atoms
     follow: Text
-    #: Explain the colours at the right (of tall pictures: below); the molecule is framed beside the legend
+    #: Show a legend of the colours, at the right or, in tall pictures, below
     legend: bool
-    #: FILE: Write the legend as a picture of its own
+    #: FILE: Write the legend as a separate picture
     legend_file: Path
     #: TEXT: Title of the legend; '' for none [by the colours]
     legend_title: Text
-    #: SIZE: Height of its letters: pixels, 8pt or 3mm [a thirtieth of the shorter side]
+    #: SIZE: Height of the letters: pixels, 8pt or 3mm [a thirtieth of the shorter side]
     legend_size: Text
     #: WORD: Place of the legend: auto, right or below [auto]
     legend_place: Literal["auto", "right", "below"]
-    #: TEXT: Letter of the panel, at the top left
+    #: TEXT: Letter of the panel, such as a, at the top left
     panel: Text
-    #: Å: Scale bar of this length in Å at the bottom left, or of a round length (auto); with a perspective
-    #: camera it is true at the camera's target [auto]
+    #: Å: Draw a scale bar of this length, or of a round one (auto). With a perspective camera it is true at the
+    #: camera's target [auto]
     scale_bar: Text
-    #: EXPR=TEXT: Write TEXT beside the middle of these atoms, with a line to it, in front of everything.
-    #: Repeatable
+    #: EXPR=TEXT: Write TEXT at these atoms, with a line to their centre. Repeatable
     label: Union[Text, Sequence[Text]]
-    #: Write the time of each frame in ns at the top right, or its number where there are no times
+    #: Write the time of each frame in ns, or its number if it has no time
     time_stamp: bool
-    #: FILE.csv: Draw numbers of the run (from surface --csv-series) as a curve at the bottom right, with a mark
-    #: at each frame
+    #: FILE.csv: Draw a curve of the run from a CSV table, with a mark at each frame. meniscus surface --csv-
+    #: series writes such tables
     curve: Path
-    #: NAME: Column of --curve [the first after the time]
+    #: NAME: Column of the table to draw [the first after the time]
     curve_column: Text
-    #: Å: Largest distance of the mesh from the surface, in Å
+    #: Å: Largest distance between mesh and surface, in Å
     tolerance: float
-    #: PIXELS: The same in pixels of the picture, such as 0.25
+    #: PIXELS: Largest distance between mesh and surface, in pixels, such as 0.25
     tolerance_pixels: float
-    #: NUMBER: Instead of a tolerance: vertices per Å², from one triangle an atom (0.02) up; triangles are even
+    #: NUMBER: Vertices per Å², instead of a tolerance. 0.02 gives about one triangle per atom; triangles are
+    #: even
     density: float
-    #: Make nearly equilateral triangles, which cross the borders of patches
+    #: Make nearly equilateral triangles. They cross the borders of patches
     even: bool
-    #: WORD: Format, where the file's ending does not tell
+    #: WORD: Format of the file, if its ending does not tell
     format: Text
-    #: NAMES: Numbers of vertices in PLY, VTP and GLB, separated by commas; docs/reference/mesh-attributes.md lists them [usual]
+    #: NAMES: Numbers of vertices to write in PLY, VTP and GLB, separated by commas [usual]
     attributes: Text
     #: UNIT: Unit of the file: angstrom or nanometer [angstrom]
     unit: Literal["angstrom", "nanometer"]
-    #: LENGTH: Length of 1 Å in the file; the unit of 3MF is the millimetre, of GLB the metre, others have none
-    #: [1]
+    #: LENGTH: Length of 1 Å in the file. The unit of 3MF is the millimetre, that of GLB the metre; others have
+    #: none [1]
     scale: float
-    #: PATH: Output to write
+    #: PATH: Output file or folder
     output: Path

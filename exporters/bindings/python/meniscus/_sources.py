@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Elements and positions of the molecules that other packages hold; none of these is imported here."""
+"""Elements and positions of the molecules of other packages, none of which is imported here."""
 from __future__ import annotations
 
 import warnings
@@ -92,7 +92,7 @@ def _openmm(source: Any, every: bool) -> Source:
 
     def checked(positions: Any) -> Any:
         if not hasattr(positions, "value_in_unit"):
-            raise InputError("the positions have no unit; OpenMM's nm are positions * openmm.unit.nanometer")
+            raise InputError("the positions have no unit; for OpenMM's nm give positions * openmm.unit.nanometer")
         return positions
 
     topology = source[0] if isinstance(source, tuple) else source.topology

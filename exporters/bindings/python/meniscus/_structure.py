@@ -271,7 +271,7 @@ class Structure:
 
     @property
     def hydropathies(self) -> Floats:
-        """(n,) of the residue (Kyte & Doolittle 1982); NaN where it is no amino acid.
+        """(n,) of the residue (Kyte & Doolittle 1982); NaN where it is not an amino acid.
 
         >>> molecule.hydropathies[:3].tolist()
         [1.8, 1.8, 1.8]"""

@@ -414,5 +414,5 @@ def surface(xyz: Any, radii: Optional[Any] = None, probe: float = 1.4, *, kind: 
     if isinstance(xyz, (str, bytes, os.PathLike)):
         raise InputError(f"{xyz!r} is a path; meniscus.read() reads molecules: surface(meniscus.read(path))")
     if radii is None:
-        raise InputError("radii are missing; give one an atom, or one for all (radii_of() has those of elements)")
+        raise InputError("radii are missing; give one for each atom, or one for all (radii_of() has those of elements)")
     return Surface(xyz, radii, probe, kind, device, threads, verify)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Names of types that signatures have: arrays, and the words that options may be."""
+"""Names of types for signatures: arrays, and the words of options."""
 from __future__ import annotations
 
 import os

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plain numbers in Å from what carries a unit, by what it can do; nothing of others is imported here."""
+"""Converts values with units to plain numbers in Å, without importing the packages that define them."""
 from __future__ import annotations
 
 import sys

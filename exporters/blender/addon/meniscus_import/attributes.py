@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Attributes that a user gave to a mesh, carried over to other triangles of the same atoms."""
+"""Copies attributes that a user gave to a mesh to other triangles of the same atoms."""
 
 import numpy as np
 

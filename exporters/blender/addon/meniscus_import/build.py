@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Turns a surface that mns_reader has checked into Blender data. Whole or not at all: on an error everything is removed."""
+"""Turns a checked surface into Blender data, completely or not at all: on an error everything is removed. Whole or not
+at all: on an error everything is removed."""
 
 import math
 import os
@@ -155,7 +156,7 @@ def middle_of(points):
 def scene_origin(scene, otherwise, source, atoms):
     """Å: what an earlier import of the same molecule took from all coordinates, so that its surfaces stay together; else
     otherwise(). It is the same if its file, source, has the same name but for the ending, or if it has as many atoms, enough of
-    them that this is no chance."""
+    them that this is not a chance."""
     for item in scene.objects:
         same_name = stem_of(source) and stem_of(source) == stem_of(item.get("meniscus_source", ""))
         is_same = same_name or (atoms >= MANY_ATOMS and atoms == item.get("meniscus_atoms"))

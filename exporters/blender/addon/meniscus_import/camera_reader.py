@@ -34,7 +34,7 @@ def read(path):
         raise mns_reader.MnsError(f"{path}: no camera: its projection is neither perspective nor orthographic")
     unknown = set(camera) - {*VECTORS, "projection", SIZES[camera["projection"]]}
     if unknown:
-        raise mns_reader.MnsError(f"{path}: camera: '{min(unknown)}' is nothing that one of this projection has")
+        raise mns_reader.MnsError(f"{path}: camera: '{min(unknown)}' is not a key of a camera of this projection")
     try:
         check(camera)
     except KeyError as error:

@@ -257,7 +257,7 @@ def switch_geometry(tree, condition, if_true, otherwise):
 
 
 def keeps_realized_normals():
-    """Whether instances that become a mesh keep their custom normals, which before 4.5 are no attribute."""
+    """Whether instances that become a mesh keep their custom normals, which before 4.5 are not an attribute."""
     return bpy.app.version >= (4, 5, 0)
 
 

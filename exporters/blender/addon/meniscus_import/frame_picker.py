@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""An object whose Geometry Nodes show one object of a collection: that of the scene's time. No script is needed."""
+"""An object whose Geometry Nodes show the object of a collection that belongs to the scene's time. No script is
+needed."""
 
 import bpy
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Frames of a sequence as what a mesh is filled with; knows nothing of Blender, so that another process may read them ahead."""
+"""Frames of a sequence as data of a mesh; knows nothing of Blender, so that another process may read them ahead."""
 
 import dataclasses
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Materials that colour by attributes, so that a mesh is recoloured without computing it again: looks, and what colours them."""
+"""Materials that colour by attributes, so that a mesh changes its colours without being computed again."""
 
 import bpy
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The materials of imported surfaces: known by what they are for, shared by all imports, kept as they were edited."""
+"""The materials of imported surfaces: found by their purpose, shared by all imports, kept as a user edited them."""
 
 import bpy
 
@@ -16,7 +16,7 @@ LEAST_COSINE = 0.05
 
 
 def wanted(surface):
-    """Pairs of role and kind for the slots of a surface. Caps are no film: they are as opaque along a slant."""
+    """Pairs of role and kind for the slots of a surface. Caps are not films: they are as opaque along a slant."""
     kind = kind_of(surface)
     yield from ((role, kind) for role in SLOTS[:2])
     if surface.get("mesh.cap_plane") is not None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a mesh of Blender is filled with, made of a surface by numpy alone: any thread may do it."""
+"""The data of a Blender mesh, made from a surface by numpy alone: any thread may do it."""
 
 import dataclasses
 

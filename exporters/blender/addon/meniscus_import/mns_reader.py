@@ -116,7 +116,7 @@ def read_arrays(path):
     for entry in entries:
         name, array = _read_array(path, data, start, entry)
         if name in arrays:
-            raise MnsError(f"{path}: array {name} comes twice")
+            raise MnsError(f"{path}: array {name} appears twice")
         arrays[name] = array
     return header, arrays
 
@@ -176,9 +176,9 @@ def _read_header(path, data):
     try:
         header = json.loads(data[PROLOGUE:start].decode("utf-8"))
     except (ValueError, RecursionError) as error:
-        raise MnsError(f"{path}: the header is no JSON ({error})") from None
+        raise MnsError(f"{path}: the header is not JSON ({error})") from None
     if not isinstance(header, dict):
-        raise MnsError(f"{path}: the header is no JSON object")
+        raise MnsError(f"{path}: the header is not a JSON object")
     return header, start
 
 
@@ -274,7 +274,7 @@ def _check_caps(path, surface):
     except (KeyError, TypeError, AttributeError):
         good = False
     if not good:
-        raise MnsError(f"{path}: what the header says of caps makes no sense")
+        raise MnsError(f"{path}: what the header says about caps is not valid")
     cap, plane = surface["mesh.kind"] == CAP, surface.get("mesh.cap_plane")
     if cap.any() and (plane is None or plane.dtype.kind not in "iu" or int(plane[cap].max()) >= len(planes)):
         raise MnsError(f"{path}: a cap lies on no plane")
@@ -283,7 +283,7 @@ def _check_caps(path, surface):
 
 
 def check_names(path, array, numbers, names):
-    """Raises MnsError if numbers, the array of this name, are no places in the list `names`."""
+    """Raises MnsError if numbers, the array of this name, are not places in the list `names`."""
     if not isinstance(names, list) or (len(numbers) and not 0 <= numbers.min() <= numbers.max() < len(names)):
         raise MnsError(f"{path}: array {array} points to no name")
 

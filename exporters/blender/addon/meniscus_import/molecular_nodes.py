@@ -47,7 +47,7 @@ def read(item, scale, selection="", place=0):
     mesh = item.data
     count = len(mesh.vertices)
     if not is_molecule(item) or not count:
-        raise mns_reader.MnsError(f"{item.name}: its vertices are no atoms, for they have no attribute {RADII}")
+        raise mns_reader.MnsError(f"{item.name}: its vertices are not atoms: they have no attribute {RADII}")
     chosen = _chosen(item, selection)
     if not chosen.any():
         raise mns_reader.MnsError(f"{item.name}: the selection {selection} has no atom")

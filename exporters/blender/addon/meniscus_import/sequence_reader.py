@@ -28,7 +28,7 @@ class Timing:
 
     def __init__(self, start=1.0, speed=1.0, outside="EMPTY"):
         if not (math.isfinite(start) and math.isfinite(speed) and speed > 0.0 and outside in OUTSIDE):
-            raise mns_reader.MnsError(f"start {start}, speed {speed} or {outside} outside of the run makes no sense")
+            raise mns_reader.MnsError(f"start {start}, speed {speed} or {outside} outside of the run is not valid")
         self.start, self.speed, self.outside = start, speed, outside
 
     def scene_time(self, place):
@@ -121,7 +121,7 @@ def read(path):
         raise mns_reader.MnsError(f"{path}: it lists no frames")
     frames = [_frame(path, header, entry) for entry in entries]
     if len({frame.number for frame in frames}) != len(frames):
-        raise mns_reader.MnsError(f"{path}: a frame comes twice")
+        raise mns_reader.MnsError(f"{path}: a frame appears twice")
     return Sequence(path, header, frames)
 
 
@@ -134,7 +134,7 @@ def _check_numbers(path, header):
     except (KeyError, TypeError, ValueError, OverflowError):
         good = False
     if not good:
-        raise mns_reader.MnsError(f"{path}: run, origin, scale or fps is missing or makes no sense")
+        raise mns_reader.MnsError(f"{path}: run, origin, scale or fps is missing or not valid")
 
 
 def _frame(path, header, entry):
@@ -147,7 +147,7 @@ def _frame(path, header, entry):
         if camera is not None:
             camera_reader.check(camera)
     except (KeyError, TypeError, ValueError, OverflowError):
-        raise mns_reader.MnsError(f"{path}: an entry of the list of frames makes no sense") from None
+        raise mns_reader.MnsError(f"{path}: an entry of the list of frames is not valid") from None
     return Frame(number, os.path.join(os.path.dirname(path), name), camera)
 
 
@@ -161,7 +161,7 @@ def parse_frames(text, known):
     for part in text.split(","):
         found = re.fullmatch(r"([0-9]+)(?:(-)([0-9]*)(?::([0-9]+))?)?", part)
         if not found:
-            raise ValueError(f"'{part}' is neither a frame, nor first-last, nor first-last:step")
+            raise ValueError(f"'{part}' is not a frame, first-last, or first-last:step")
         first, dash, last, step = found.groups()
         begin, stride = int(first), int(step or 1)
         end = int(last) if last else max(known) if dash else begin

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the panel asks of a computed surface, stored in its object, and where the add-on finds what computes."""
+"""The settings of a computed surface, stored in its object, and where the add-on finds the engine."""
 
 import bpy
 

@@ -216,11 +216,12 @@ TEST(Elements, OnesThatCannotBeAreCountedAndReplaced) {
   EXPECT_EQ(structure.atoms.at(0).element, 6);
   EXPECT_EQ(structure.atoms.at(1).element, 6);
   ASSERT_EQ(structure.report.warnings.size(), 2u);
-  EXPECT_EQ(structure.report.warnings[0].text,
-            "1 atom has an element that its residue cannot hold; its name was believed instead (first: 'CA' in ALA A1: "
-            "Ca)");
+  EXPECT_EQ(
+      structure.report.warnings[0].text,
+      "1 atom has an element that its residue cannot have; the atom's name was used instead (first: 'CA' in ALA A1: "
+      "Ca)");
   EXPECT_EQ(structure.report.warnings[1].text,
-            "1 atom has a symbol of no element; it was guessed from the name (first: line 2, 'QQ')");
+            "1 atom has an unknown element symbol; the element was guessed from the name (first: line 2, 'QQ')");
 }
 
 TEST(Elements, AModifiedResidueKeepsTheMetalItStates) {

@@ -120,8 +120,7 @@ TEST(RadiiSets, HydrogensAreDroppedWhereRadiiContainThem) {
   EXPECT_EQ(mixed.atoms.size(), 1231u);
   ASSERT_EQ(mixed.report.warnings.size(), 2u);
   EXPECT_NE(mixed.report.warnings[0].text.find("protor gives no radius to 629 atoms"), std::string::npos);
-  EXPECT_NE(mixed.report.warnings[1].text.find("629 hydrogens are used beside radii of united atoms"),
-            std::string::npos);
+  EXPECT_NE(mixed.report.warnings[1].text.find("629 hydrogens are used with radii of united atoms"), std::string::npos);
 
   EXPECT_EQ(read_with(kUbiquitinNmr, {}, Hydrogens::drop).atoms.size(), 602u);
 }
@@ -150,7 +149,7 @@ TEST(RadiiOverrides, LaterOnesWin) {
   }
   const auto idle = read_with(kUbiquitin, {.overrides = {parse_radius_override("chain Q=1")}});
   ASSERT_EQ(idle.report.warnings.size(), 1u);
-  EXPECT_NE(idle.report.warnings[0].text.find("none is selected by 'chain Q'"), std::string::npos);
+  EXPECT_NE(idle.report.warnings[0].text.find("no atom is selected by 'chain Q'"), std::string::npos);
 }
 
 TEST(RadiiOverrides, AreReadStrictly) {
@@ -238,13 +237,13 @@ TEST(RadiiTables, CharmmJoinsTopologyAndParameters) {
 
 TEST(RadiiTables, MistakesNameFileAndLine) {
   const std::pair<const char*, const char*> cases[] = {
-      {"hello world\n", "is no table of radii"},
+      {"hello world\n", "is not a table of radii"},
       {"ALA CB x\n", ":1:"},
       {"ALA CB 2\nALA CG -1\n", ":2:"},
       {"ALA CB nan\n", ":1:"},
       {"ALA CB 1e9\n", ":1:"},
       {"ALA N 0.1 1.8\nALA C\n", ":2: has 2 fields"},
-      {"types:\nC 1.8\natoms:\nALA CB D\n", ":4: 'D' is none of its types"},
+      {"types:\nC 1.8\natoms:\nALA CB D\n", ":4: 'D' is not one of its types"},
       {"atoms:\nALA CB\n", ":2:"},
       {"types:\nC 1.8\natoms:\n", "gives no atom a radius"},
       {"radius 1 0.5 1.4\nALA CB 2\n", ":2: type '2' has no radius line"},

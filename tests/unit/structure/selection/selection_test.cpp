@@ -28,7 +28,7 @@ struct AtomSketch {
   char insertion = ' ';
 };
 
-/// A peptide with an insertion, a nucleotide, a ligand, water and ions; atom n stands at x = n.
+/// A peptide with an insertion, a nucleotide, a ligand, water and ions; atom n is at x = n.
 std::vector<Atom> small_molecule() {
   const AtomSketch sketches[] = {
       {"N", "ALA", "A", -1, 7},
@@ -202,32 +202,44 @@ TEST(Selection, MistakesArePointedAt) {
       {"chain A,", "a value is missing", 8},
       {"(chain A", "this bracket is not closed", 0},
       {"chain A)", "this bracket closes nothing", 7},
-      {"()", "a set is missing before ')'", 1},
-      {"water and", "a set is missing at the end", 9},
-      {"water and or ion", "a set is missing before 'or'", 10},
-      {"not", "a set is missing at the end", 3},
+      {"()", "a selection is missing before ')'", 1},
+      {"water and", "a selection is missing at the end", 9},
+      {"water and or ion", "a selection is missing before 'or'", 10},
+      {"not", "a selection is missing at the end", 3},
       {"name 'CA", "this quote is not closed", 5},
-      {"resid 5x-", "is no residue number", 9},
+      {"resid 5x-", "is not a residue number", 9},
       {"resid 5-4", "runs backwards", 6},
-      {"resid abc", "is no residue number", 6},
-      {"resid 99999999999", "is no residue number", 6},
-      {"resid 5 to", "'to' stands between", 8},
-      {"index 1.5", "is no whole number", 6},
-      {"index < 1.5", "is no whole number", 8},
-      {"b < nan", "is no finite number", 4},
-      {"b < inf", "is no finite number", 4},
-      {"b < 1e999", "is no finite number", 4},
+      {"resid abc", "is not a residue number", 6},
+      {"resid 99999999999", "is not a residue number", 6},
+      {"resid 5 to", "'to' goes between", 8},
+      {"index 1.5", "is not a whole number", 6},
+      {"c. A", "'c.' is PyMOL's; write chain", 0},
+      {"water and i. 5", "'i.' is PyMOL's; write resid", 10},
+      {"/a//A/10", "'/a//A/10' is written in PyMOL's way; write 'chain A and resid 10'", 0},
+      {"///A/LYS`10/CA", "write 'chain A and resname LYS and resid 10 and name CA'", 0},
+      {"A/10/", "'A/10/' is written in PyMOL's way; write 'chain A and resid 10'", 0},
+      {"not 10/CA", "write 'resid 10 and name CA'", 4},
+      {":10-20", "':10-20' is written in ChimeraX's way; write 'resid 10-20'", 0},
+      {":LIG", "write 'resname LIG'", 0},
+      {":10-20.A", "write 'resid 10-20 and chain A'", 0},
+      {"/A", "'/A' is written in ChimeraX's way; write 'chain A'", 0},
+      {"#1/A:10@CA", "write 'model 1 and chain A and resid 10 and name CA'", 0},
+      {"/", "'/' is not a selection keyword", 0},
+      {"index < 1.5", "is not a whole number", 8},
+      {"b < nan", "is not a finite number", 4},
+      {"b < inf", "is not a finite number", 4},
+      {"b < 1e999", "is not a finite number", 4},
       {"b <", "a number is missing", 3},
       {"b", "a value is missing", 1},
-      {"element Q", "is no element", 8},
-      {"within chain A", "is no finite number", 7},
+      {"element Q", "is not an element", 8},
+      {"within chain A", "is not a finite number", 7},
       {"within -1 of water", "cannot be negative", 7},
-      {"within 5 of", "a set is missing at the end", 11},
+      {"within 5 of", "a selection is missing at the end", 11},
       {"same colour as water", "'residue as' or 'chain as'", 5},
-      {"same residue water", "'as' belongs here", 13},
-      {"byres name CA and chain A", "how much belongs to 'byres'", 6},
-      {"within 5 of water or ion", "how much belongs to 'within'", 12},
-      {"water\x01", "is no word", 0},
+      {"same residue water", "'as' is expected here", 13},
+      {"byres name CA and chain A", "it is unclear where the selection of 'byres' ends", 6},
+      {"within 5 of water or ion", "it is unclear where the selection of 'within' ends", 12},
+      {"water\x01", "is not a word", 0},
   };
   for (const Mistake& mistake : mistakes) {
     try {
@@ -334,8 +346,8 @@ TEST(Selection, HostileTextIsRefusedSoon) {
   EXPECT_NE(refused(prefixes + "all").find("nested"), std::string::npos);
   EXPECT_NE(refused(std::string(std::size_t{1} << 20, 'a')).find("1,048,576 bytes"), std::string::npos);
   EXPECT_NE(refused("name " + std::string(50'000, '"') + "\"").find("not closed"), std::string::npos);
-  EXPECT_NE(refused(std::string("all\0", 4)).find("is no word"), std::string::npos);
-  EXPECT_NE(refused("\xff\xfe\x80").find("is no word"), std::string::npos);
+  EXPECT_NE(refused(std::string("all\0", 4)).find("is not a word"), std::string::npos);
+  EXPECT_NE(refused("\xff\xfe\x80").find("is not a word"), std::string::npos);
 }
 
 TEST(Selection, LongChainsAndTheDeepestNestingWork) {

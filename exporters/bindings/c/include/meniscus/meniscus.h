@@ -16,24 +16,25 @@
  * Units. Lengths are in angstrom (Å), areas in Å^2, volumes in Å^3, angles in radian (a camera's in degrees). Indices
  * count from 0; MENISCUS_NONE stands for none. Vectors are three doubles, x, y, z.
  *
- * Errors. A function that can fail returns a meniscus_status; after anything but MENISCUS_OK meniscus_last_error() has
- * one sentence about it, and nothing that was passed to be filled in has changed. No exception, no signal, no output.
+ * Errors. A function that can fail returns a meniscus_status. After an error meniscus_last_error() describes it in one
+ * sentence, and output arguments are unchanged. The library throws no exception, raises no signal and prints nothing.
  *
- * Arrays. Each pointer is aligned as its type is. An array that does not fit into half the address space, which a
- * negative number or a product that overflowed would be, is MENISCUS_USAGE.
+ * Arrays. Each pointer is aligned as its type is. An array that does not fit into half the address space, as after a
+ * negative number or an overflow, is MENISCUS_USAGE.
  *
- * Structs that are passed begin with their `size`: set it to sizeof. What a caller compiled against an older header
- * does not know has its default; what it asks of a newer one that this library does not know is refused.
+ * Structs that are passed begin with their `size`: set it to sizeof. For a caller compiled against an older header,
+ * fields that it does not know have their defaults; fields of a newer header that this library does not know are
+ * refused if they are set.
  *
- * Ownership. Objects begin with one reference; _retain adds one, _release takes one away (NULL is fine), and the last
+ * Ownership. Objects begin with one reference. _retain adds one, _release removes one (NULL is allowed), and the last
  * frees the object. Arrays that are passed in are read during the call only. Arrays of a surface or a mesh are its own
- * memory, read-only, and live as long as it does; a surface that is computed anew in place (meniscus_recompute) has new
- * ones.
+ * memory, read-only, and live as long as it does; a surface that is computed again in place (meniscus_recompute) has
+ * new ones.
  *
- * Threads. All functions may be called from any number of threads at once, with the same objects, too: a computer and a
- * renderer serve one call after the other, scenes, surfaces and meshes all at once. Only meniscus_recompute
- * changes a surface: while it runs nobody else may use that variable. After fork() the child can go on with
- * MENISCUS_CPU, as long as no other thread was in a call; what uses GL is refused there. */
+ * Threads. All functions may be called from any number of threads at once, also with the same objects: a computer and a
+ * renderer serve one call after the other; scenes, surfaces and meshes serve all at once. Only meniscus_recompute
+ * changes a surface: while it runs, no other thread may use that variable. After fork() the child can continue with
+ * MENISCUS_CPU if no other thread was in a call; calls that use GL are refused there. */
 #ifndef MENISCUS_MENISCUS_H
 #define MENISCUS_MENISCUS_H
 
@@ -44,7 +45,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Of this header; meniscus_version() tells that of the library. */
+/* The version of this header; meniscus_version() returns that of the library. */
 #define MENISCUS_VERSION_MAJOR 0
 #define MENISCUS_VERSION_MINOR 2
 #define MENISCUS_VERSION_PATCH 0
@@ -59,7 +60,7 @@
 #define MENISCUS_API
 #endif
 
-/* The words of one argument or field have a type of their own, of 32 bits, also where a caller gives another number. */
+/* Each enumeration is a type of 32 bits, so that a caller may also pass other numbers, which are refused. */
 #if defined(__cplusplus) && __cplusplus >= 201103L
 #define MENISCUS_WORDS : int32_t
 #else
@@ -78,15 +79,15 @@ extern "C" {
 typedef enum meniscus_status {
   MENISCUS_OK = 0,
   MENISCUS_INTERNAL = 1,  /* a fault of this library: please report it */
-  MENISCUS_USAGE = 2,     /* a call that makes no sense: NULL, an unknown word, a struct without its size */
-  MENISCUS_INPUT = 3,     /* a position, radius, colour or camera that cannot be; the text has its index and value */
-  MENISCUS_NO_GPU = 4,    /* no usable GL or GPU, or one that left work undone */
+  MENISCUS_USAGE = 2,     /* a call that is not valid: NULL, an unknown word, a struct without its size */
+  MENISCUS_INPUT = 3,     /* an impossible position, radius, colour or camera; the text has its index and value */
+  MENISCUS_NO_GPU = 4,    /* no usable GL or GPU, or one that dropped work */
   MENISCUS_CAPACITY = 5,  /* out of memory or threads, or more than indices or a file can count */
-  MENISCUS_OUTPUT = 6,    /* a file cannot be written, or is there already */
+  MENISCUS_OUTPUT = 6,    /* a file cannot be written, or exists already */
   MENISCUS_NOT_CLOSED = 7 /* the surface or mesh is not closed, so there is none; the text names atoms */
 } meniscus_status;
 
-/* What went wrong in the last call of this thread that failed, one sentence in UTF-8; "" if none has. It stays until
+/* The error of the last call of this thread that failed, as one sentence in UTF-8; "" if none has. It stays until
  * another call of this thread fails. */
 MENISCUS_API const char* meniscus_last_error(void);
 
@@ -95,11 +96,11 @@ MENISCUS_API const char* meniscus_version(void);
 
 /* ---- Radii --------------------------------------------------------------------------------------------------- */
 
-/* The atomic number of "C", "zn", "CL", ... in any case, D and T as hydrogen; 0: none has this symbol. */
+/* The atomic number of "C", "zn", "CL", ... in any case, D and T as hydrogen; 0: no element has this symbol. */
 MENISCUS_API meniscus_status meniscus_element_of_symbol(const char* symbol, int32_t* element);
 
-/* The van der Waals radius by Bondi (1964, 1966) or Mantina et al. (2009). source may be NULL; else it becomes their
- * names, or "no published value": of element 0, and of metals that neither has, the radius is 2.0 then. Refuses
+/* The van der Waals radius by Bondi (1964, 1966) or Mantina et al. (2009). source may be NULL; else it is set to their
+ * names, or to "no published value" for element 0 and for metals that neither has; the radius is 2.0 then. Refuses
  * elements below 0 and above 118. */
 MENISCUS_API meniscus_status meniscus_element_radius(int32_t element, double* radius, const char** source);
 
@@ -116,8 +117,8 @@ typedef enum meniscus_kind MENISCUS_WORDS {
 typedef enum meniscus_device MENISCUS_WORDS {
   MENISCUS_CPU = 0,     /* on the CPU */
   MENISCUS_AUTO = 1,    /* on a hardware GPU if one works, else as MENISCUS_CPU */
-  MENISCUS_GPU = 2,     /* on a hardware GPU, nothing else */
-  MENISCUS_SOFTWARE = 3 /* by software GL, nothing else: for tests of the GPU's way */
+  MENISCUS_GPU = 2,     /* on a hardware GPU only */
+  MENISCUS_SOFTWARE = 3 /* by software GL only, for tests of the GPU's code */
 } meniscus_device;
 
 typedef struct meniscus_options {
@@ -126,13 +127,13 @@ typedef struct meniscus_options {
   meniscus_kind kind;     /* [MENISCUS_SES] */
   meniscus_device device; /* [MENISCUS_CPU] */
   int32_t threads;        /* [0: all] CPU threads, the calling one included */
-  int32_t verify;         /* [0] else: compute on the other device, too, and mesh; every difference is an error */
+  int32_t verify;         /* [0] else: also compute on the other device and mesh; every difference is an error */
 } meniscus_options;
 
 /* Fills in the defaults, as in brackets. options->size has to be set. */
 MENISCUS_API meniscus_status meniscus_default_options(meniscus_options* options);
 
-/* Keeps what is worth keeping from frame to frame: a GL context, its kernels and buffers. */
+/* What is kept from frame to frame: a GL context, its kernels and buffers. */
 typedef struct meniscus_computer meniscus_computer;
 
 /* options: NULL for the defaults. *computer is overwritten. */
@@ -165,9 +166,9 @@ typedef struct meniscus_surface meniscus_surface;
 /* Computes one surface. *surface is overwritten. */
 MENISCUS_API meniscus_status meniscus_compute(meniscus_computer* computer, const meniscus_atoms* atoms,
                                               meniscus_surface** surface);
-/* Computes the next frame. *surface is a surface, whose reference is taken over: of the frame before, say. If nobody
- * else holds it, it is computed anew in place, and its arrays end; else it is let go and a new one made. If the call
- * fails *surface stays as it was. */
+/* Computes the next frame. *surface is a surface, such as that of the previous frame, and the call takes over its
+ * reference. If it is the only reference, the surface is computed again in place, and its arrays end; otherwise it is
+ * released and a new one is made. If the call fails, *surface is unchanged. */
 MENISCUS_API meniscus_status meniscus_recompute(meniscus_computer* computer, const meniscus_atoms* atoms,
                                                 meniscus_surface** surface);
 MENISCUS_API meniscus_surface* meniscus_surface_retain(meniscus_surface* surface);
@@ -178,14 +179,14 @@ typedef struct meniscus_summary {
   double area;           /* Å^2, of all components */
   double volume;         /* Å^3 of the solid: outer components less cavities */
   double probe_radius;   /* that of meniscus_options; 0 for MENISCUS_VDW */
-  double grown_by;       /* Å by which radii were grown at most to tell ties apart; 0 as a rule */
+  double grown_by;       /* Å by which radii were grown at most to resolve ties; usually 0 */
   uint64_t atoms;        /* given, exposed or not */
   uint64_t convex;       /* atoms with a contact patch */
   uint64_t toroidal;     /* saddle patches: RS edges, free ones included */
-  uint64_t concave;      /* re-entrant patches: fixed probes of which something is left to see */
+  uint64_t concave;      /* re-entrant patches: fixed probes of which a part is on the surface */
   uint64_t free_edges;   /* whole circles */
   uint64_t spindle;      /* saddle patches that cross their axis */
-  uint64_t fixed_probes; /* RS faces; closer than 1e-6 Å is one */
+  uint64_t fixed_probes; /* RS faces; probes closer than 1e-6 Å count as one */
   uint64_t arcs;         /* RS edges with two ends */
   uint64_t faces;        /* connected pieces of patches */
   uint64_t borders;
@@ -201,8 +202,8 @@ typedef struct meniscus_summary {
 /* summary->size has to be set. */
 MENISCUS_API meniscus_status meniscus_surface_summary(const meniscus_surface* surface, meniscus_summary* summary);
 
-/* Rows in a row: row n begins at data + n * stride. The stride may be larger than the struct below: rows may grow in
- * later versions. data may be NULL where count is 0. */
+/* Rows one after another: row n begins at data + n * stride. The stride may be larger than the struct below, because
+ * rows may grow in later versions. data may be NULL where count is 0. */
 typedef struct meniscus_array {
   const void* data;
   size_t count;
@@ -320,20 +321,20 @@ typedef struct meniscus_face {
   double area;  /* Å^2 */
 } meniscus_face;
 
-/* The areas of atoms are found when they are first asked for, which takes about a third of the surface's time. */
+/* The areas of atoms are computed at the first call for them, in about a third of the surface's time. */
 MENISCUS_API meniscus_status meniscus_surface_table(const meniscus_surface* surface, meniscus_surface_table_id table,
                                                     meniscus_array* array);
 
-/* Of each point the Euclidean distance to the nearest point of the surface: above 0 in the solvent, below 0 in the
- * solid (the solid of MENISCUS_SES is what no probe reaches, cavities are solvent; that of the other kinds is the union
- * of the balls). Exact but for rounding, also far away; where atoms touch in one point, within 1e-6 Å. points: count
- * times x, y, z, each 1e150 Å at most. distances: room for count. nearest: NULL, or room for count points, of those of
- * the surface that are nearest; where several are, for one of them. The arrays do not overlap, but nearest may be
- * points. */
+/* The Euclidean distance of each point to the nearest point of the surface: above 0 in the solvent, below 0 in the
+ * solid (for MENISCUS_SES the solid is what no probe reaches, and cavities are solvent; for the other kinds it is the
+ * union of the balls). Exact except for rounding, also far away; where atoms touch in one point, within 1e-6 Å. points:
+ * count times x, y, z, each at most 1e150 Å. distances: room for count. nearest: NULL, or room for count points: the
+ * nearest points of the surface, one of them where there are several. The arrays must not overlap, but nearest may
+ * equal points. */
 MENISCUS_API meniscus_status meniscus_surface_distance(const meniscus_surface* surface, size_t count,
                                                        const double* points, double* distances, double* nearest);
 
-/* Of what meniscus_surface_gradient tells the derivative. */
+/* The quantity whose derivative meniscus_surface_gradient computes. */
 typedef enum meniscus_quantity MENISCUS_WORDS {
   MENISCUS_GRADIENT_AREA = 0,      /* of the surface's area */
   MENISCUS_GRADIENT_VOLUME = 1,    /* of its volume */
@@ -341,32 +342,31 @@ typedef enum meniscus_quantity MENISCUS_WORDS {
   MENISCUS_GRADIENT_SAS_VOLUME = 3 /* of the volume where the probe's centre cannot be; of MENISCUS_SES only */
 } meniscus_quantity;
 
-/* The exact derivative by the position of each atom, in closed form: what the number changes by when the atom moves,
- * for forces and minimizers. gradient: room for three doubles an atom, Å^2/Å or Å^3/Å. weights: [NULL: 1 for all] one
- * finite number an atom by which its accessible area counts, as of atomic solvation parameters; for
- * MENISCUS_GRADIENT_SAS_AREA, and for MENISCUS_GRADIENT_AREA of MENISCUS_SAS and MENISCUS_VDW. MENISCUS_INPUT where a
- * probe touches more than three atoms at once, so that MENISCUS_GRADIENT_AREA and _VOLUME of MENISCUS_SES have no
- * derivative. */
+/* The exact derivative with respect to the position of each atom, in closed form, for forces and minimizers. gradient:
+ * room for three doubles per atom, Å^2/Å or Å^3/Å. weights: [NULL: 1 for all] one finite number per atom, a factor of
+ * its accessible area such as an atomic solvation parameter; for MENISCUS_GRADIENT_SAS_AREA, and for
+ * MENISCUS_GRADIENT_AREA of MENISCUS_SAS and MENISCUS_VDW. MENISCUS_INPUT where a probe touches more than three atoms
+ * at once, so that MENISCUS_GRADIENT_AREA and _VOLUME of MENISCUS_SES have no derivative. */
 MENISCUS_API meniscus_status meniscus_surface_gradient(const meniscus_surface* surface, meniscus_quantity quantity,
                                                        const double* weights, double* gradient);
 
 /* ---- Molecules from files ------------------------------------------------------------------------------------ */
 
-/* What becomes of hydrogens. */
+/* What to do with hydrogens. */
 typedef enum meniscus_hydrogens MENISCUS_WORDS {
-  MENISCUS_HYDROGENS_AUTO = 0, /* left out where the radii contain them, else kept */
+  MENISCUS_HYDROGENS_AUTO = 0, /* left out if the radii include them, else kept */
   MENISCUS_HYDROGENS_KEEP = 1,
   MENISCUS_HYDROGENS_DROP = 2
 } meniscus_hydrogens;
 
-/* What becomes of atoms whose element nobody can tell. */
+/* What to do with atoms of unknown element. */
 typedef enum meniscus_unknown_element MENISCUS_WORDS {
   MENISCUS_UNKNOWN_HALT = 0,  /* MENISCUS_INPUT, naming them */
   MENISCUS_UNKNOWN_GUESS = 1, /* a radius of 2.0 Å */
   MENISCUS_UNKNOWN_SKIP = 2   /* left out */
 } meniscus_unknown_element;
 
-/* Which atoms of a file are taken, and with which radii: the options of the program, with its defaults. Texts are read
+/* Which atoms of a file are used, and their radii: the options of the program, with its defaults. Texts are read
  * during the call only. */
 typedef struct meniscus_read_options {
   size_t size;
@@ -391,19 +391,19 @@ typedef struct meniscus_read_options {
 
 MENISCUS_API meniscus_status meniscus_default_read_options(meniscus_read_options* options);
 
-/* The atoms of a molecule that a surface is made of. It never changes. */
+/* The atoms of a molecule, as a surface uses them. It never changes. */
 typedef struct meniscus_structure meniscus_structure;
 
-/* Reads PDB, mmCIF, PQR, GRO, XYZ and XYZR, plain or packed with gzip, as the program does: polymers and ligands of the
- * first model, of each residue the most occupied conformer, without water and free ions, unless the options say
- * otherwise. options: NULL for the defaults. *structure is overwritten. Of a text that is no selection
- * meniscus_last_error() has two more lines: the expression, and a caret under the place. */
+/* Reads PDB, mmCIF, PQR, GRO, XYZ and XYZR, plain or packed with gzip, as the program does. Unless the options say
+ * otherwise it uses the polymers and ligands of the first model, with the most occupied conformer of each residue, and
+ * leaves out water and free ions. options: NULL for the defaults. *structure is overwritten. For an invalid selection
+ * meniscus_last_error() has two more lines: the expression, and a caret below the error. */
 MENISCUS_API meniscus_status meniscus_read(const char* path, const meniscus_read_options* options,
                                            meniscus_structure** structure);
 MENISCUS_API meniscus_structure* meniscus_structure_retain(meniscus_structure* structure);
 MENISCUS_API void meniscus_structure_release(meniscus_structure* structure);
 
-/* Fills in what meniscus_compute() wants; its arrays live as long as the structure. atoms->size has to be set. */
+/* Fills in the argument of meniscus_compute(); its arrays live as long as the structure. atoms->size has to be set. */
 MENISCUS_API meniscus_status meniscus_structure_atoms(const meniscus_structure* structure, meniscus_atoms* atoms);
 
 /* Texts live as long as the structure. */
@@ -422,17 +422,17 @@ typedef struct meniscus_read_report {
 MENISCUS_API meniscus_status meniscus_structure_report(const meniscus_structure* structure,
                                                        meniscus_read_report* report);
 
-/* The tables of a structure: a row an atom, but for warnings. Rows of text end with a zero and are filled up with zeros
- * to the stride; what the file has is UTF-8 as a rule, but may be anything. */
+/* The tables of a structure: one row per atom, except for warnings. Rows of text end with a zero and are padded with
+ * zeros to the stride; they come from the file, so they are usually UTF-8, but may be any bytes. */
 typedef enum meniscus_structure_table_id MENISCUS_WORDS {
-  MENISCUS_STRUCTURE_POSITIONS = 0,       /* double[3], Å */
-  MENISCUS_STRUCTURE_RADII = 1,           /* double, Å */
-  MENISCUS_STRUCTURE_ELEMENTS = 2,        /* uint8_t: atomic number, 0 where it is unknown */
-  MENISCUS_STRUCTURE_INDICES = 3,         /* uint32_t: place in the file, from 0, of all atoms of all models read */
-  MENISCUS_STRUCTURE_NAMES = 4,           /* text: "CA" */
-  MENISCUS_STRUCTURE_RESIDUE_NAMES = 5,   /* text: "ALA" */
-  MENISCUS_STRUCTURE_CHAINS = 6,          /* text: "A", of the second copy in an assembly "A-2" */
-  MENISCUS_STRUCTURE_SEGMENTS = 7,        /* text */
+  MENISCUS_STRUCTURE_POSITIONS = 0,     /* double[3], Å */
+  MENISCUS_STRUCTURE_RADII = 1,         /* double, Å */
+  MENISCUS_STRUCTURE_ELEMENTS = 2,      /* uint8_t: atomic number, 0 where it is unknown */
+  MENISCUS_STRUCTURE_INDICES = 3,       /* uint32_t: position in the file, from 0, among all atoms of all models read */
+  MENISCUS_STRUCTURE_NAMES = 4,         /* text: "CA" */
+  MENISCUS_STRUCTURE_RESIDUE_NAMES = 5, /* text: "ALA" */
+  MENISCUS_STRUCTURE_CHAINS = 6,        /* text: "A", of the second copy in an assembly "A-2" */
+  MENISCUS_STRUCTURE_SEGMENTS = 7,      /* text */
   MENISCUS_STRUCTURE_RESIDUE_NUMBERS = 8, /* int32_t, as the file has them */
   MENISCUS_STRUCTURE_INSERTION_CODES = 9, /* char, ' ' for none */
   MENISCUS_STRUCTURE_ALTLOCS = 10,        /* char, ' ' for none */
@@ -443,17 +443,17 @@ typedef enum meniscus_structure_table_id MENISCUS_WORDS {
   MENISCUS_STRUCTURE_B_FACTORS = 15,      /* float, Å^2; likewise */
   MENISCUS_STRUCTURE_OCCUPANCIES = 16,    /* float; likewise */
   MENISCUS_STRUCTURE_CLASSES = 17,        /* uint8_t: 0 polymer, 1 ligand, 2 water, 3 ion, 4: the file does not say */
-  MENISCUS_STRUCTURE_WARNINGS = 18,       /* text: a sentence a row about what is odd in the file */
-  MENISCUS_STRUCTURE_HYDROPATHIES = 19    /* double, of the residue (Kyte & Doolittle 1982); NaN: no amino acid */
+  MENISCUS_STRUCTURE_WARNINGS = 18,       /* text: one sentence per row about unusual things in the file */
+  MENISCUS_STRUCTURE_HYDROPATHIES = 19    /* double, of the residue (Kyte & Doolittle 1982); NaN: not an amino acid */
 } meniscus_structure_table_id;
 
 MENISCUS_API meniscus_status meniscus_structure_table(const meniscus_structure* structure,
                                                       meniscus_structure_table_id table, meniscus_array* array);
 
-/* The colours of atoms as the program has them. scheme: "chain", "bfactor" or another word of `meniscus colors` that
- * colours atoms by what the file says of them, a name such as "red", or "#rrggbb"; MENISCUS_USAGE for others.
- * atom_colors: room for three floats an atom, sRGB in [0, 1], as meniscus_render() takes them. MENISCUS_INPUT where a
- * scheme is of numbers that no atom of the file has. */
+/* The colours that the program gives the atoms. scheme: "chain", "bfactor" or another word of `meniscus colors` that
+ * colours atoms by data of the file, a name such as "red", or "#rrggbb"; MENISCUS_USAGE for others. atom_colors: room
+ * for three floats per atom, sRGB in [0, 1], as meniscus_render() takes them. MENISCUS_INPUT for a scheme of numbers
+ * that no atom of the file has. */
 MENISCUS_API meniscus_status meniscus_structure_colors(const meniscus_structure* structure, const char* scheme,
                                                        float* atom_colors);
 
@@ -461,20 +461,20 @@ MENISCUS_API meniscus_status meniscus_structure_colors(const meniscus_structure*
 
 typedef struct meniscus_pocket_options {
   size_t size;
-  double large_probe_radius; /* [4] above the surface's probe, at most 100: larger ones see wider, shallower pockets */
-  double trim;               /* [1] Å, 0 to 100: pockets begin so far below the large probe's surface */
+  double large_probe_radius; /* [4] above the surface's probe, at most 100: larger ones find wider, shallower pockets */
+  double trim;               /* [1] Å, 0 to 100: pockets begin this far below the large probe's surface */
   double min_volume;         /* [30] Å^3, 0 to 1e9: smaller ones are left out */
-  double mouth_tolerance;    /* [0.1] Å, 0.001 to 1: how far a mouth may lie outside of where it should be */
+  double mouth_tolerance;    /* [0.1] Å, 0.001 to 1: largest error of a mouth's position */
 } meniscus_pocket_options;
 
 MENISCUS_API meniscus_status meniscus_default_pocket_options(meniscus_pocket_options* options);
 
-/* Pockets, tunnels and cavities of a molecule: the connected parts of what its probe can fill of the solid that a large
- * probe rolls over (docs/how-to/pockets.md). Volumes and areas are in closed form, without a grid. */
+/* Pockets, tunnels and cavities of a molecule: the connected regions that its probe can fill inside the solid that a
+ * large probe rolls over. Volumes and areas are in closed form, without a grid. */
 typedef struct meniscus_pockets meniscus_pockets;
 
-/* Those between the atoms of a surface of MENISCUS_SES, with its probe, above 0; on the CPU, wherever that was
- * computed. options: NULL for the defaults. *pockets is overwritten; they do not need the surface any longer. */
+/* Finds the pockets of a surface of MENISCUS_SES with a probe above 0; always on the CPU. options: NULL for the
+ * defaults. *pockets is overwritten; it does not need the surface any longer. */
 MENISCUS_API meniscus_status meniscus_surface_pockets(const meniscus_surface* surface,
                                                       const meniscus_pocket_options* options,
                                                       meniscus_pockets** pockets);
@@ -492,7 +492,7 @@ typedef enum meniscus_pockets_table_id MENISCUS_WORDS {
 /* One connected part. */
 typedef struct meniscus_pocket {
   double volume;        /* Å^3 */
-  double volume_excess; /* Å^3 by which that is too large at most, to first order, for mouths lie outside */
+  double volume_excess; /* Å^3 by which it is too large at most, to first order, because mouths lie outside */
   double area;          /* Å^2 of its whole border */
   double mouth_area;    /* Å^2 of its mouths; the rest is wall */
   double depth;         /* Å, of the deepest probe at rest below the large probe's surface */
@@ -507,14 +507,14 @@ MENISCUS_API meniscus_status meniscus_pockets_table(const meniscus_pockets* pock
 
 /* ---- Meshes -------------------------------------------------------------------------------------------------- */
 
-/* What the triangles of a mesh are like. */
+/* How the triangles of a mesh are made. */
 typedef enum meniscus_mesh_method MENISCUS_WORDS {
-  MENISCUS_MESH_BY_PATCH = 0,  /* they end at borders of patches, and keep to `tolerance` */
-  MENISCUS_MESH_EVEN = 1,      /* they are nearly equilateral, and keep to `tolerance` */
-  MENISCUS_MESH_BY_DENSITY = 2 /* they are nearly equilateral, and `density` says how many there are */
+  MENISCUS_MESH_BY_PATCH = 0,  /* triangles end at borders of patches, within `tolerance` */
+  MENISCUS_MESH_EVEN = 1,      /* nearly equilateral triangles, within `tolerance` */
+  MENISCUS_MESH_BY_DENSITY = 2 /* nearly equilateral triangles, their number by `density` */
 } meniscus_mesh_method;
 
-/* A number that the method has no use for is as meniscus_default_mesh_options() leaves it, or refused. */
+/* A number that the method does not use must have its default, else it is refused. */
 typedef struct meniscus_mesh_options {
   size_t size;
   meniscus_mesh_method method; /* [MENISCUS_MESH_BY_PATCH] */
@@ -526,10 +526,10 @@ typedef struct meniscus_mesh_options {
 
 MENISCUS_API meniscus_status meniscus_default_mesh_options(meniscus_mesh_options* options);
 
-/* A closed triangle mesh; all vertices lie on the exact surface, which it keeps for meniscus_mesh_save. Seen from the
- * solvent triangles are counter-clockwise. By patch they end at borders of patches, however narrow these are. Nearly
- * equilateral ones, as few as one for an atom, reach over borders: atom, kind, face and patch of one are those of the
- * exact surface under its middle. No triangles of such a mesh cross. */
+/* A closed triangle mesh. All vertices lie on the exact surface, which the mesh keeps for meniscus_mesh_save. Triangles
+ * are counter-clockwise, seen from the solvent. MENISCUS_MESH_BY_PATCH: they end at borders of patches, however narrow
+ * these are. The other methods: nearly equilateral triangles, as few as one per atom, cross borders; the atom, kind,
+ * face and patch of a triangle are those of the exact surface below its middle. No triangles of such a mesh cross. */
 typedef struct meniscus_mesh meniscus_mesh;
 
 /* options: NULL for the defaults. *mesh is overwritten. */
@@ -562,7 +562,7 @@ typedef struct meniscus_mesh_file {
   size_t size;
   const char* format;       /* [NULL: by the ending of the path] "stl", "3mf", "obj", "off", "glb", "vtp", "smesh",
                                "dms", "ply", "ply-ascii" or "py" */
-  const char* attributes;   /* ["usual"] numbers of vertices in GLB, PLY and VTP, with commas between: "vdw_radii",
+  const char* attributes;   /* ["usual"] numbers of vertices in GLB, PLY and VTP, separated by commas: "vdw_radii",
                                "atom_index", "ses_kind" and "ses_component", which are the usual ones,
                                "mean_curvature", "gaussian_curvature", "smooth_mean_curvature",
                                "smooth_gaussian_curvature", "atom_area", "accessible_area", "patch_area";
@@ -570,15 +570,15 @@ typedef struct meniscus_mesh_file {
   const float* atom_colors; /* [NULL: all have `color`] sRGB in [0, 1], three per atom; read during the call only */
   double scale;             /* [1] length in the file of 1 Å, 1e-12 to 1e6; 3MF has mm, GLB m; DMS is in Å always */
   float color[3];           /* [0.75, 0.82, 0.9] sRGB in [0, 1] */
-  int32_t replace;          /* [0: refuse] else: replace a file that is there */
+  int32_t replace;          /* [0: refuse] else: replace an existing file */
 } meniscus_mesh_file;
 
 MENISCUS_API meniscus_status meniscus_default_mesh_file(meniscus_mesh_file* file);
 
-/* Writes a mesh, whole or not at all. Edges shorter than 0.001 Å and triangles without area in single precision are
- * welded in the file, not in the mesh. The mesh knows its surface, even if that was released or computed anew. path: as
- * the system has names of files. file: NULL for the defaults. MENISCUS_NOT_CLOSED where "smesh" finds no point inside a
- * component. 3MF is compressed. */
+/* Writes a mesh, completely or not at all. Edges shorter than 0.001 Å and triangles without area in single precision
+ * are welded in the file, not in the mesh. The mesh keeps its surface, even if that was released or computed again.
+ * path: in the encoding of the system's file names. file: NULL for the defaults. MENISCUS_NOT_CLOSED if "smesh" finds
+ * no point inside a component. 3MF is compressed. */
 MENISCUS_API meniscus_status meniscus_mesh_save(const meniscus_mesh* mesh, const char* path,
                                                 const meniscus_mesh_file* file);
 
@@ -604,34 +604,34 @@ typedef struct meniscus_camera {
 MENISCUS_API meniscus_status meniscus_surface_camera(const meniscus_surface* surface, double aspect,
                                                      meniscus_projection projection, meniscus_camera* camera);
 
-/* Everything that can be chosen of a picture, as one value: the molecule's file and which of its atoms, their surface
- * and its colours, what stands beside it, the view, the look, what is written into the picture. A new one has the
- * defaults of the program. Each value has a name, that of the program's option with "_" for "-" ("depth_cue"), and a
- * key, that of scene files ("look.depth_cue"); meniscus_scene_properties() lists all. Values are text as on the command
- * line, with its units: "7pt", "0.5", "chain A"; of flags "true" and "false". */
+/* Everything that can be chosen for a picture, as one value: the molecule's file and its atoms, their surface and its
+ * colours, what is drawn beside it, the view, the look, the annotations. A new scene has the defaults of the program.
+ * Each value has a name, that of the program's option with "_" for "-" ("depth_cue"), and a key, that of scene files
+ * ("look.depth_cue"); meniscus_scene_properties() lists all. Values are text as on the command line, with its units:
+ * "7pt", "0.5", "chain A"; flags are "true" or "false". */
 typedef struct meniscus_scene meniscus_scene;
 
 /* *scene is overwritten, here and below. */
 MENISCUS_API meniscus_status meniscus_scene_new(meniscus_scene** scene);
-/* Reads a scene file of the program. Paths in it are seen from its folder, out of which they do not lead: a scene may
- * come from anybody. MENISCUS_INPUT names the file, and the line or the place in it. */
+/* Reads a scene file of the program. Paths in it are relative to its folder and must stay inside it, because a scene
+ * may come from anyone. MENISCUS_INPUT names the file, and the line or the place in it. */
 MENISCUS_API meniscus_status meniscus_scene_read(const char* path, meniscus_scene** scene);
-/* The same of its text. Paths are those of the caller, seen from the working directory. */
+/* Reads the text of a scene. Paths are relative to the working directory, and may lead anywhere. */
 MENISCUS_API meniscus_status meniscus_scene_parse(const char* json, meniscus_scene** scene);
 MENISCUS_API meniscus_scene* meniscus_scene_retain(meniscus_scene* scene);
 MENISCUS_API void meniscus_scene_release(meniscus_scene* scene);
 
-/* Sets the value of a name or key; of one that may be repeated it is added. value: NULL for the default, or for none of
- * those added. MENISCUS_USAGE for a name or a value that cannot be; the text begins with the name, and of a selection
- * has two more lines, as of meniscus_read(). */
+/* Sets the value of a name or key, or adds it if it is repeatable. value: NULL for the default, or to remove all values
+ * that were added. MENISCUS_USAGE for an unknown name or an invalid value; the text begins with the name, and for a
+ * selection has two more lines, as for meniscus_read(). */
 MENISCUS_API meniscus_status meniscus_scene_set(meniscus_scene* scene, const char* name, const char* value);
-/* The value, which lives as long as the scene; NULL where it is the default. n: 0, or which of those added. */
+/* The value, which lives as long as the scene; NULL for the default. n: 0, or the index of an added value. */
 MENISCUS_API meniscus_status meniscus_scene_get(const meniscus_scene* scene, const char* name, size_t n,
                                                 const char** value);
-/* The scene as its file has it: what is not the default. It lives as long as the scene. folder: from which its paths
- * are seen; NULL: the working directory. */
+/* The scene as JSON, without values that are defaults. It lives as long as the scene. folder: its paths are relative
+ * to this; NULL: the working directory. */
 MENISCUS_API meniscus_status meniscus_scene_json(const meniscus_scene* scene, const char* folder, const char** json);
-/* Pixels of its picture. MENISCUS_USAGE for values that contradict each other. */
+/* The size of its picture in pixels. MENISCUS_USAGE for values that contradict each other. */
 MENISCUS_API meniscus_status meniscus_scene_size(const meniscus_scene* scene, int32_t* width, int32_t* height);
 
 /* meniscus_property.type: what a value is. */
@@ -642,11 +642,11 @@ typedef enum meniscus_value_type MENISCUS_WORDS {
   MENISCUS_VALUE_WORD = 3,     /* one of `words` */
   MENISCUS_VALUE_TEXT = 4,     /* with a syntax of its own: a selection, a colour, a length such as "0.5pt" */
   MENISCUS_VALUE_FILE = 5,     /* the path of a file that is read */
-  MENISCUS_VALUE_NEW_FILE = 6, /* or written, which this library does not */
+  MENISCUS_VALUE_NEW_FILE = 6, /* the path of a file that is written; this library does not */
   MENISCUS_VALUE_CAMERA = 7    /* a camera as JSON, or the path of a file that has one */
 } meniscus_value_type;
 
-/* What can be set in a scene. Texts live as long as the library, and are "" where there is nothing to say. */
+/* A value that a scene can have. Texts live as long as the library; "" where there is none. */
 typedef struct meniscus_property {
   const char* name;       /* "depth_cue" */
   const char* key;        /* "look.depth_cue" */
@@ -657,36 +657,34 @@ typedef struct meniscus_property {
   double lowest, highest; /* of numbers, counts and lengths in pixels; equal: any */
   meniscus_value_type type;
   int32_t repeatable; /* 1: it may be set several times */
-  int32_t of_surface; /* 1: it counts in meniscus_render(), too */
+  int32_t of_surface; /* 1: meniscus_render() uses it, too */
   int32_t reserved;   /* 0 */
 } meniscus_property;
 
 /* Rows of meniscus_property, in the order of the help. */
 MENISCUS_API meniscus_status meniscus_scene_properties(meniscus_array* array);
 
-/* On GL a context of its own with its kernels, on a thread of its own: the caller's contexts are left alone. */
+/* Draws pictures. On GL it has a context and a thread of its own, so that the caller's contexts are not touched. */
 typedef struct meniscus_renderer meniscus_renderer;
 
 /* device: MENISCUS_AUTO (a hardware GPU if one works, else as MENISCUS_CPU), MENISCUS_GPU, MENISCUS_SOFTWARE,
  * MENISCUS_CPU (without GL: the same picture for any vector width and number of threads). *renderer is overwritten.
- * MENISCUS_NO_GPU where GL is asked for and there is no GL 4.5. */
+ * MENISCUS_NO_GPU if GL is asked for and there is no GL 4.5. */
 MENISCUS_API meniscus_status meniscus_renderer_new(meniscus_device device, meniscus_renderer** renderer);
 MENISCUS_API meniscus_renderer* meniscus_renderer_retain(meniscus_renderer* renderer);
 MENISCUS_API void meniscus_renderer_release(meniscus_renderer* renderer);
 
-/* Draws a scene as `meniscus render` does: reads its molecule, computes it and what stands beside it, and writes its
- * legend, labels and scale bar; the same bytes as in the program's PNG file. Where it is computed and drawn the
- * renderer says; its `output` and `legend_file` are not written. rgba: width * height * 4 bytes of
- * meniscus_scene_size(), red, green, blue, alpha (not multiplied in), rows from the top; rgba_size: the room there.
- * Errors are those of meniscus_read(), meniscus_compute() and meniscus_scene_set(); MENISCUS_USAGE for a run of frames.
- */
+/* Draws a scene as `meniscus render` does, to the byte: reads its molecule, computes its surface and the shapes beside
+ * it, and draws its legend, labels and scale bar. The device is that of the renderer; the scene's `output` and
+ * `legend_file` are not written. rgba: width * height * 4 bytes of meniscus_scene_size(), red, green, blue, alpha (not
+ * premultiplied), rows from the top; rgba_size: the size of that memory. Errors are those of meniscus_read(),
+ * meniscus_compute() and meniscus_scene_set(); MENISCUS_USAGE for a run of frames. */
 MENISCUS_API meniscus_status meniscus_render_scene(meniscus_renderer* renderer, const meniscus_scene* scene,
                                                    uint8_t* rgba, size_t rgba_size);
 
-/* Draws an exact surface of the caller's. scene: NULL for the defaults; what it says of the look, of the picture
- * ("image." and "look." in scene files), `projection` and a single `color` count, and MENISCUS_USAGE names what else is
- * set. camera: NULL for meniscus_surface_camera(). atom_colors: NULL, or sRGB in [0, 1], three per atom. rgba as above.
- */
+/* Draws an exact surface of the caller. scene: NULL for the defaults; its look, its picture ("look." and "image." in
+ * scene files), `projection` and a single `color` are used, and MENISCUS_USAGE names any other value that is set.
+ * camera: NULL for meniscus_surface_camera(). atom_colors: NULL, or sRGB in [0, 1], three per atom. rgba as above. */
 MENISCUS_API meniscus_status meniscus_render(meniscus_renderer* renderer, const meniscus_surface* surface,
                                              const meniscus_scene* scene, const meniscus_camera* camera,
                                              const float* atom_colors, uint8_t* rgba, size_t rgba_size);

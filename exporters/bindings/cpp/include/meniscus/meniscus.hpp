@@ -9,14 +9,14 @@
 //
 // All of it is inline and calls the C functions, so what a program is linked to is the C interface alone: a program
 // that was compiled with one compiler, C++ library and version of this header runs with libmeniscus of another. Structs
-// are those of meniscus.h, where their fields, units and ranges stand: lengths in Å, areas in Å^2, volumes in Å^3,
+// are those of meniscus.h, where their fields, units and ranges are: lengths in Å, areas in Å^2, volumes in Å^3,
 // angles in radian (a camera's in degrees). Option structs have their defaults from the beginning.
 //
 // Errors. Whatever fails throws an Error with the library's sentence; what was to be changed is as before.
 //
 // Ownership. Computer, Structure, Surface, Mesh, Scene and Renderer own one object each, and move; of what was moved
 // from only assignment and the end are left. Spans and rows of a surface or a mesh are its own memory, seen without a
-// copy: they end with it, and with Computer::recompute(atoms, surface), which computes it anew.
+// copy: they end with it, and with Computer::recompute(atoms, surface), which computes it again.
 //
 // Threads. As in meniscus.h: const functions of one object from any number of threads at once; a Computer and a
 // Renderer serve one call after the other.
@@ -65,7 +65,7 @@ class ErrorOf : public Error {
   explicit ErrorOf(const std::string& text) : Error(Status, text) {}
 };
 using InternalError = ErrorOf<MENISCUS_INTERNAL>;     // a fault of the library: please report it
-using UsageError = ErrorOf<MENISCUS_USAGE>;           // a call that makes no sense
+using UsageError = ErrorOf<MENISCUS_USAGE>;           // a call that is not valid
 using InputError = ErrorOf<MENISCUS_INPUT>;           // a position, radius, colour or camera that cannot be
 using GpuError = ErrorOf<MENISCUS_NO_GPU>;            // no usable GL or GPU, or one that left work undone
 using CapacityError = ErrorOf<MENISCUS_CAPACITY>;     // out of memory or threads, or more than indices can count

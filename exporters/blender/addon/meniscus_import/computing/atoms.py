@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The atoms that a surface is computed of, and files of them (`meniscus export atoms`, FORMAT.md of Meniscus)."""
+"""The atoms of a surface, and files of them (`meniscus export atoms`, FORMAT.md of Meniscus)."""
 
 import numpy as np
 

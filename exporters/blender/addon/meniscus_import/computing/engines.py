@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What computes a surface: libmeniscus through its Python package, or the program meniscus."""
+"""The engines that compute surfaces: libmeniscus through its Python package, or the program meniscus."""
 
 import importlib
 import importlib.util

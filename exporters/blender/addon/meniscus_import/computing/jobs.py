@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Threads that compute one surface after the other, of each object only what was asked for last."""
+"""Threads that compute one surface after another; of each object only the latest request is computed."""
 
 import collections
 import threading

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a surface of libmeniscus measures at vertices of a mesh and at atoms, as arrays of .mns files."""
+"""Numbers of a surface of libmeniscus at vertices of a mesh and at atoms, as arrays of .mns files."""
 
 import numpy as np
 

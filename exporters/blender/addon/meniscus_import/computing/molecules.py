@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Atoms of molecules' files as libmeniscus reads them: what `meniscus export atoms` would write of them."""
+"""Atoms of molecule files as libmeniscus reads them: what `meniscus export atoms` would write."""
 
 import os
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The other process that computes, and what was asked of it; knows nothing of Blender.
+"""The process that computes for the add-on, and the requests sent to it; knows nothing of Blender.
 
 Blender takes threads of Python badly: an operator that a script called looks things up in the script's context without the
 interpreter's lock if any thread has it just then (BPY_context_member_get and PyC_IsInterpreterActive, seen in 3.4.1), and so do

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is asked for: a surface of which atoms, how, and meshed how finely. Plain values, which any thread may read."""
+"""A request: which atoms, which surface, and how fine its mesh is. Plain values, which any thread may read."""
 
 import dataclasses
 import hashlib

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Puts messages of the program and of libmeniscus into the words of the panel: an artist has fields, not options."""
+"""Rewrites messages of the program and of libmeniscus in the words of the panel, which has fields instead of
+options."""
 
 import re
 
@@ -28,4 +29,4 @@ def for_panel(text):
     worded = OPTION.sub(field, text)
     if not lacking:
         return worded
-    return f"{worded} ({', '.join(lacking)}: {'an option' if len(lacking) == 1 else 'options'} of the program meniscus that this panel has not)"
+    return f"{worded} ({', '.join(lacking)}: {'an option' if len(lacking) == 1 else 'options'} of the program meniscus that this panel does not have)"

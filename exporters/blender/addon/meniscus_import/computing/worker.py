@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The program that computes for the add-on, in a process of its own: takes tasks from a connection, gives results back.
+"""The program that computes for the add-on in a process of its own: takes tasks from a connection, and returns results.
 
 process.py starts it. A message is a tuple of plain values and numpy arrays, a word first. It takes "begin" (sys.path, package,
 program, folder for files that go again), "do" (number, owner, urgency, kind of work, what it is about), "forget" (owner); it gives

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the other process does for the add-on: surfaces as arrays of a mesh, frames of runs, whatever takes time."""
+"""The tasks of the other process: surfaces as arrays of a mesh, frames of runs, and whatever takes time."""
 
 import threading
 

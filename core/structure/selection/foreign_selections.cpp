@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Splits words such as /a//A/10 and /A:10@CA at their signs, and writes each part with our keyword.
+#include "core/structure/selection/foreign_selections.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstddef>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/text.h"
+
+namespace meniscus {
+namespace {
+
+/// Short words of PyMOL, with ours.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 18> kShortWords{{{"c.", "chain"},
+                                                                                     {"i.", "resid"},
+                                                                                     {"r.", "resname"},
+                                                                                     {"n.", "name"},
+                                                                                     {"e.", "element"},
+                                                                                     {"s.", "chain"},
+                                                                                     {"w.", "within"},
+                                                                                     {"a.", "around"},
+                                                                                     {"x.", "expand"},
+                                                                                     {"br.", "byres"},
+                                                                                     {"bc.", "bychain"},
+                                                                                     {"h.", "hydrogen"},
+                                                                                     {"bb.", "backbone"},
+                                                                                     {"sc.", "sidechain"},
+                                                                                     {"sol.", "water"},
+                                                                                     {"org.", "organic"},
+                                                                                     {"ino.", "inorganic"},
+                                                                                     {"pol.", "polymer"}}};
+
+/// A selection of ours, put together part by part.
+class OurWords {
+ public:
+  void add(std::string_view keyword, std::string_view value) {
+    if (value.empty() || value == "*") return;
+    text_ += fmt::format("{}{} {}", text_.empty() ? "" : " and ", keyword, value);
+  }
+  /// Numbers or names of residues.
+  void add_residues(std::string_view value) {
+    const bool number = !value.empty() && (std::isdigit(static_cast<unsigned char>(value[0])) || value[0] == '-');
+    add(number ? "resid" : "resname", value);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+std::vector<std::string_view> fields_between_slashes(std::string_view word) {
+  std::vector<std::string_view> fields;
+  while (true) {
+    const std::size_t slash = word.find('/');
+    fields.push_back(word.substr(0, slash));
+    if (slash == std::string_view::npos) return fields;
+    word.remove_prefix(slash + 1);
+  }
+}
+
+/// /object/segment/chain/residue/name from the left, or the end of it without the first slash: A/10/CA.
+std::string from_pymol(std::string_view word) {
+  std::vector<std::string_view> fields = fields_between_slashes(word);
+  if (fields.front().empty())
+    fields.erase(fields.begin());
+  else
+    while (fields.size() < 5) fields.insert(fields.begin(), "");
+  fields.resize(5);
+  OurWords ours;
+  ours.add("chain", fields[2]);
+  const std::size_t tick = fields[3].find('`');  // LYS`10
+  ours.add_residues(fields[3].substr(0, tick));
+  if (tick != std::string_view::npos) ours.add_residues(fields[3].substr(tick + 1));
+  ours.add("name", fields[4].substr(0, fields[4].find('`')));
+  return ours.text();
+}
+
+/// #model/chain:residue@name, any of them left out; :10.A of Chimera has the chain after the residue.
+std::string from_chimerax(std::string_view word) {
+  constexpr std::string_view kSigns = "#/:@";
+  OurWords ours;
+  while (!word.empty()) {
+    const char sign = word[0];
+    const std::size_t end = std::min(word.find_first_of(kSigns, 1), word.size());
+    const std::string_view value = word.substr(1, end - 1);
+    const std::size_t dot = value.find('.');
+    if (sign == '#') ours.add("model", value.substr(0, dot));
+    if (sign == '/') ours.add("chain", value);
+    if (sign == ':') {
+      ours.add_residues(value.substr(0, dot));
+      if (dot != std::string_view::npos) ours.add("chain", value.substr(dot + 1));
+    }
+    if (sign == '@') ours.add("name", value);
+    word.remove_prefix(end);
+  }
+  return ours.text();
+}
+
+}  // namespace
+
+std::string advice_on_foreign_selection(std::string_view word) {
+  const auto found = std::ranges::find(kShortWords, word, &std::pair<std::string_view, std::string_view>::first);
+  if (found != kShortWords.end()) return fmt::format("{} is PyMOL's; write {}", in_quotes(word), found->second);
+  const auto slashes = std::ranges::count(word, '/');
+  const bool pymol = slashes > 1 || (slashes == 1 && word[0] != '/' && word[0] != '#');
+  const bool chimerax = !pymol && !word.empty() && std::string_view("#/:@").find(word[0]) != std::string_view::npos;
+  if (!pymol && !chimerax) return "";
+  const std::string ours = pymol ? from_pymol(word) : from_chimerax(word);
+  if (ours.empty()) return "";
+  return fmt::format("{} is written in {}'s way; write '{}'", in_quotes(word), pymol ? "PyMOL" : "ChimeraX",
+                     shortened(ours, 200));
+}
+
+}  // namespace meniscus

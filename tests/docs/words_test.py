@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""words_test.py [--program PROGRAM] [--docs]: the words of messages, of help and of documents are those of the field.
+
+Each row of WORDS has a pattern that readers stumble over, and what to write instead. Messages come from
+scripts/list_messages.py; --program adds the help of every command and every page of help, --docs the documents."""
+
+import pathlib
+import re
+import subprocess
+import sys
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "scripts"))
+
+import list_messages  # noqa: E402
+
+#: Pattern of words, and what to write instead.
+WORDS = (
+    (r"(?<!there )(?<!There )\b(is|are) no (?!longer|more\b|less\b|other\b|such\b|further\b)", "is not a, are not"),
+    (r"\bis none of\b|\bare none of\b", "is not one of"),
+    (r"\bmeant by\b", "selected by, called"),
+    (r"\b(stands?|stood)\b(?! (in )?for\b)", "is, is written, goes"),
+    (r"\bbehind\b(?! (the (orthographic )?camera|the (viewer|plane|image)|it or beside))", "after"),
+    (r"\btold\b|\btells of\b", "shown, reported, said"),
+    (r"\bwhoever\b|\bwhomever\b", "anyone who, someone who"),
+    (r"\bnobody\b", "no one, or the passive"),
+    (r"\bsomebody\b", "someone, a user"),
+    (r"\bair\b", "depth cue"),
+    (r"\bink\b", "silhouettes, lines"),
+    (r"\boddit(y|ies)\b", "unusual cases, warnings"),
+    (r"\b(is|are) younger\b|\bolder than an option\b", "was added later"),
+    (r"\baside\b", "by one pixel, to the side"),
+    (r"\bleave\b[^.;:]* away\b", "leave out"),
+    (r"\bby a hair\b", "slightly"),
+    (r"\b(has|have) not (the|a|an|its|their|enough)\b", "does not have"),
+    (r"\bless (atoms|frames|numbers|bytes|files)\b", "fewer"),
+    (r"\b(a|one) (line|row|file|process|class|frame|page|picture) (a|an) (?!time)[a-z]+", "one ... per ..."),
+    (r"\banew\b", "again"),
+    (r"\bshall\b", "must, will, should"),
+    (r"\bfor want of\b", "without"),
+    (r"\bpart(s|ed)? (them|it|the two)\b", "separate, divide"),
+    (r"\bmakes? no sense\b", "is not valid"),
+    (r"\bcomes? twice\b", "appears twice"),
+    (r"\bcannot be had\b", "is not available"),
+    (r"\bas far again\b", "times the"),
+    (r", for (it|they|there|he|she) (is|are|was|were|has|have|had)\b", "because"),
+    (r"\bnothing that\b", "not something that, or name what it is"),
+    (r"\bin the (place|stead) of\b", "instead of"),
+)
+
+#: Texts that are right in spite of a pattern.
+ALLOWED = (
+    "nothing that it computed",
+)
+
+LONGEST_SENTENCE = 75  # letters of the first sentence of an option's help, in which a reader finds what it does
+
+
+def faults(text):
+    """The rows of WORDS that a text meets."""
+    for allowed in ALLOWED:
+        text = text.replace(allowed, "")
+    return [f"{match.group(0)!r}: write {instead}" for pattern, instead in WORDS
+            for match in re.finditer(pattern, text)]
+
+
+def documents():
+    """Markdown for readers; what was is told by CHANGELOG.md in the words of its time."""
+    for folder in ("docs", "exporters", "gpu_shaders", "app"):
+        yield from sorted((ROOT / folder).rglob("*.md"))
+    yield from (path for path in sorted(ROOT.glob("*.md")) if path.name != "CHANGELOG.md")
+
+
+def prose_of(document):
+    """(line, text) of a document without its blocks of code and code in the line."""
+    in_code = False
+    for number, line in enumerate(document.read_text(encoding="utf-8").split("\n"), 1):
+        if line.lstrip().startswith("```"):
+            in_code = not in_code
+        elif not in_code:
+            yield number, re.sub(r"`[^`]*`", "``", line)
+
+
+def help_of(program, *command):
+    return subprocess.run([program, *command, "--help-all"], capture_output=True, text=True, check=True).stdout
+
+
+def commands_of(program):
+    found = []
+    for command in re.findall(r"^  ([a-z]+) ", re.split(r"\nCommands:\n", help_of(program))[1], re.M):
+        inner = re.split(r"\n(?:Commands|Formats):\n", help_of(program, command))[1:]
+        names = [name for text in inner for name in re.findall(r"^  ([a-z]+) ", text, re.M)]
+        found += [[command, name] for name in names] + [[command]]
+    return found
+
+
+class Messages(unittest.TestCase):
+    def test_have_plain_words(self):
+        found = list(list_messages.messages())
+        self.assertGreater(len(found), 1000)
+        for name, line, text in found:
+            for fault in faults(text):
+                with self.subTest(place=f"{name}:{line}"):
+                    self.fail(f"{fault}, in: {text}")
+
+    def test_are_found_in_both_languages(self):
+        texts = {text for _, _, text in list_messages.messages(["app/film", "exporters/blender/addon"])}
+        self.assertTrue(any("ffmpeg failed with exit code {}" in text for text in texts))
+        self.assertTrue(any("checksum {} instead of {}" in text for text in texts))
+
+
+class Patterns(unittest.TestCase):
+    def test_meet_what_they_are_for_and_nothing_else(self):
+        for text in ("it is no file", "leave --by away", "a line a frame", "bytes behind it", "what shall it be"):
+            self.assertEqual(len(faults(text)), 1, text)
+        for text in ("there is no file", "it is no longer there", "behind the camera", "stands for a value",
+                     "one frame at a time", "leave it out"):
+            self.assertEqual(faults(text), [], text)
+
+
+class Properties(unittest.TestCase):
+    def test_help_begins_with_a_short_sentence(self):
+        """Of each option in the table of properties."""
+        checked = 0
+        for path in sorted((ROOT / "core/properties").glob("*_properties.cpp")):
+            for line, text, before in list_messages.texts_of_cpp(path.read_text(encoding="utf-8")):
+                if not re.search(r"\b(flag|number|count|word|text|file|new_file|camera) \( [, ]*$", before + " "):
+                    continue
+                if not list_messages.is_sentence(text):
+                    continue
+                checked += 1
+                with self.subTest(place=f"{path.name}:{line}"):
+                    self.assertLessEqual(len(re.split(r"\. (?=\S)", text)[0]), LONGEST_SENTENCE, text)
+        self.assertGreater(checked, 150)
+
+
+class Help(unittest.TestCase):
+    program = None
+
+    def test_has_plain_words(self):
+        if not self.program:
+            self.skipTest("no --program")
+        for command in commands_of(self.program):
+            for fault in faults(re.sub(r"\s+", " ", help_of(self.program, *command))):
+                with self.subTest(command=command):
+                    self.fail(fault)
+
+    def test_pages_have_plain_words(self):
+        if not self.program:
+            self.skipTest("no --program")
+        for topic in ("selections", "assemblies", "frames", "scenes", "exit-codes"):
+            page = subprocess.run([self.program, "help", topic], capture_output=True, text=True, check=True).stdout
+            for fault in faults(re.sub(r"\s+", " ", page)):
+                with self.subTest(topic=topic):
+                    self.fail(fault)
+
+
+class Documents(unittest.TestCase):
+    asked = False
+
+    def test_have_plain_words(self):
+        if not self.asked:
+            self.skipTest("no --docs")
+        for document in documents():
+            for number, line in prose_of(document):
+                for fault in faults(line):
+                    with self.subTest(place=f"{document.relative_to(ROOT)}:{number}"):
+                        self.fail(fault)
+
+
+if __name__ == "__main__":
+    arguments = sys.argv[1:]
+    if "--docs" in arguments:
+        Documents.asked = True
+        arguments.remove("--docs")
+    if "--program" in arguments:
+        place = arguments.index("--program")
+        Help.program = arguments[place + 1]
+        del arguments[place:place + 2]
+    unittest.main(argv=[sys.argv[0], *arguments])
