@@ -198,8 +198,7 @@ std::vector<std::string> parted(std::string_view list);
 /// The help with the default after it, in brackets.
 std::string help_of(const Property& property);
 
-/// Such a text up to the first colon, semicolon or full stop outside of parentheses, and then its brackets: a
-/// line of the short help.
-std::string first_clause(std::string_view help);
+/// The first sentence of such a text, up to a full stop or semicolon outside of parentheses, and then its brackets.
+std::string first_sentence(std::string_view help);
 
 }  // namespace meniscus
