@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <iterator>
 #include <iostream>
 #include <span>
 #include <sstream>
@@ -21,6 +22,7 @@
 #include "app/reports/version_report.h"
 #include "core/base/binary_file.h"
 #include "core/base/text.h"
+#include "core/properties/properties.h"
 
 namespace meniscus {
 namespace {
@@ -41,43 +43,75 @@ constexpr const char* kExitCodesInShort = R"(Exit codes:
 
 constexpr std::size_t kHelpWidth = 100;
 
-/// Headings of the help: what most people need first, what few need last, and that only on --help-all.
-constexpr auto kFirstHeadings = std::to_array<std::string_view>(
-    {"Output", "Picture", "Mesh", "Figure", "Beside the surface", "Colour", "Light", "Lines", "Camera", "Legend",
-     "Labels", "Session", "Scene", "Options", "Input", "Surface", "Computing"});
-constexpr auto kRareHeadings =
-    std::to_array<std::string_view>({"Radii", "Assembly", "Frames", "Alignment of frames", "Film"});
+/// A heading of the help, and the broader one that it is part of in the short help.
+struct Heading {
+  std::string_view full, broad;
+};
+
+/// What most people need first, what few need last.
+constexpr Heading kHeadings[] = {{"Output", "Output"},
+                                 {"Picture", "Output"},
+                                 {"Mesh", "Output"},
+                                 {"Figure", "Figure"},
+                                 {"Beside the surface", "Figure"},
+                                 {"Colour", "Colour and light"},
+                                 {"Light", "Colour and light"},
+                                 {"Lines", "Colour and light"},
+                                 {"Camera", "Camera"},
+                                 {"Legend", "Legend and labels"},
+                                 {"Labels", "Legend and labels"},
+                                 {"Session", "Session"},
+                                 {"Scene", "Scene"},
+                                 {"Input", "Input"},
+                                 {"Surface", "Surface"},
+                                 {"Computing", "Surface"},
+                                 {"Radii", "Input"},
+                                 {"Assembly", "Input"},
+                                 {"Frames", "Frames"},
+                                 {"Alignment of frames", "Frames"},
+                                 {"Film", "Frames"},
+                                 {"Options", "Options"}};
+
+/// A command with more options shows the common ones, a line each, unless it is asked for all of them.
+constexpr std::size_t kFullHelp = 30;
 
 /// Help in the order people read: what it is, examples, usage, options.
 class ManualFormatter : public CLI::Formatter {
  public:
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
     if (mode == CLI::AppFormatMode::Sub) return make_expanded(app);
+    short_ = mode == CLI::AppFormatMode::Normal && app->get_options().size() > kFullHelp;
     std::string help = make_description(app);
     if (!app->get_footer().empty()) help += "\nExamples:\n" + app->get_footer() + "\n";
-    help += "\n" + make_usage(app, std::move(name)) + make_positionals(app) + ordered_groups(app, mode) +
+    help += "\n" + make_usage(app, std::move(name)) + make_positionals(app) + ordered_groups(app) +
             make_subcommands(app, CLI::AppFormatMode::Normal);
+    if (short_)
+      help += fmt::format(
+          "\nThese are the options that most people need. meniscus {} --help-all has all {}, and more\n"
+          "about each; meniscus help has pages about subjects.\n",
+          command_path(*app), app->get_options().size());
     return help + (app->get_parent() ? "" : std::string("\n") + kExitCodesInShort);
   }
 
-  std::string ordered_groups(const CLI::App* app, CLI::AppFormatMode mode) const {
-    std::vector<std::string> headings = app->get_groups();
-    std::ranges::stable_sort(headings, {}, place_of);
-    std::string text, rare;
+  std::string ordered_groups(const CLI::App* app) const {
+    std::vector<std::string> headings;
+    for (const std::string& group : app->get_groups())
+      if (const std::string heading = heading_of(group); !heading.empty() && !std::ranges::count(headings, heading))
+        headings.push_back(heading);
+    std::ranges::stable_sort(headings, {}, [&](const std::string& heading) { return place_of(heading); });
+    std::string text;
     for (const std::string& heading : headings) {
-      const std::vector<const CLI::Option*> options = app->get_options(
-          [&](const CLI::Option* option) { return option->get_group() == heading && option->nonpositional(); });
-      if (heading.empty() || options.empty()) continue;
-      if (mode == CLI::AppFormatMode::All || place_of(heading) < kRarePlace)
-        text += make_group(heading, false, options);
-      else
-        rare += fmt::format("{}{} ({} options)", rare.empty() ? "" : ", ", heading, options.size());
+      const std::vector<const CLI::Option*> options = app->get_options([&](const CLI::Option* option) {
+        return heading_of(option->get_group()) == heading && option->nonpositional() && (!short_ || is_common(*option));
+      });
+      if (!options.empty()) text += make_group(heading, false, options);
     }
-    return rare.empty() ? text : text + "\n" + wrapped("More on --help-all: " + rare, kHelpWidth) + "\n";
+    return text;
   }
 
   std::string make_option_desc(const CLI::Option* option) const override {
-    return wrapped(option->get_description(), kHelpWidth - column_width_);
+    const std::string& words = option->get_description();
+    return wrapped(short_ && option->nonpositional() ? first_clause(words) : words, kHelpWidth - column_width_);
   }
 
   /// CLI11 counts bytes; a unit such as Å has fewer letters than bytes.
@@ -104,13 +138,23 @@ class ManualFormatter : public CLI::Formatter {
   }
 
  private:
-  static constexpr std::size_t kRarePlace = 100;
+  mutable bool short_ = false;  ///< what is being made; CLI11 asks for each part by itself
 
-  /// Of a heading; those in no list are between.
-  static std::size_t place_of(const std::string& heading) {
-    const auto first = std::ranges::find(kFirstHeadings, heading), rare = std::ranges::find(kRareHeadings, heading);
-    if (rare != kRareHeadings.end()) return kRarePlace + static_cast<std::size_t>(rare - kRareHeadings.begin());
-    return static_cast<std::size_t>(first - kFirstHeadings.begin());
+  /// Of a group of options; empty where it is hidden.
+  std::string heading_of(const std::string& group) const {
+    const auto known = std::ranges::find(kHeadings, group, &Heading::full);
+    return short_ && known != std::end(kHeadings) ? std::string(known->broad) : group;
+  }
+
+  std::ptrdiff_t place_of(const std::string& heading) const {
+    return std::ranges::find(kHeadings, heading, short_ ? &Heading::broad : &Heading::full) - std::begin(kHeadings);
+  }
+
+  static bool is_common(const CLI::Option& option) {
+    const std::string name = option.get_name();
+    return name == "--help" || name == "--help-all" || std::ranges::any_of(properties(), [&](const Property* property) {
+             return property->common && property->long_option() == name;
+           });
   }
 };
 
@@ -162,8 +206,10 @@ void run(int argc, char** argv) {
   program.add_flag("--verbose", verbose, "With --version: also compiler, libraries and GL driver, for bug reports");
   program.set_version_flag(
       "--version", [&verbose] { return verbose ? version_report() : version_line(); }, "Show version and commit");
+  program.add_flag_callback(
+      "--cite", [] { throw CLI::CallForVersion(citation(), 0); }, "Show what to cite, as BibTeX");
   program.set_help_flag("-h,--help", "Show this help");
-  program.set_help_all_flag("--help-all", "Show this help with all options");
+  program.set_help_all_flag("--help-all", "Show all options, and more about each");
   program.require_subcommand(1);
   let_the_last_count(program);
   program.footer(kExamples);

@@ -152,6 +152,8 @@ collect() {
   "$zig" c++ -target "$triple" -s -std=c++20 -O2 -Iexporters/bindings/c/include tests/targets/result_table.cpp "$link" \
     -o "$target_folder/result_table$suffix"
   [[ $target != *linux ]] || cp -L "$built/libmeniscus.so" "$target_folder/libmeniscus.so.0"
+  # For release.sh, which packs only what was built from the commit of the release.
+  echo "$(git rev-parse HEAD)$(git diff --quiet HEAD || echo .dirty)" >"$target_folder/commit"
 }
 
 # ---- Results -------------------------------------------------------------------------------------------------------------

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus help TOPIC`: shows the pages of topics and of commands.
+// `meniscus help TOPIC`: topics in short, the help of commands, and the pages of the manual.
+#include <algorithm>
 #include <iostream>
 #include <memory>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
 #include "app/commands/commands.h"
+#include "app/commands/manual_pages.h"
 #include "app/options/command_tree.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_schema.h"
@@ -15,6 +18,7 @@
 #include "app/reports/man_page.h"
 #include "core/base/output_file.h"
 #include "core/base/text.h"
+#include "core/base/version.h"
 #include "core/structure/selection/selection_words.h"
 
 namespace meniscus {
@@ -109,18 +113,58 @@ constexpr Topic kTopics[] = {
     {"exit-codes", "exit codes, and which files exist after an error", exit_page},
 };
 
+/// Folders of the manual, in the order in which people read.
+constexpr std::string_view kShelves[] = {"tutorials", "how-to", "reference", "explanation", "validation"};
+
+bool is_on(std::string_view shelf, const ManualPage& page) { return page.path.starts_with(fmt::format("{}/", shelf)); }
+
 void list_topics(const CLI::App& program) {
-  fmt::print(std::cout, "meniscus help TOPIC shows a page:\n\n");
+  fmt::print(std::cout, "meniscus help TOPIC shows a page. In short:\n\n");
   for (const Topic& topic : kTopics) fmt::print(std::cout, "  {:<12} {}\n", topic.name, topic.summary);
-  fmt::print(std::cout, "\nand the help of a command:\n\n");
+  fmt::print(std::cout, "\nThe help of a command:\n\n");
   for (const CLI::App* command : program.get_subcommands({}))
     fmt::print(std::cout, "  {:<12} {}\n", command->get_name(), command->get_description());
+  for (const std::string_view shelf : kShelves) {
+    fmt::print(std::cout, "\nThe manual, {}:\n\n", shelf);
+    for (const ManualPage& page : manual_pages())
+      if (is_on(shelf, page)) fmt::print(std::cout, "  {:<18} {}\n", page.name(), page.title());
+  }
+}
+
+/// Markdown is made to be read as it is; only its long lines are broken, outside of tables and code.
+void print_markdown(std::string_view text) {
+  bool code = false;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (line.starts_with("```")) code = !code;
+    const bool item = line.starts_with("* ") || line.starts_with("- ");
+    fmt::print(std::cout, "{}\n", code || line.starts_with('|') ? std::string(line) : wrapped(line, 100, item ? 2 : 0));
+  }
+}
+
+/// The page of the manual that has this name; null if none has.
+const ManualPage* manual_page(std::string_view name) {
+  for (const std::string_view shelf : kShelves)
+    for (const ManualPage& page : manual_pages())
+      if (is_on(shelf, page) && page.name() == name) return &page;
+  return nullptr;
+}
+
+/// Topics, commands and pages of the manual.
+std::vector<std::string> page_names(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const Topic& topic : kTopics) names.emplace_back(topic.name);
+  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
+  for (const std::string_view shelf : kShelves)
+    for (const ManualPage& page : manual_pages())
+      if (is_on(shelf, page)) names.emplace_back(page.name());
+  return names;
 }
 
 void show(const CLI::App& program, const std::string& name) {
-  std::string names;
   for (const Topic& topic : kTopics) {
-    names.append(names.empty() ? "" : ", ").append(topic.name);
     if (name == topic.name) {
       std::cout << topic.page();
       return;
@@ -132,7 +176,11 @@ void show(const CLI::App& program, const std::string& name) {
       return;
     }
   }
-  throw UsageError(fmt::format("{} is not a topic; choose one of {}, or a command", in_quotes(name), names));
+  if (const ManualPage* page = manual_page(name)) return print_markdown(page->markdown);
+  const std::vector<std::string> names = page_names(program);
+  const std::string_view nearest = nearest_word(name, std::vector<std::string_view>(names.begin(), names.end()));
+  throw UsageError(fmt::format("there is no page {}{}; meniscus help lists the pages", in_quotes(name),
+                               nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest)));
 }
 
 /// A page of section 1 for every command, and of section 7 for every topic.
@@ -146,14 +194,6 @@ void write_man_pages(const CLI::App& program, const std::string& folder) {
     pages.file(man_page_name(topic.name) + ".7")
         .write(topic_man_page(topic.name, topic.summary, topic.page(), margins));
   pages.commit();
-}
-
-/// Topics and commands.
-std::vector<std::string> page_names(const CLI::App& program) {
-  std::vector<std::string> names;
-  for (const Topic& topic : kTopics) names.emplace_back(topic.name);
-  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
-  return names;
 }
 
 }  // namespace

@@ -153,11 +153,15 @@ void render_views(const RenderCommand& asked) {
   const EglContext context(scene.molecule.surface.gl);
   ViewPipeline pipeline;
   Renderer renderer;
+  double grown_by = 0.0;
   const auto keep = [&](const SinkPicture& picture) {
     show(viewed.atoms, scene.molecule.surface.probe_radius, *scene.image.extent, pipeline);
-    return sink.keep(
-        picture, sink.annotations(picture, viewed.atoms.molecule.structure),
-        [&](const RenderSettings& settings) { return renderer.render(pipeline, picture.camera, settings); });
+    return sink.keep(picture, sink.annotations(picture, viewed.atoms.molecule.structure),
+                     [&](const RenderSettings& settings) {
+                       Framebuffer drawn = renderer.render(pipeline, picture.camera, settings);
+                       grown_by = std::max(grown_by, pipeline.stats().grown_by);
+                       return drawn;
+                     });
   };
   const auto stats = [&] { return stats_text(pipeline.stats(), renderer.times(), layout.size.size()); };
   if (viewed.run) {
@@ -175,6 +179,7 @@ void render_views(const RenderCommand& asked) {
     say(command, kShowsNothing);
   }
   sink.finish();
+  tell_grown_radii(command, grown_by);
   if (layout.legend_alone) write_image(scene.legend.file, *layout.legend_alone, image_settings(asked));
   save_camera(command, cameras.front());
   if (viewed.run) return;

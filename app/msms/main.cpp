@@ -20,6 +20,7 @@
 #include "core/base/output_file.h"
 #include "core/base/system_file.h"
 #include "core/base/text.h"
+#include "core/base/version.h"
 #include "core/surface/reduced_components.h"
 #include "exporters/msms/msms_files.h"
 

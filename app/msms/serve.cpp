@@ -17,6 +17,7 @@
 #include "app/msms/local_socket.h"
 #include "app/process/program_error.h"
 #include "core/base/error.h"
+#include "core/base/version.h"
 
 namespace meniscus::msms {
 namespace {

@@ -145,11 +145,9 @@ Json tell_stats(const CommandReader&, const Surroundings& around) {
   Json stages = Json::array();
   for (const StageTime& stage : pictures.stages())
     stages.push_back({{"name", stage.name}, {"milliseconds", stage.milliseconds}});
-  return {{"frame_milliseconds", milliseconds},
-          {"fps", milliseconds > 0.0 ? 1000.0 / milliseconds : 0.0},
-          {"width", pictures.molecule_size().x},
-          {"height", pictures.molecule_size().y},
-          {"stages", stages}};
+  return {{"frame_milliseconds", milliseconds},    {"fps", milliseconds > 0.0 ? 1000.0 / milliseconds : 0.0},
+          {"width", pictures.molecule_size().x},   {"height", pictures.molecule_size().y},
+          {"radii_grown_by", pictures.grown_by()}, {"stages", stages}};
 }
 
 Json tell_choices(const CommandReader&, const Surroundings& around) {

@@ -99,6 +99,7 @@ class ViewCache {
 
   /// Of the last picture's molecule, without the legend.
   glm::ivec2 molecule_size() const { return renderer_->size(); }
+  double grown_by() const { return renderer_->grown_by(); }
   double milliseconds() const { return milliseconds_; }
   /// Of the last picture that was not a draft; stages of drafts are not measured.
   const std::vector<StageTime>& stages() const { return stages_; }

@@ -95,9 +95,13 @@ std::vector<TriangleMesh> mesh_and_tell(const SceneCommand& command, std::span<c
 void tell_built(const SceneCommand& command, const Molecule& molecule) {
   tell_beyond_map(command, molecule.beyond_map, "the surface");
   say(command, fmt::format("surface on {} in {:.1f} ms", molecule.device, total_ms(molecule.stages)));
-  if (const double grown_by = change_of_radii(molecule.objects).grown_by; grown_by > 0)
+  tell_grown_radii(command, change_of_radii(molecule.objects).grown_by);
+}
+
+void tell_grown_radii(const SceneCommand& command, double grown_by) {
+  if (grown_by > 0.0)
     say(command,
-        fmt::format("spheres that meet in one point were separated by radii grown by up to {:.2g} Å", grown_by));
+        fmt::format("spheres meet in one point; they are separated by radii grown by up to {:.2g} Å", grown_by));
 }
 
 Molecule build_and_tell(const SceneCommand& command, Structure structure) {

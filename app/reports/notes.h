@@ -47,6 +47,8 @@ std::vector<TriangleMesh> mesh_and_tell(const SceneCommand& command, std::span<c
 
 /// How much of the surface its map reaches, on which device it was computed, and whether radii grew.
 void tell_built(const SceneCommand& command, const Molecule& molecule);
+/// By how much radii were grown to tell ties apart, Å; nothing where it is 0.
+void tell_grown_radii(const SceneCommand& command, double grown_by);
 
 /// Computes and colours a structure, and says on which device.
 Molecule build_and_tell(const SceneCommand& command, Structure structure);

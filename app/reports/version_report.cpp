@@ -19,6 +19,7 @@
 #include <zlib.h>
 
 #include "app/process/this_program.h"
+#include "core/base/version.h"
 #include "core/gpu/egl_context.h"
 #include "core/image/image_codec.h"
 
@@ -75,6 +76,24 @@ std::string version_report() {
          row("compiler", fmt::format("{}, {}", kCompiler, MENISCUS_BUILD_TYPE)) + row("system", system_line()) +
          row("libraries", libraries_line()) + row("pictures", answer_of([] { return image_codec().library(); })) +
          row("GL", answer_of(gl_line));
+}
+
+std::string citation() {
+  return fmt::format(R"(@software{{meniscus,
+  title   = {{Meniscus: exact solvent-excluded surfaces of molecules}},
+  author  = {{{{The Meniscus authors}}}},
+  version = {{{}}},
+  year    = {{2026}},
+  license = {{BSD-3-Clause}}
+}}
+
+@inproceedings{{krone2010,
+  title     = {{Parallel computation and interactive visualization of time-varying solvent excluded surfaces}},
+  author    = {{Krone, Michael and Dachsbacher, Carsten and Ertl, Thomas}},
+  booktitle = {{Proceedings of the First ACM International Conference on Bioinformatics and Computational Biology}},
+  year      = {{2010}}
+}})",
+                     MENISCUS_VERSION);
 }
 
 }  // namespace meniscus

@@ -13,4 +13,7 @@ std::string version_line();
 /// cannot be found is reported in its line. Reads CUDA_VISIBLE_DEVICES like --device.
 std::string version_report();
 
+/// What to cite: the program as BibTeX, and the paper whose method it continues. As CITATION.cff has it.
+std::string citation();
+
 }  // namespace meniscus

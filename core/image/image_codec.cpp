@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "core/base/module_file.h"
+#include "core/base/version.h"
 
 namespace meniscus {
 namespace {

@@ -9,6 +9,7 @@
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imageio.h>
 
+#include "core/base/version.h"
 #include "core/image/image_codec.h"
 
 namespace meniscus {

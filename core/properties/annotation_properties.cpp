@@ -14,7 +14,8 @@ constexpr auto kTable = of_commands(
     for_render | for_preview,
     std::to_array<Property>({
         flag("legend.shown", "--legend", "Show a legend of the colours, at the right or, in tall pictures, below")
-            .in(kLegend, kShared | live),
+            .in(kLegend, kShared | live)
+            .in_short_help(),
         new_file("legend.file", "--legend-file", "FILE", "Write the legend as a separate picture")
             .in(kLegend, in_scene)
             .of(for_render),
@@ -31,16 +32,19 @@ constexpr auto kTable = of_commands(
             .in(kLegend, kShared | live | rare),
 
         text("annotations.panel", "--panel", "TEXT", "Letter of the panel, such as a, at the top left")
-            .in(kLabels, kShared),
+            .in(kLabels, kShared)
+            .in_short_help(),
         text("annotations.scale_bar", "--scale-bar", "Å",
              "Draw a scale bar of this length, or of a round one (auto). With a perspective camera it is true at the "
              "camera's target")
             .proposes("auto")
             .initially("auto")
-            .in(kLabels, kShared | value_optional),
+            .in(kLabels, kShared | value_optional)
+            .in_short_help(),
         text("annotations.labels", "--label", "EXPR=TEXT",
              "Write TEXT at these atoms, with a line to their centre. Repeatable")
-            .in(kLabels, kShared | repeatable),
+            .in(kLabels, kShared | repeatable)
+            .in_short_help(),
         flag("annotations.time_stamp", "--time-stamp",
              "Write the time of each frame in ns, or its number if it has no time")
             .in(kLabels, kShared)

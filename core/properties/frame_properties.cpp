@@ -18,7 +18,8 @@ constexpr auto kTable = of_commands(
         file("frames.trajectory", "--trajectory", "PATH",
              "Trajectory: coordinates of the atoms of FILE, frame by frame. Repeatable: one after the other. Without "
              "it the models of FILE are the frames; meniscus formats lists the formats")
-            .in(kFrames, kShared | repeatable),
+            .in(kFrames, kShared | repeatable)
+            .in_short_help(),
         text("frames.trajectory_atoms", "--trajectory-atoms", "EXPR",
              "Atoms of FILE that the trajectory contains, such as 'not water'")
             .in(kFrames, kShared),
@@ -27,7 +28,8 @@ constexpr auto kTable = of_commands(
             .in(kFrames, kShared),
         text("frames.frames", "--frames", "LIST",
              "Frames of the run: all, or a list such as 0-99:10,250,last. Frames count from 0; -10- means the last ten")
-            .in(kFrames, kShared),
+            .in(kFrames, kShared)
+            .in_short_help(),
         count("frames.stride", "--stride", "N", "Use every Nth frame")
             .from(1, kUnlimited)
             .initially("1")
@@ -57,7 +59,8 @@ constexpr auto kTable = of_commands(
             .initially("bonds")
             .in(kMotion, kShared | value_optional),
         text("frames.superpose", "--superpose", "EXPR", "Superpose each frame on the reference frame by these atoms")
-            .in(kMotion, kShared),
+            .in(kMotion, kShared)
+            .in_short_help(),
         text("frames.center", "--center", "EXPR", "Move each frame so that the centre of these atoms stays fixed")
             .in(kMotion, kShared),
         text("frames.reference", "--reference", "N", "Reference frame of --superpose and --center: a number, or last")

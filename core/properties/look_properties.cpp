@@ -21,7 +21,8 @@ constexpr auto kTable = of_commands(
              "a legend explains them, light changes only their lightness")
             .one_of("publication|cover|flat|soft|classic")
             .initially("publication")
-            .in(kLight, kLook),
+            .in(kLight, kLook)
+            .in_short_help(),
         text("look.light", "--light", "X,Y,Z", "Direction towards the lamp, as X,Y,Z: right, up, to the viewer")
             .initially("-0.45,0.65,0.75")
             .in(kLight, kLook),
@@ -48,7 +49,8 @@ constexpr auto kTable = of_commands(
                "Shade in pockets and clefts, 0 (none) to 1. Only what the picture shows casts shade")
             .from(0, 1)
             .slider("Shade", 1)
-            .in(kLight, kLook),
+            .in(kLight, kLook)
+            .in_short_help(),
         number("look.ambient_occlusion_radius", "--ambient-occlusion-radius", "Å",
                "Largest distance at which shade is cast, in Å")
             .from(0.1, 1000)
@@ -58,7 +60,8 @@ constexpr auto kTable = of_commands(
              "front, and between chains")
             .from(0, 16)
             .slider("Lines", 6)
-            .in(kLines, kLook),
+            .in(kLines, kLook)
+            .in_short_help(),
         text("look.outer_lines", "--outer-lines", "WIDTH", "Width of the outline around the whole molecule")
             .from(0, 16)
             .initially("--silhouettes")

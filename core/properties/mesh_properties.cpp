@@ -14,6 +14,7 @@ constexpr auto kTable = std::to_array<Property>({
     number("mesh.tolerance", "--tolerance", "Å", "Largest distance between mesh and surface, in Å")
         .from(1e-5, 1)
         .in(kMesh, in_scene | in_bundle)
+        .in_short_help()
         .of(kForMeshes),
     number("mesh.tolerance_pixels", "--tolerance-pixels", "PIXELS",
            "Largest distance between mesh and surface, in pixels, such as 0.25")
@@ -25,6 +26,7 @@ constexpr auto kTable = std::to_array<Property>({
            "Vertices per Å², instead of a tolerance. 0.02 gives about one triangle per atom; triangles are even")
         .from(0.005, 1000)
         .in(kMesh, in_scene)
+        .in_short_help()
         .of(for_mesh)
         .excludes("mesh.tolerance|mesh.tolerance_pixels"),
     flag("mesh.even", "--even", "Make nearly equilateral triangles. They cross the borders of patches")
@@ -32,6 +34,7 @@ constexpr auto kTable = std::to_array<Property>({
         .of(for_mesh),
     text("mesh.format", "--format", "WORD", "Format of the file, if its ending does not tell")
         .in(kMesh, in_scene)
+        .in_short_help()
         .of(for_mesh),
     text("mesh.attributes", "--attributes", "NAMES",
          "Numbers of vertices to write in PLY, VTP and GLB, separated by commas")
@@ -58,12 +61,14 @@ constexpr auto kTable = std::to_array<Property>({
 
     new_file("output.file", "-o,--output", "PATH", "Output file or folder")
         .in(kOutput, in_scene)
+        .in_short_help()
         .of(for_render | kForExports | for_mesh | for_atoms),
-    flag("output.force", "--force", "Replace an output that already exists").in(kOutput).of(kForRuns),
+    flag("output.force", "--force", "Replace an output that already exists").in(kOutput).in_short_help().of(kForRuns),
     file("scene.read", "--scene", "FILE",
          "Take options from a scene file or from a picture that meniscus made. Options on the command line override "
          "those of the scene")
         .in(kScene)
+        .in_short_help()
         .of(kForRuns),
     flag("scene.trust", "--trust-scene", "Let the scene read and write files anywhere. Use it only for your own scenes")
         .in(kScene)
@@ -74,6 +79,7 @@ constexpr auto kTable = std::to_array<Property>({
         .of(kForRuns),
     new_file("scene.save", "--save-scene", "FILE", "Save these options as a scene file")
         .in(kScene)
+        .in_short_help()
         .of(for_render | kForExports | for_mesh),
 });
 

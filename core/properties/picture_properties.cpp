@@ -14,28 +14,33 @@ constexpr auto kTable = of_commands(
     kForFigures | for_mesh,
     std::to_array<Property>({
         camera("camera.from", "--camera", "FILE",
-               "Camera: JSON, PyMOL's get_view or ChimeraX's view matrix. A file, or the text itself")
+               "Camera as JSON, or as PyMOL or ChimeraX print it. A file, or the text itself: JSON, get_view or view "
+               "matrix")
             .initially("shows everything")
-            .in(kCamera, kShared | live),
+            .in(kCamera, kShared | live)
+            .in_short_help(),
         word("camera.projection", "--projection", "WORD", "Projection of the camera: perspective or orthographic")
             .one_of("perspective|orthographic")
             .initially("perspective")
             .in(kCamera, kShared | live)
             .excludes("camera.from"),
         text("camera.view", "--view", "SIDE",
-             "Side that faces the viewer: front, back, top, bottom, right or left. front: the broad side; x, y, z: "
-             "axes of the file; 1, 2, 3: axes of inertia, longest first; symmetry: along the axis of --assembly; "
+             "Side that faces the viewer, such as front, top or left. front: the broad side; back, bottom, right; x, "
+             "y, z: axes of the file; 1, 2, 3: axes of inertia, longest first; symmetry: along the axis of --assembly; "
              "symmetry-side: with that axis upright. A minus sign before it shows the opposite side")
             .initially("front")
             .in(kCamera, kShared | live)
+            .in_short_help()
             .excludes("camera.from"),
         text("camera.turn", "--turn", "AXISANGLE",
              "Turn the molecule about an axis by degrees: y90, x-30, z45. x points right, y up, z to the viewer. "
              "Repeatable, applied in this order")
-            .in(kCamera, kShared | live | repeatable),
+            .in(kCamera, kShared | live | repeatable)
+            .in_short_help(),
         text("camera.zoom_to", "--zoom-to", "EXPR", "Fill the picture with these atoms")
             .initially("all that --show leaves")
-            .in(kCamera, kShared | live),
+            .in(kCamera, kShared | live)
+            .in_short_help(),
         file("camera.path", "--camera-path", "FILE", "JSON file of key frames (frame, camera) of a moving camera")
             .in(kCamera, kShared)
             .of(kForFigures & ~for_preview)
@@ -43,6 +48,7 @@ constexpr auto kTable = of_commands(
         number("camera.turntable", "--turntable", "TURNS",
                "Turns of the camera around the molecule over the run. Negative numbers turn the other way")
             .in(kCamera, kShared)
+            .in_short_help()
             .of(kForFigures & ~for_preview),
         text("camera.follow", "--follow", "EXPR", "Move the camera with the centre of these atoms")
             .in(kCamera, kShared)
@@ -54,9 +60,11 @@ constexpr auto kTable = of_commands(
         text("image.size", "--size", "WxH", "Size of the picture in pixels")
             .initially("1280x960")
             .in(kPicture, kShared | live)
+            .in_short_help()
             .of(kForFigures | for_mesh | for_bench),
         text("image.width", "--width", "LENGTH", "Width of the picture: 85mm, 8.5cm, 3.5in or 1000px")
             .in(kPicture, kShared | live)
+            .in_short_help()
             .excludes("image.size"),
         text("image.height", "--height", "LENGTH", "Height of the picture in the same units")
             .in(kPicture, kShared | live)
@@ -69,12 +77,13 @@ constexpr auto kTable = of_commands(
             .from(1, 1024)
             .initially("9")
             .in(kPicture, kShared | live)
+            .in_short_help()
             .of(for_render | for_preview),
-        text("image.background", "--background", "COLOR",
-             "Background: transparent, white, black, or a colour (grey, #rrggbb)")
+        text("image.background", "--background", "COLOR", "Background: transparent, or a colour (white, #rrggbb)")
             .proposes("transparent|white|black")
             .initially("transparent")
             .in(kPicture, kShared | live)
+            .in_short_help()
             .of(for_render | for_preview),
         flag("image.aovs", "--aovs",
              "Add depth, normals, positions and atoms to an .exr. Channels: Z, N.xyz, P.xyz, atom, kind and component "

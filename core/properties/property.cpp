@@ -40,4 +40,20 @@ std::string help_of(const Property& property) {
                                   : fmt::format("{} [{}]", property.help, property.initial);
 }
 
+std::string first_clause(std::string_view help) {
+  std::string_view initial;
+  if (const std::size_t bracket = help.rfind(" ["); help.ends_with(']') && bracket != help.npos) {
+    initial = help.substr(bracket);
+    help.remove_suffix(initial.size());
+  }
+  std::size_t end = 0;
+  for (int depth = 0; end < help.size(); ++end) {
+    if (help[end] == '(') ++depth;
+    if (help[end] == ')') --depth;
+    const std::string_view rest = help.substr(end);
+    if (depth == 0 && (rest.starts_with("; ") || rest.starts_with(". "))) break;
+  }
+  return fmt::format("{}{}", help.substr(0, end), initial);
+}
+
 }  // namespace meniscus

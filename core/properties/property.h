@@ -30,7 +30,7 @@ enum Trait : unsigned {
   in_bundle = 2,        ///< the command of a farm bundle may have it: it writes no file and starts no program
   live = 4,             ///< the preview changes it while it runs
   repeatable = 8,       ///< may be given several times; a list in scene files
-  value_optional = 16,  ///< the option may have no value; true in scene files
+  value_optional = 16,  ///< the option may be without a value; true in scene files
   needs_support = 32,   ///< a command without it would show something else, so it refuses a scene that sets it
   negated = 64,         ///< the scene key is false where the option is given
   rare = 128,           ///< few need it: the help has no words about its option; --set has its key
@@ -77,6 +77,7 @@ struct Property {
   unsigned commands = 0;               ///< those that have the option; 0: one that adds it by itself
   std::string_view excluded{};         ///< keys that are not given beside it: "image.size|camera.from"
   std::string_view needed{};           ///< a key without which it means nothing
+  bool common = false;                 ///< --help shows its option even where a command has very many
 
   constexpr Property from(double least, double most) const {
     Property changed = *this;
@@ -121,6 +122,12 @@ struct Property {
     Property changed = *this;
     changed.heading = title;
     changed.traits = all_traits;
+    return changed;
+  }
+
+  constexpr Property in_short_help() const {
+    Property changed = *this;
+    changed.common = true;
     return changed;
   }
 
@@ -188,7 +195,11 @@ std::vector<std::string> words_of(const Property& property);
 /// Any such list.
 std::vector<std::string> parted(std::string_view list);
 
-/// The help with the default after it, in brackets.
+/// The help, and then the default in brackets.
 std::string help_of(const Property& property);
+
+/// Such a text up to the first semicolon or full stop outside of parentheses, and then its brackets: a line of the
+/// short help.
+std::string first_clause(std::string_view help);
 
 }  // namespace meniscus

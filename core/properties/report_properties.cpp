@@ -10,13 +10,17 @@ namespace {
 constexpr std::string_view kOutput = "Output", kSession = "Session";
 
 constexpr auto kTable = std::to_array<Property>({
-    flag("report.json", "--json", "Print JSON instead of a table").in(kOutput),
-    new_file("report.csv_atoms", "--csv", "FILE", "Write areas, one row per atom. -: to standard output").in(kOutput),
+    flag("report.json", "--json", "Print JSON instead of a table").in(kOutput).in_short_help(),
+    new_file("report.csv_atoms", "--csv", "FILE", "Write areas, one row per atom. -: to standard output")
+        .in(kOutput)
+        .in_short_help(),
     new_file("report.csv_residues", "--csv-residues", "FILE", "Write areas, one row per residue. -: to standard output")
-        .in(kOutput),
+        .in(kOutput)
+        .in_short_help(),
     new_file("report.csv_series", "--csv-series", "FILE",
              "Write areas, volume and cavities of a run, one row per frame. -: to standard output")
-        .in(kOutput),
+        .in(kOutput)
+        .in_short_help(),
     new_file("report.csv_cavities", "--csv-cavities", "FILE",
              "Write the cavities of a run, one row per cavity and frame. Columns: number, birth and end, volume, area, "
              "place, residues around; -: to standard output")
@@ -27,18 +31,22 @@ constexpr auto kTable = std::to_array<Property>({
              "position; -: to standard output")
         .in(kOutput),
     text("report.context", "--context", "EXPR", "Report the area of --select that these atoms bury").in(kOutput),
-    new_file("report.csv_pockets", "--csv", "FILE", "Write one row per pocket. -: to standard output").in(kOutput),
+    new_file("report.csv_pockets", "--csv", "FILE", "Write one row per pocket. -: to standard output")
+        .in(kOutput)
+        .in_short_help(),
     new_file("report.pocket_mesh", "--mesh", "FILE",
              "Write the pockets as closed meshes, each in its colour. Endings: .ply, .obj, .glb, .3mf, .stl, .off, "
              ".vtp; for frames with # for the number")
-        .in(kOutput),
+        .in(kOutput)
+        .in_short_help(),
     new_file("report.pocket_figure", "--figure", "FILE",
              "Write a scene that colours the atoms around pockets. For render, export and preview; ligands are sticks")
         .in(kOutput),
 
     text("preview.serve", "--serve", "[PORT]",
          "Serve a web page instead of a window, on 127.0.0.1. PORT: by default any free one")
-        .in(kSession, live | value_optional),
+        .in(kSession, live | value_optional)
+        .in_short_help(),
     file("preview.commands", "--commands", "FILE", "Run commands from this file first, one JSON object per line")
         .in(kSession, live),
     new_file("preview.record", "--record", "FILE", "Record all commands in this file, for --commands")

@@ -23,6 +23,7 @@ constexpr auto kTable = of_commands(
              "Open the contact of two groups like a book: A:B, A,C:B or EXPR:EXPR. Both sides face the viewer and are "
              "coloured by buried area")
             .in(kSurface, kSeen)
+            .in_short_help()
             .of((kForFigures & ~for_preview) | for_mesh),
         word("surface.kind", "--surface", "KIND",
              "Kind of surface: ses, sas or vdw. ses: solvent-excluded; sas: solvent-accessible; vdw: van der Waals, "
@@ -35,16 +36,19 @@ constexpr auto kTable = of_commands(
             .from(0, 1000)
             .initially("1.4")
             .in(kSurface, kShared | live | of_surfaces)
+            .in_short_help()
             .of(kForRuns | for_bench),
         text("surface.show", "--show", "EXPR",
              "Show only the surface of these atoms. It is still computed with all atoms")
             .in(kSurface, kShared | live | of_surfaces)
+            .in_short_help()
             .of(kForFigures | for_mesh | for_pockets),
         text("surface.by", "--by", "WORD",
              "Split into objects: by chain, model, class, residue or component. chain, model, class (polymer, ligand, "
              "...), residue: each has a surface as if it were alone; component: each closed part of the one surface")
             .proposes("chain|model|class|residue|component")
             .in(kSurface, kSeen)
+            .in_short_help()
             .of(kForParts),
         word("surface.cavities", "--cavities", "WORD",
              "Cavities: keep, drop or only. drop: leave out what cannot be reached from outside; only: cavities and "
@@ -59,6 +63,7 @@ constexpr auto kTable = of_commands(
             .proposes("auto|gpu|software|cpu")
             .initially("auto")
             .in(kDevice)
+            .in_short_help()
             .of(kForRuns | for_bench),
         flag("surface.require_gpu", "--require-gpu",
              "Fail with exit code 4 if there is no hardware GPU. Without it the CPU or software OpenGL is used")
@@ -80,11 +85,13 @@ constexpr auto kTable = of_commands(
              "atoms, as in 'ligand=orange'. Repeatable; the last one counts. meniscus colors explains the schemes")
             .initially("element")
             .in(kColour, kSeen | live | repeatable | of_objects)
+            .in_short_help()
             .of(kForColours),
         file("surface.color_by_file", "--color-by-file", "NUMBERS",
              "Colour by numbers from a file. One number per atom of FILE or per atom used; lines of chain, residue and "
              "number; or a CSV table, such as meniscus surface --csv-residues writes. nan, ? and - mean missing")
             .in(kColour, kSeen | live)
+            .in_short_help()
             .of(kForColours),
         text("surface.color_column", "--color-column", "NAME", "Column of the table of --color-by-file")
             .in(kColour, kSeen | live)
@@ -94,6 +101,7 @@ constexpr auto kTable = of_commands(
              "Colour by a volume map, such as a potential from APBS. Formats: OpenDX (.dx), Gaussian cube, CCP4/MRC. "
              "Needs --color-range; the default --map is red-white-blue")
             .in(kColour, kSeen)
+            .in_short_help()
             .of(kForColours)
             .excludes("surface.color_by_file"),
         number(
@@ -110,6 +118,7 @@ constexpr auto kTable = of_commands(
              "(each number has its own colour). blue-white-red is the default for hydrophobicity")
             .initially("viridis")
             .in(kColour, kSeen | live | of_objects)
+            .in_short_help()
             .of(kForColours),
         file("surface.map_file", "--map-file", "FILE",
              "File of a colour map: one colour per line, or a position and a colour. A JSON list of them is read, too")
@@ -120,6 +129,7 @@ constexpr auto kTable = of_commands(
              "about 0, for hydrophobicity -4.5:4.5")
             .initially("auto")
             .in(kColour, kSeen | live | of_objects)
+            .in_short_help()
             .of(kForColours),
         text("surface.missing_color", "--missing-color", "COLOR",
              "Colour of atoms without a number and points outside the map")
@@ -134,14 +144,16 @@ constexpr auto kTable = of_commands(
             .of(kForColours),
         text("surface.opacity", "--opacity", "EXPR=N",
              "Opacity from 0 (hidden) to 1: a number, or EXPR=0.4 for some atoms. Repeatable; the last one counts")
-            .in(kFigure, kSeen | live | repeatable | of_objects),
+            .in(kFigure, kSeen | live | repeatable | of_objects)
+            .in_short_help(),
         flag("surface.film_opacity", "--film-opacity",
              "Make transparent surfaces denser at grazing angles, like a thin film")
             .in(kFigure, kSeen | live | of_surfaces),
         text("surface.clip", "--clip", "PLANE",
              "Cut by a plane with exact caps: x<20, 1,1,0>35 or depth>0.5. The part where this holds is kept. depth "
              "runs along the line of sight from 0 (nearest) to 1 (farthest). Repeatable; all apply")
-            .in(kFigure, kSeen | live | repeatable | of_surfaces),
+            .in(kFigure, kSeen | live | repeatable | of_surfaces)
+            .in_short_help(),
         text("surface.cap_color", "--cap-color", "COLOR",
              "Colour of caps: atom (that of the nearest) or a colour (red, #rrggbb)")
             .initially("atom")
@@ -153,17 +165,21 @@ constexpr auto kTable = of_commands(
 
         text("figure.sticks", "--sticks", "EXPR", "Draw these atoms as sticks, also outside --select. Repeatable")
             .in(kBeside, in_bundle | live | repeatable)
+            .in_short_help()
             .of(kForFigures | for_mesh),
         text("figure.balls", "--balls", "EXPR", "Draw these atoms as balls and sticks")
             .in(kBeside, in_bundle | live | repeatable)
+            .in_short_help()
             .of(kForFigures | for_mesh),
         text("figure.spheres", "--spheres", "EXPR", "Draw these atoms as spheres of their van der Waals radii")
             .in(kBeside, in_bundle | live | repeatable)
+            .in_short_help()
             .of(kForFigures | for_mesh),
         text("figure.tube", "--tube", "EXPR",
              "Draw the backbone of these atoms as a cartoon: tubes, ribbons, arrows. Helices are ribbons, strands are "
              "arrows")
             .in(kBeside, in_bundle | live | repeatable)
+            .in_short_help()
             .of(kForFigures | for_mesh),
         number("shapes.stick_radius", "--stick-radius", "Å", "Radius of sticks in Å")
             .from(0.001, 10)
@@ -199,6 +215,7 @@ constexpr auto kTable = of_commands(
             .from(0, 1e9)
             .initially("30: one molecule of water")
             .in(kSurface)
+            .in_short_help()
             .of(for_pockets),
         number("pockets.mouth_tolerance", "--mouth-tolerance", "Å",
                "Largest error of a mouth's position, in Å; less takes longer")
@@ -210,6 +227,7 @@ constexpr auto kTable = of_commands(
              "Atoms to take out first, whose places are reported; none: leave all in")
             .initially("ligand")
             .in(kSurface)
+            .in_short_help()
             .of(for_pockets),
     }));
 

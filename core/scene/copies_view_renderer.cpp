@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Draws copies: on the CPU from one computed surface each, on GL as atoms like all others.
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -30,6 +31,11 @@ class CpuCopiesRenderer final : public CpuView {
     return point;
   }
   std::shared_ptr<const Surface> surface() const override { return nullptr; }
+  double grown_by() const override {
+    double most = 0.0;
+    for (const SurfaceObject& object : objects_) most = std::max(most, object.surface.certificate.grown_by);
+    return most;
+  }
 
  private:
   void forget() override { objects_.clear(); }
@@ -98,6 +104,7 @@ class PlacedAtomsRenderer final : public ViewRenderer {
     return point;
   }
   std::shared_ptr<const Surface> surface() const override { return nullptr; }
+  double grown_by() const override { return renderer_->grown_by(); }
   bool draws_on_cpu() const override { return renderer_->draws_on_cpu(); }
   const std::vector<StageTime>& times() const override { return renderer_->times(); }
 

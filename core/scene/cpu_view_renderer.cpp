@@ -23,6 +23,7 @@ class CpuViewRenderer final : public CpuView {
     return point;
   }
   std::shared_ptr<const Surface> surface() const override { return surface_; }
+  double grown_by() const override { return surface_ ? surface_->certificate.grown_by : 0.0; }
 
  private:
   void forget() override { surface_.reset(); }

@@ -50,6 +50,7 @@ class GlViewRenderer final : public ViewRenderer {
     return shows_layered_ ? layered_->pick(pixel) : renderer_.pick(pixel);
   }
   std::shared_ptr<const Surface> surface() const override { return shows_layered_ ? layered_->surface() : nullptr; }
+  double grown_by() const override { return shows_layered_ ? layered_->grown_by() : visible_.stats().grown_by; }
   bool draws_on_cpu() const override {
     return request_.hides_surface || !request_.cuts.empty() || (beside_ && !beside_->empty()) ||
            coloring_.is_translucent();

@@ -54,6 +54,8 @@ class ViewRenderer {
 
   /// The complete surface of the atoms, if that is what is drawn; else nullptr.
   virtual std::shared_ptr<const Surface> surface() const = 0;
+  /// Å by which radii were grown at most for the last picture to tell ties apart; 0 as a rule.
+  virtual double grown_by() const = 0;
   /// Is the picture that the next draw makes cast on the CPU?
   virtual bool draws_on_cpu() const = 0;
   /// Of the stages of the last picture.

@@ -24,6 +24,11 @@ constexpr std::size_t kProbeWord = 3 * kWord;  // of GpuScene::counters, as appe
 }  // namespace
 
 void ViewPipeline::set_atoms(std::vector<Ball> atoms) {
+  stats_.grown_by = 0.0;
+  take_atoms(std::move(atoms));
+}
+
+void ViewPipeline::take_atoms(std::vector<Ball> atoms) {
   assert(!atoms.empty());
   trusted_ = trusted_ && atoms.size() == atoms_.size();
   atoms_ = std::move(atoms);
@@ -51,7 +56,8 @@ const GpuScene& ViewPipeline::prepare(const PictureFrame& frame, StageClock& clo
     } catch (const OpenSurfaceError&) {
       trusted_ = false;
       if (attempt == kTieAttempts) throw;
-      set_atoms(grown_balls(atoms_, attempt));
+      take_atoms(grown_balls(atoms_, attempt));
+      stats_.grown_by += tie_growth(attempt);
     }
   }
 }

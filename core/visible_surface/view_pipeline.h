@@ -35,6 +35,7 @@ struct ViewStats {
   std::size_t probes = 0;      ///< RS faces that can matter for a pixel
   std::size_t primitives = 0;
   CircleStats circles;
+  double grown_by = 0.0;  ///< Å by which radii were grown at most to tell ties apart, as Certificate::grown_by
 };
 
 /// Draws atoms by the surface that one view needs; nothing but counters comes back from the GPU between the stages, and
@@ -70,6 +71,7 @@ class ViewPipeline final : public Drawable {
   const ViewStats& stats() const { return stats_; }
 
  private:
+  void take_atoms(std::vector<Ball> atoms);
   void prepare_once(const PictureFrame& frame, StageClock& clock);
   bool can_trust() const;
   bool settle_arcs_and_probes();

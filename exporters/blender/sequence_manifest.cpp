@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/output_file.h"
+#include "core/base/version.h"
 #include "core/color/color_key_json.h"
 #include "exporters/blender/mns_file.h"
 

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/text.h"
+#include "core/base/version.h"
 #include "core/color/color_key_json.h"
 #include "core/color/color_maps.h"
 #include "core/mesh/mesh_colors.h"

@@ -10,6 +10,7 @@
 
 #include "core/base/constants.h"
 #include "core/base/error.h"
+#include "core/base/version.h"
 #include "core/color/named_colors.h"
 #include "core/mesh/mesh_colors.h"
 #include "core/mesh/triangle_mesh.h"

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "core/base/version.h"
 #include "exporters/mesh_files/writers.h"
 
 namespace meniscus {

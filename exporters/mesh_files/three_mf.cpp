@@ -17,6 +17,7 @@
 #include <libdeflate.h>
 
 #include "core/base/error.h"
+#include "core/base/version.h"
 #include "exporters/mesh_files/writers.h"
 
 namespace meniscus {

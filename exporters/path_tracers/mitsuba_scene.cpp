@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "core/base/version.h"
 #include "exporters/path_tracers/lights.h"
 
 namespace meniscus::path_tracers {

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "core/base/version.h"
 #include "exporters/path_tracers/lights.h"
 
 namespace meniscus::path_tracers {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 
+#include "core/base/version.h"
 #include "exporters/povray/scene_names.h"
 #include "exporters/povray/scene_report.h"
 #include "exporters/povray/scene_templates.h"

@@ -1,8 +1,9 @@
-# Writes one C++ file that holds the text of every file below a folder but documents (*.md), sorted by path.
-# Run as: cmake -DFOLDER=<folder> -DROOT=<what paths begin behind> -DOUTPUT=<file.cpp> -DHEADER=<declares both>
-#         -DTYPE=<struct of path and text> -DFUNCTION=<gives them all> -P embed_files.cmake
+# Writes one C++ file that holds the text of every file below a folder, sorted by path: of all but documents (*.md), or of
+# documents alone.
+# Run as: cmake -DFOLDER=<folder> -DROOT=<folder that paths are relative to> -DOUTPUT=<file.cpp> -DHEADER=<declares both>
+#         -DTYPE=<struct of path and text> -DFUNCTION=<returns them all> -DFILTER=<EXCLUDE or INCLUDE> -P embed_files.cmake
 file(GLOB_RECURSE paths RELATIVE ${ROOT} ${FOLDER}/*)
-list(FILTER paths EXCLUDE REGEX "[.]md$")
+list(FILTER paths ${FILTER} REGEX "[.]md$")
 list(SORT paths)
 
 set(entries "")

@@ -2,7 +2,7 @@
 { pkgs ? import <nixpkgs> { } }:
 pkgs.stdenv.mkDerivation {
   pname = "libmeniscus";
-  version = "0.1.0";
+  version = "0.2.0";
   src = ../..;
   nativeBuildInputs = with pkgs; [ cmake ninja pkg-config ];
   buildInputs = with pkgs; [ glm fmt tbb_2021 gemmi zlib freetype nlohmann_json libdeflate ]

@@ -15,6 +15,8 @@
 
 #include <meniscus/meniscus.hpp>
 
+#include "core/base/version.h"
+
 namespace {
 
 using meniscus::Ball;

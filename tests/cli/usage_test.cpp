@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the program says about words that it does not know, and what it assumes where words are missing.
+#include <algorithm>
 #include <filesystem>
 
 #include <gtest/gtest.h>
 
+#include "core/base/version.h"
 #include "tests/support/run_program.h"
 
 namespace meniscus {
@@ -126,16 +128,33 @@ TEST_F(Words, APictureNeedsNoNameAndNoCommand) {
   std::filesystem::current_path(here);
 }
 
-TEST_F(Words, HelpBeginsWithThePictureAndKeepsRareOptionsForLater) {
+TEST_F(Words, HelpBeginsWithThePictureAndFitsTwoScreens) {
   const std::string help = says({"render", "--help"}).out, all = says({"render", "--help-all"}).out;
+  EXPECT_LE(std::ranges::count(help, '\n'), 100);
   EXPECT_LT(help.find("--output"), help.find("--select"));
   EXPECT_LT(help.find("--color "), help.find("--select"));
   EXPECT_LT(help.find("--size"), help.find("--probe"));
-  EXPECT_EQ(help.find("--trajectory FILE"), std::string::npos);
-  EXPECT_EQ(help.find("--superpose EXPR"), std::string::npos);
-  EXPECT_NE(help.find("More on --help-all: Radii ("), std::string::npos) << help;
+  EXPECT_EQ(help.find("--shininess"), std::string::npos);
+  EXPECT_EQ(help.find("--radii-file"), std::string::npos);
+  EXPECT_NE(help.find("meniscus render --help-all"), std::string::npos) << help;
+  for (const char* command : {"surface", "pockets", "preview"})
+    EXPECT_LE(std::ranges::count(says({command, "--help"}).out, '\n'), 100) << command;
   for (const char* option : {"--superpose", "--radii-file", "--assembly", "--size", "--output"})
     EXPECT_NE(all.find(option), std::string::npos) << option;
+}
+
+TEST_F(Words, HelpShowsPagesOfTheManual) {
+  EXPECT_NE(says({"help"}).out.find("figures"), std::string::npos);
+  EXPECT_TRUE(says({"help", "figures"}).out.starts_with("# ")) << says({"help", "figures"}).out.substr(0, 80);
+  const ProgramResult wrong = says({"help", "figurs"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_NE(wrong.err.find("did you mean figures?"), std::string::npos) << wrong.err;
+}
+
+TEST_F(Words, CitesThePaperToo) {
+  const std::string cited = says({"--cite"}).out;
+  EXPECT_NE(cited.find("Krone, Michael"), std::string::npos) << cited;
+  EXPECT_NE(cited.find(MENISCUS_VERSION), std::string::npos) << cited;
 }
 
 TEST_F(Words, AWrongChainIsToldWithThoseThatAreThere) {

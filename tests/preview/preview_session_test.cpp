@@ -146,6 +146,22 @@ TEST_P(PreviewSessionTest, DraftsAreHalfTheSize) {
   EXPECT_GT(apply(R"({"command":"stats"})")["fps"], 0.0);
 }
 
+// Five spheres through one point; with a probe of 0.5 Å only grown radii tell them apart. The arcs of a view close
+// without that.
+TEST_P(PreviewSessionTest, StatsTellByHowMuchRadiiGrew) {
+  session_->render(Quality::full);
+  EXPECT_EQ(apply(R"({"command":"stats"})")["radii_grown_by"], 0.0);
+  PreviewState view;
+  view.size = {80, 60};
+  session_ = std::make_unique<PreviewSession>(renderer(), read_structure(test_file("corpus/one-point-4239.xyzr"), {}),
+                                              view, std::nullopt, folder_.path());
+  expect_ok(R"({"command":"probe","radius":0.5})");
+  session_->render(Quality::full);
+  const double grown_by = apply(R"({"command":"stats"})")["radii_grown_by"];
+  EXPECT_EQ(grown_by > 0.0, std::string(GetParam()) == "cpu");
+  EXPECT_LT(grown_by, 1e-5);
+}
+
 TEST_P(PreviewSessionTest, APickNamesTheAtomAndItsExactArea) {
   expect_ok(R"({"command":"zoom_to","selection":"name O"})");
   const Json reply = apply(R"({"command":"pick","x":40,"y":30})");

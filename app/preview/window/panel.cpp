@@ -232,6 +232,8 @@ void Panel::timing() {
   const Json& stats = link_.stats();
   if (!stats.is_object()) return;
   plain(timing_line(stats, link_.news().full));
+  if (const double grown_by = stats["radii_grown_by"].get<double>(); grown_by > 0.0)
+    plain(fmt::format("radii grown for ties by up to {:.1e} \xc3\x85", grown_by));
   if (!ImGui::TreeNodeEx("stages", ImGuiTreeNodeFlags_NoTreePushOnOpen)) return;
   if (!ImGui::BeginTable("times", 2, ImGuiTableFlags_RowBg)) return;
   ImGui::TableSetupColumn("stage", ImGuiTableColumnFlags_WidthStretch);

@@ -14,6 +14,7 @@
 #include "core/base/constants.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/version.h"
 #include "core/structure/structure.h"
 #include "core/base/binary_file.h"
 #include "core/trajectory/trajectory.h"

@@ -11,6 +11,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/base/version.h"
 #include "exporters/bindings/c/guard.h"
 #include "exporters/bindings/c/include/meniscus/meniscus.h"
 

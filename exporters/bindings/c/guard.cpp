@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "core/base/error.h"
+#include "core/base/version.h"
 
 namespace meniscus::c_api {
 namespace {

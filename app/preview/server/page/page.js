@@ -142,7 +142,8 @@ function show_stats(stats, full) {
   if (!full && Number(canvas.dataset.pictures) > 2) moving = `${stats.fps < 10 ? stats.fps.toFixed(1) : Math.round(stats.fps)} fps`;
   const rest = full ? `full picture in ${ms(stats.frame_milliseconds)}` : "";
   $("fps").textContent = [moving, rest].filter(Boolean).join(" · ");
-  fill_list($("stages"), [...stats.stages.map((stage) => [stage.name, ms(stage.milliseconds)]),
+  const grown = stats.radii_grown_by > 0 ? [["radii grown for ties by up to", `${stats.radii_grown_by.toExponential(1)} \u00c5`]] : [];
+  fill_list($("stages"), [...grown, ...stats.stages.map((stage) => [stage.name, ms(stage.milliseconds)]),
     ["encoding", ms(stats.encode_milliseconds)]]);
 }
 

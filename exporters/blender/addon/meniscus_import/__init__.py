@@ -4,7 +4,7 @@
 bl_info = {
     "name": "Meniscus",
     "author": "The Meniscus developers",
-    "version": (0, 1, 0),
+    "version": (0, 2, 0),
     "blender": (3, 4, 0),
     "location": "File > Import > Meniscus surface (.mns); 3D View > Sidebar > Meniscus",
     "description": "Exact solvent-excluded molecular surfaces: import, compute, animate",

@@ -47,7 +47,7 @@
 
 /* The version of this header; meniscus_version() returns that of the library. */
 #define MENISCUS_VERSION_MAJOR 0
-#define MENISCUS_VERSION_MINOR 1
+#define MENISCUS_VERSION_MINOR 2
 #define MENISCUS_VERSION_PATCH 0
 
 #if defined(_WIN32) && defined(MENISCUS_BUILDS_LIBRARY)
@@ -91,7 +91,7 @@ typedef enum meniscus_status {
  * another call of this thread fails. */
 MENISCUS_API const char* meniscus_last_error(void);
 
-/* "0.1.0". */
+/* "0.2.0". */
 MENISCUS_API const char* meniscus_version(void);
 
 /* ---- Radii --------------------------------------------------------------------------------------------------- */

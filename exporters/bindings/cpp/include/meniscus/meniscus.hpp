@@ -95,7 +95,7 @@ inline void check(meniscus_status status) {
   throw Error(status, meniscus_last_error());  // of a newer library
 }
 
-// "0.1.0": of the library that runs, not of this header.
+// "0.2.0": of the library that runs, not of this header.
 inline std::string version() { return meniscus_version(); }
 
 // ---- Radii ----

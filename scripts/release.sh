@@ -1,0 +1,62 @@
+#!/usr/bin/env bash
+# Makes the files of a release from a clean tree, and lists them with their checksums.
+#
+#   scripts/release.sh [OUT]        OUT is a new folder; build/dist/VERSION by default
+#
+# Made are the source archive, the Debian packages, and, of each target that scripts/targets.sh has built from this commit, a
+# wheel and a Blender extension. SHA256SUMS has a line for each. Refused are a tree with changes, versions that disagree, and
+# a changelog without this version.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+source scripts/packages.sh
+
+version=$(sed -n 's/^project(meniscus VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+out=${1:-build/dist/$version}
+refuse() { echo "release.sh: $1" >&2; exit 1; }
+[[ -z $(git status --porcelain) ]] || refuse "the tree has changes; commit them, or put them away with git stash"
+/usr/bin/python3 -B tests/docs/version_test.py 2>/dev/null || refuse "the version is not $version everywhere: python3 tests/docs/version_test.py"
+[[ ! -e $out ]] || refuse "$out exists; give another folder, or remove it"
+
+install_packages "${build_packages[@]}" "${run_packages[@]}"
+made=build/release_files
+rm -rf "$made"
+mkdir -p "$made" "$(dirname "$out")"
+
+echo "source" >&2
+git archive --format=tar --prefix="meniscus-$version/" HEAD | gzip -n -9 >"$made/meniscus-$version.tar.gz"
+
+echo "Debian packages" >&2
+cmake -S . -B build/packages -G Ninja -DCMAKE_BUILD_TYPE=Release -DMENISCUS_TESTS=OFF >/dev/null
+cmake --build build/packages >&2
+cpack --config build/packages/CPackConfig.cmake -B build/packages/made >&2
+mv build/packages/made/*.deb "$made"
+
+# wheels.py takes what lies in build/targets; of another commit it would be another version's.
+commit=$(git rev-parse HEAD)
+built=()
+for target in x86_64-linux aarch64-linux x86_64-windows aarch64-macos x86_64-macos; do
+  if [[ $(cat "build/targets/$target/commit" 2>/dev/null) == "$commit" ]]; then
+    built+=("$target")
+  else
+    echo "left out: $target, which scripts/targets.sh has not built from this commit" >&2
+  fi
+done
+if ((${#built[@]})); then
+  echo "wheels and extensions: ${built[*]}" >&2
+  /usr/bin/python3 scripts/wheels.py "$made" "${built[@]}" >&2
+  for target in "${built[@]}"; do
+    case $target in
+      x86_64-linux) platform=linux-x64 ;;
+      aarch64-linux) platform=linux-arm64 ;;
+      x86_64-windows) platform=windows-x64 ;;
+      aarch64-macos) platform=macos-arm64 ;;
+      x86_64-macos) platform=macos-x64 ;;
+    esac
+    bash scripts/extension.sh "$made" "$made" "$platform" >&2
+  done
+fi
+
+(cd "$made" && sha256sum -- * >SHA256SUMS)
+mv "$made" "$out"
+echo "$out:"
+(cd "$out" && cat SHA256SUMS)

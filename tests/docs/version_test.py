@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Everything that names the version of Meniscus names that of CMakeLists.txt, and CHANGELOG.md has a section about it."""
+import pathlib
+import re
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+VERSION = re.search(r"project\(meniscus VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
+#: Files, and how the version is written in them.
+PLACES = {
+    "CITATION.cff": r"^version: (.+)$",
+    "exporters/blender/addon/meniscus_import/blender_manifest.toml": r'^version = "(.+)"$',
+    "scripts/packaging/conda/recipe.yaml": r'^  version: "(.+)"$',
+    "scripts/packaging/default.nix": r'^  version = "(.+)";$',
+}
+#: Three numbers, each in a place of its own.
+NUMBERS = {
+    "exporters/bindings/c/include/meniscus/meniscus.h":
+        r"MENISCUS_VERSION_MAJOR (\d+)\n#define MENISCUS_VERSION_MINOR (\d+)\n#define MENISCUS_VERSION_PATCH (\d+)",
+    "exporters/blender/addon/meniscus_import/__init__.py": r'"version": \((\d+), (\d+), (\d+)\)',
+}
+
+
+class Version(unittest.TestCase):
+    def found(self, name, pattern):
+        match = re.search(pattern, (ROOT / name).read_text(), re.M)
+        self.assertIsNotNone(match, name)
+        return ".".join(match.groups())
+
+    def test_every_place_agrees(self):
+        for name, pattern in (PLACES | NUMBERS).items():
+            with self.subTest(name):
+                self.assertEqual(self.found(name, pattern), VERSION)
+
+    def test_the_changelog_has_it_within_sixty_lines(self):
+        sections = re.split(r"^## ", (ROOT / "CHANGELOG.md").read_text(), flags=re.M)
+        own = [section for section in sections if section.startswith((VERSION, "Unreleased"))]
+        self.assertTrue(any(section.startswith(VERSION + " (") for section in own), VERSION)
+        for section in own:
+            self.assertLessEqual(section.count("\n"), 60)
+
+
+if __name__ == "__main__":
+    unittest.main()
