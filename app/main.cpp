@@ -87,8 +87,9 @@ class ManualFormatter : public CLI::Formatter {
             make_subcommands(app, CLI::AppFormatMode::Normal);
     if (short_)
       help += fmt::format(
-          "\nThese are the options that most people need. meniscus {} --help-all has all {}, and more\n"
-          "about each; meniscus help has pages about subjects.\n",
+          "\n{}These are the options that most people need. {} --help-all shows all {},\n"
+          "and more about each. meniscus help lists pages about subjects.\n",
+          help.find(" EXPR ") == help.npos ? "" : "EXPR selects atoms: see meniscus help selections.\n",
           command_path(*app), app->get_options().size());
     return help + (app->get_parent() ? "" : std::string("\n") + kExitCodesInShort);
   }
@@ -111,7 +112,7 @@ class ManualFormatter : public CLI::Formatter {
 
   std::string make_option_desc(const CLI::Option* option) const override {
     const std::string& words = option->get_description();
-    return wrapped(short_ && option->nonpositional() ? first_clause(words) : words, kHelpWidth - column_width_);
+    return wrapped(short_ && option->nonpositional() ? first_sentence(words) : words, kHelpWidth - column_width_);
   }
 
   /// CLI11 counts bytes; a unit such as Å has fewer letters than bytes.

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes the twelve figures of docs/figures.md with two programs, as a table and contact sheets; figures_beside_pymol.sh
-runs it.
+"""Makes the twelve figures of docs/how-to/figures.md with two programs, as a table and contact sheets;
+figures_beside_pymol.sh runs it.
 
 PyMOL gets the camera that Meniscus saved, the same size, paper and cores, its usual surface and smooth edges; what a figure
 needs and PyMOL has no command for is made as its users make it, by a few lines of Python. Times are those of whole processes.

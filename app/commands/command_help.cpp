@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus help TOPIC`: topics in short, the help of commands, and the pages of the manual.
+// `meniscus help TOPIC`: shows topics in short, the help of commands, and the pages of the manual.
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -119,19 +119,20 @@ constexpr std::string_view kShelves[] = {"tutorials", "how-to", "reference", "ex
 bool is_on(std::string_view shelf, const ManualPage& page) { return page.path.starts_with(fmt::format("{}/", shelf)); }
 
 void list_topics(const CLI::App& program) {
-  fmt::print(std::cout, "meniscus help TOPIC shows a page. In short:\n\n");
+  fmt::print(std::cout, "meniscus help TOPIC shows a page:\n\n");
   for (const Topic& topic : kTopics) fmt::print(std::cout, "  {:<12} {}\n", topic.name, topic.summary);
   fmt::print(std::cout, "\nThe help of a command:\n\n");
   for (const CLI::App* command : program.get_subcommands({}))
     fmt::print(std::cout, "  {:<12} {}\n", command->get_name(), command->get_description());
+  fmt::print(std::cout, "\nPages of the manual:\n");
   for (const std::string_view shelf : kShelves) {
-    fmt::print(std::cout, "\nThe manual, {}:\n\n", shelf);
+    fmt::print(std::cout, "\n{}\n", shelf);
     for (const ManualPage& page : manual_pages())
       if (is_on(shelf, page)) fmt::print(std::cout, "  {:<18} {}\n", page.name(), page.title());
   }
 }
 
-/// Markdown is made to be read as it is; only its long lines are broken, outside of tables and code.
+/// Markdown is made to be read as it is; only its long lines are parted, outside of tables and code.
 void print_markdown(std::string_view text) {
   bool code = false;
   while (!text.empty()) {
@@ -172,7 +173,7 @@ void show(const CLI::App& program, const std::string& name) {
   }
   for (const CLI::App* command : program.get_subcommands({})) {
     if (command->get_name() == name) {
-      std::cout << command->help();
+      std::cout << command->help("meniscus");
       return;
     }
   }

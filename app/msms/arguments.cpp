@@ -169,7 +169,7 @@ std::string help_text() {
 An option may be cut short: -prob, -d, -all. -hdensity D, -no_rest, -no_rest_on_pbr and -free_vertices are read and
 change nothing; -socketName, -xdr and -sinetd are refused.
 Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 bad input, 5 too large, 6 output not written, 7 not closed.
-On any but 0 no file is written. What differs from MSMS: docs/msms.md.
+On any but 0 no file is written. What differs from MSMS: docs/reference/msms-contract.md.
 )";
 }
 

@@ -9,7 +9,7 @@ namespace meniscus {
 /// The page `meniscus help scenes`.
 std::string scene_help();
 
-/// A JSON schema (draft 2020-12) of scene files; ends with a newline. docs/scene.schema.json is the same.
+/// A JSON schema (draft 2020-12) of scene files; ends with a newline. docs/reference/scene.schema.json is the same.
 std::string scene_schema();
 
 }  // namespace meniscus

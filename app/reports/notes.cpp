@@ -101,7 +101,7 @@ void tell_built(const SceneCommand& command, const Molecule& molecule) {
 void tell_grown_radii(const SceneCommand& command, double grown_by) {
   if (grown_by > 0.0)
     say(command,
-        fmt::format("spheres meet in one point; they are separated by radii grown by up to {:.2g} Å", grown_by));
+        fmt::format("spheres that meet in one point were separated by radii grown by up to {:.2g} Å", grown_by));
 }
 
 Molecule build_and_tell(const SceneCommand& command, Structure structure) {

@@ -40,7 +40,7 @@ std::string help_of(const Property& property) {
                                   : fmt::format("{} [{}]", property.help, property.initial);
 }
 
-std::string first_clause(std::string_view help) {
+std::string first_sentence(std::string_view help) {
   std::string_view initial;
   if (const std::size_t bracket = help.rfind(" ["); help.ends_with(']') && bracket != help.npos) {
     initial = help.substr(bracket);

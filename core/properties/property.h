@@ -30,7 +30,7 @@ enum Trait : unsigned {
   in_bundle = 2,        ///< the command of a farm bundle may have it: it writes no file and starts no program
   live = 4,             ///< the preview changes it while it runs
   repeatable = 8,       ///< may be given several times; a list in scene files
-  value_optional = 16,  ///< the option may be without a value; true in scene files
+  value_optional = 16,  ///< the option may have no value; true in scene files
   needs_support = 32,   ///< a command without it would show something else, so it refuses a scene that sets it
   negated = 64,         ///< the scene key is false where the option is given
   rare = 128,           ///< few need it: the help has no words about its option; --set has its key
@@ -195,11 +195,10 @@ std::vector<std::string> words_of(const Property& property);
 /// Any such list.
 std::vector<std::string> parted(std::string_view list);
 
-/// The help, and then the default in brackets.
+/// The help with the default after it, in brackets.
 std::string help_of(const Property& property);
 
-/// Such a text up to the first semicolon or full stop outside of parentheses, and then its brackets: a line of the
-/// short help.
-std::string first_clause(std::string_view help);
+/// The first sentence of such a text, up to a full stop or semicolon outside of parentheses, and then its brackets.
+std::string first_sentence(std::string_view help);
 
 }  // namespace meniscus

@@ -23,7 +23,7 @@ struct ObjectKey {
 const std::vector<ObjectKey>& object_keys();
 
 /// Reads {"representation": "surface" | "sticks" | "balls" | "spheres" | "tube", "selection": EXPR, ...};
-/// docs/scenes.md has all keys. Throws RequestError that names the key, SelectionError.
+/// docs/how-to/scenes.md has all keys. Throws RequestError that names the key, SelectionError.
 FigureObjectRequest parse_figure_object(std::string_view json);
 
 /// What parse_figure_object reads as this object, exactly; what is as usual is left out.

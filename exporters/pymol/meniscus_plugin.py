@@ -2,7 +2,7 @@
 """Adds exact molecular surfaces to PyMOL: the commands meniscus, meniscus_area and meniscus_pockets.
 
 Load it with `run meniscus_plugin.py` or install it by the Plugin Manager. It needs the package meniscus in PyMOL's
-Python (docs/pymol.md).
+Python (docs/how-to/pymol.md).
 """
 import contextlib
 import itertools

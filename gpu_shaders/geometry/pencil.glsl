@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The spindle circles that two fixed probes share: all probes of one, a pencil, pass through its two axis cusps, so order
-// about the axis decides there, not arithmetic (docs/theory.md, Orientation).
+// about the axis decides there, not arithmetic (docs/explanation/theory.md, Orientation).
 //
 // Common subset of GLSL and C++: variables and functions of a kernel, members of a struct in C++, which has this file as its
 // body (core/surface/cusp_tracer.cpp). Sides of probe s are those from first_side(s) to before first_side(s + 1). The

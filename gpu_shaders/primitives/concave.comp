@@ -50,7 +50,7 @@ bool touches_all(dvec3 position, uvec3 of) {
 }
 
 // Whether the probe listed at `place` is a member of the same n-fold probe: there is no plane between them. Unlike
-// core/surface/fixed_probes.cpp this does not ask for arcs that join them (docs/theory.md says why that may be).
+// core/surface/fixed_probes.cpp this does not ask for arcs that join them (docs/explanation/theory.md says why that may be).
 bool coincides(uint place, uint self) {
   vec3 coarse = neighbor_balls[place].xyz;
   if (dot(coarse, coarse) > 1e-6) return false;  // more than may_stand_together() allows

@@ -43,7 +43,7 @@ for package in meniscus libmeniscus0 libmeniscus-dev python3-meniscus; do
 done
 cp "$(dpkg -L pymol-data | awk '/\/1tii\.pdb$/ && !n++')" "$home/1tii.pdb"
 cp exporters/bindings/c/example/* "$home/c/"
-awk '/^```cpp$/ { on = 1; next } /^```$/ { on = 0 } on' docs/library.md >"$home/cpp/balls.cpp"
+awk '/^```cpp$/ { on = 1; next } /^```$/ { on = 0 } on' docs/reference/library.md >"$home/cpp/balls.cpp"
 cat >"$home/cpp/CMakeLists.txt" <<'CMAKE'
 cmake_minimum_required(VERSION 3.16)
 project(balls LANGUAGES CXX)

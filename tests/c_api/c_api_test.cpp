@@ -110,7 +110,7 @@ TEST(CApi, OneSphereIsOneSphere) {
   }
 }
 
-// The closed form of docs/theory.md.
+// The closed form of docs/explanation/theory.md.
 TEST(CApi, TwoSpheresAreTheirClosedForm) {
   const double r = 1.7, p = 1.4, d = 4.0, R = r + p, T = std::sqrt(R * R - d * d / 4), phi = std::asin(d / (2 * R));
   const Computer made = computer();

@@ -292,7 +292,8 @@ TEST_F(SceneFile, EveryOptionOfAPictureIsInScenesOrNamedAsLeftOut) {
 }
 
 TEST_F(SceneFile, TheSchemaInTheTreeIsTheProgramsOwn) {
-  EXPECT_EQ(run({"help", "--scene-schema"}).out, test::read_bytes(test::test_file("../docs/scene.schema.json")));
+  EXPECT_EQ(run({"help", "--scene-schema"}).out,
+            test::read_bytes(test::test_file("../docs/reference/scene.schema.json")));
 }
 
 }  // namespace

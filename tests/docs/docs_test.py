@@ -33,8 +33,20 @@ class Documents(unittest.TestCase):
                 self.assertTrue((document.parent / target).exists(), f"{document.relative_to(ROOT)} links to {target}")
         self.assertGreater(checked, 40)
 
+    def test_the_front_page_of_the_manual_leads_to_every_page(self):
+        index = ROOT / "docs/index.md"
+        linked = set(re.findall(r"\]\(([^)#]+\.md)", index.read_text()))
+        pages = {str(path.relative_to(ROOT / "docs")) for path in (ROOT / "docs").glob("*/*.md")} - {"gallery/README.md"}
+        self.assertGreater(len(pages), 40)
+        self.assertEqual(pages - linked, set())
+
+    def test_pages_of_the_manual_are_found_by_one_word(self):
+        """`meniscus help NAME` takes the stem of a page."""
+        stems = [path.stem for path in (ROOT / "docs").glob("*/*.md")]
+        self.assertEqual(sorted(set(stems)), sorted(stems))
+
     def test_theorems_that_are_cited_are_there(self):
-        theory = (ROOT / "docs/theory.md").read_text()
+        theory = (ROOT / "docs/explanation/theory.md").read_text()
         parts = {}
         for number, body in re.findall(r"^## Theorem (\d+):.*?\n(.*?)(?=^## |\Z)", theory, re.M | re.S):
             parts[number] = set(re.findall(r"^(\d+)\. ", body, re.M))
@@ -61,8 +73,8 @@ class Documents(unittest.TestCase):
                 if isinstance(node, ast.ClassDef):
                     places[path.name, node.name] = [item.name for item in node.body
                                                     if isinstance(item, ast.FunctionDef) and item.name.startswith("test_")]
-        text = (ROOT / "docs/msms.md").read_text()
-        (contract,) = re.findall(r"^## What is promised$(.*?)(?=^## )", text, re.M | re.S)
+        text = (ROOT / "docs/reference/msms-contract.md").read_text()
+        (contract,) = re.findall(r"^## Promises$(.*?)(?=^## )", text, re.M | re.S)
         rows = [line.strip("|").replace(r"\|", "/").split("|") for line in contract.splitlines() if line.startswith("|")][2:]
         self.assertGreater(len(rows), 25)
         for row in rows:

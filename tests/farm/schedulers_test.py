@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Schedulers without a template: what docs/schedulers.md tells makes every frame, each by one task."""
+"""Schedulers without a template: what docs/reference/schedulers.md tells makes every frame, each by one task."""
 
 import json
 import os

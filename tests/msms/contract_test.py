@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The contract of docs/msms.md, row by row: command line, files, standard output, exit codes."""
+"""The contract of docs/reference/msms-contract.md, row by row: command line, files, standard output, exit codes."""
 
 import json
 import math

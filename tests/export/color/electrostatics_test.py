@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The recipe of docs/electrostatics.md, word for word: from a PDB file to a picture of its potential, and the values
+"""The recipe of docs/how-to/electrostatics.md, word for word: from a PDB file to a picture of its potential, and the values
 that a mesh gets of it have the signs that charged side chains give them."""
 
 import pathlib

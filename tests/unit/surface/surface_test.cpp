@@ -27,7 +27,7 @@ std::vector<int> euler_numbers(const Surface& surface) {
   return numbers;
 }
 
-// Area of two spheres of radius r at distance d (docs/theory.md, theorem 3; derived from Connolly 1983).
+// Area of two spheres of radius r at distance d (docs/explanation/theory.md, theorem 3; derived from Connolly 1983).
 double two_sphere_area(double r, double d, double p) {
   const double extended = r + p, circle = std::sqrt(extended * extended - d * d / 4), phi = std::asin(d / 2 / extended);
   const double convex = 4 * kPi * r * r * (1 + std::sin(phi));

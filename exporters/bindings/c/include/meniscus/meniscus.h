@@ -158,7 +158,8 @@ typedef struct meniscus_atoms {
 
 /* ---- Surfaces ------------------------------------------------------------------------------------------------ */
 
-/* A closed surface with its certificate: every border has two faces, areas and volumes are proved (see docs/theory.md).
+/* A closed surface with its certificate: every border has two faces, areas and volumes are proved (see
+ * docs/explanation/theory.md).
  */
 typedef struct meniscus_surface meniscus_surface;
 
