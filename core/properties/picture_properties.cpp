@@ -14,7 +14,8 @@ constexpr auto kTable = of_commands(
     kForFigures | for_mesh,
     std::to_array<Property>({
         camera("camera.from", "--camera", "FILE",
-               "Camera: JSON, PyMOL's get_view or ChimeraX's view matrix. A file, or the text itself")
+               "Camera as JSON, or as PyMOL or ChimeraX print it. A file, or the text itself: JSON, get_view or view "
+               "matrix")
             .initially("shows everything")
             .in(kCamera, kShared | live)
             .in_short_help(),
@@ -24,8 +25,8 @@ constexpr auto kTable = of_commands(
             .in(kCamera, kShared | live)
             .excludes("camera.from"),
         text("camera.view", "--view", "SIDE",
-             "Side that faces the viewer: front, back, top, bottom, right or left. front: the broad side; x, y, z: "
-             "axes of the file; 1, 2, 3: axes of inertia, longest first; symmetry: along the axis of --assembly; "
+             "Side that faces the viewer, such as front, top or left. front: the broad side; back, bottom, right; x, "
+             "y, z: axes of the file; 1, 2, 3: axes of inertia, longest first; symmetry: along the axis of --assembly; "
              "symmetry-side: with that axis upright. A minus sign before it shows the opposite side")
             .initially("front")
             .in(kCamera, kShared | live)
@@ -78,8 +79,7 @@ constexpr auto kTable = of_commands(
             .in(kPicture, kShared | live)
             .in_short_help()
             .of(for_render | for_preview),
-        text("image.background", "--background", "COLOR",
-             "Background: transparent, white, black, or a colour (grey, #rrggbb)")
+        text("image.background", "--background", "COLOR", "Background: transparent, or a colour (white, #rrggbb)")
             .proposes("transparent|white|black")
             .initially("transparent")
             .in(kPicture, kShared | live)

@@ -66,7 +66,7 @@ TEST(PreviewCommands, AreInTheirTableOfCommands) {
   } catch (const RequestError& error) {
     words = error.what();
   }
-  std::istringstream list(words.substr(words.find("there are ") + 10));
+  std::istringstream list(words.substr(words.find("the commands are ") + 17));
   std::size_t count = 0;
   for (std::string word; std::getline(list >> std::ws, word, ','); ++count) {
     EXPECT_NE(page.find("`" + word + "`"), std::string::npos) << word;

@@ -70,7 +70,7 @@ class SurfaceValues(TypedDict, total=False):
     dpi: float
     #: N: Rays per pixel, for smooth edges [9]
     samples: int
-    #: COLOR: Background: transparent, white, black, or a colour (grey, #rrggbb) [transparent]
+    #: COLOR: Background: transparent, or a colour (white, #rrggbb) [transparent]
     background: Text
     #: Add depth, normals, positions and atoms to an .exr. Channels: Z, N.xyz, P.xyz, atom, kind and component
     #: at each pixel's centre
@@ -248,12 +248,12 @@ class SceneValues(SurfaceValues, total=False):
     #: JSON: Draw one more object with its own look, as JSON of a scene file. Such as '{"representation":
     #: "surface", "selection": "chain B", "color": "red"}'. Repeatable
     object: Union[Text, Sequence[Text]]
-    #: FILE: Camera: JSON, PyMOL's get_view or ChimeraX's view matrix. A file, or the text itself [shows
-    #: everything]
+    #: FILE: Camera as JSON, or as PyMOL or ChimeraX print it. A file, or the text itself: JSON, get_view or
+    #: view matrix [shows everything]
     camera: Path
-    #: SIDE: Side that faces the viewer: front, back, top, bottom, right or left. front: the broad side; x, y,
-    #: z: axes of the file; 1, 2, 3: axes of inertia, longest first; symmetry: along the axis of --assembly;
-    #: symmetry-side: with that axis upright. A minus sign before it shows the opposite side [front]
+    #: SIDE: Side that faces the viewer, such as front, top or left. front: the broad side; back, bottom, right;
+    #: x, y, z: axes of the file; 1, 2, 3: axes of inertia, longest first; symmetry: along the axis of
+    #: --assembly; symmetry-side: with that axis upright. A minus sign before it shows the opposite side [front]
     view: Text
     #: AXISANGLE: Turn the molecule about an axis by degrees: y90, x-30, z45. x points right, y up, z to the
     #: viewer. Repeatable, applied in this order
