@@ -50,7 +50,7 @@ FILES = [
     ("record cut short", "s.pdb", "REMARK a\n" + atom() + atom()[:40] + "\n"),
     ("coordinate stars", "st.pdb", "REMARK a\n" + two(x="********")),
     ("inf occupancy, stars as B", "inf.pdb", two() + atom("3", " C  ", x="3.000", occupancy="   inf", b="******")),
-    ("10,000 km away", "far.pdb", "REMARK a\n" + two(x="1.0e+7")),
+    ("1 mm away", "far.pdb", "REMARK a\n" + two(x="1.0e+7")),
     ("serial stars and hex", "ser.pdb", two(serial="186A0").replace("    1 ", "***** ", 1)),
     ("hybrid-36, negative, insertion", "res.pdb", atom(number="A000") + atom("2", " CB ", number="  -5", x="1.500")
      + atom("3", " C  ", number="   5", insertion="A", x="3.000")),

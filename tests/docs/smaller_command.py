@@ -17,6 +17,9 @@ def smaller(words):
         return [*words[:inner], *(word for word in smaller(words[inner:]) if word != "--force")]
     if words[:2] == ["farm", "log"]:
         return [*words[:-1], "1"]  # of a frame that is made here
+    if words[:1] == ["work"] and "--frames" in words:
+        place = words.index("--frames") + 1
+        return [*words[:place], "1", *words[place + 1:]]
     is_short = words and words[0].endswith((".pdb", ".json"))
     if not is_short and not (words and words[0] in WRITERS):
         return words
