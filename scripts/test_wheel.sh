@@ -15,7 +15,7 @@ python=$folder/venv/bin/python
 "$python" -m pip wheel -q --no-deps -w "$folder/dist" .
 ls -l "$folder/dist"
 packages=(MDAnalysis mdtraj prody biotite biopython ase rdkit openmm gemmi pint astropy unyt joblib dask trimesh pyvista open3d)
-"$python" -m pip install -q "$folder"/dist/meniscus-*.whl "${packages[@]}" mypy pyright
+"$python" -m pip install -q "$folder"/dist/meniscus_ses-*.whl "${packages[@]}" mypy pyright
 MENISCUS_PACKAGE=$PWD/exporters/bindings/python "$python" -B "$tests/types_test.py" mypy pyright
 cd "$folder"
 unset MENISCUS_LIBRARY MENISCUS_PACKAGE

@@ -22,6 +22,8 @@ import zipfile
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 BUILT = os.path.join(ROOT, "build", "targets")
 PACKAGE = os.path.join(ROOT, "exporters", "bindings", "python", "meniscus")
+#: Its name for installers, and in the names of wheels. On PyPI "meniscus" is another project; Python imports meniscus.
+DISTRIBUTION, WHEEL = "meniscus-ses", "meniscus_ses"
 #: Target: its tag, and the name of its library.
 TARGETS = {"x86_64-linux": ("manylinux_2_28_x86_64", "libmeniscus.so"),
            "aarch64-linux": ("manylinux_2_28_aarch64", "libmeniscus.so"),
@@ -78,7 +80,7 @@ def materials():
 def metadata():
     with open(os.path.join(ROOT, "docs", "reference", "library.md"), encoding="utf-8") as file:
         description = file.read()
-    return ("Metadata-Version: 2.4\nName: meniscus\n"
+    return (f"Metadata-Version: 2.4\nName: {DISTRIBUTION}\n"
             f"Version: {version()}\n"
             "Summary: Exact solvent-excluded surfaces of molecules: areas, volumes, patches, meshes, distances, pictures\n"
             "License-Expression: BSD-3-Clause AND Apache-2.0 AND MIT AND MPL-2.0 AND FTL AND Zlib\n"
@@ -94,13 +96,13 @@ def read(path):
 def programs(target):
     """Names in the wheel -> paths. Installers make them executable and put them where commands are found."""
     suffix = ".exe" if "windows" in target else ""
-    return {f"meniscus-{version()}.data/scripts/{name}{suffix}": os.path.join(BUILT, target, name + suffix) for name in PROGRAMS}
+    return {f"{WHEEL}-{version()}.data/scripts/{name}{suffix}": os.path.join(BUILT, target, name + suffix) for name in PROGRAMS}
 
 
 def contents(target):
     """Names in the wheel -> bytes."""
     tag, library = TARGETS[target]
-    info = f"meniscus-{version()}.dist-info"
+    info = f"{WHEEL}-{version()}.dist-info"
     files = {f"meniscus/{name}": read(os.path.join(PACKAGE, name)) for name in os.listdir(PACKAGE)
              if name.endswith(".py") or name == "py.typed"}
     files[f"meniscus/{library}"] = read(os.path.join(BUILT, target, library))
@@ -119,7 +121,7 @@ def contents(target):
 
 def pack(target, out):
     """Writes the wheel of a target, whole or not at all; its path."""
-    path = os.path.join(out, f"meniscus-{version()}-py3-none-{TARGETS[target][0]}.whl")
+    path = os.path.join(out, f"{WHEEL}-{version()}-py3-none-{TARGETS[target][0]}.whl")
     files = contents(target)
     with zipfile.ZipFile(path + ".part", "w", zipfile.ZIP_DEFLATED) as wheel:
         for name in sorted(files, key=lambda name: (".dist-info/" in name, name)):

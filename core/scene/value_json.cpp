@@ -34,8 +34,13 @@ Json number_or_text(const std::string& text) {
 std::string seen_from(const std::string& folder, const std::string& path) {
   const fs::path given = path_of_text(path);
   if (folder.empty()) return text_of_path(given.filename());
+  const fs::path whole = fs::absolute(given).lexically_normal(),
+                 base = fs::absolute(path_of_text(folder)).lexically_normal();
+  // A link within the folder keeps its name: a scene may read no file outside of it.
+  if (const fs::path within = whole.lexically_relative(base); !within.empty() && *within.begin() != "..")
+    return text_of_path(within);
   std::error_code failed;
-  const fs::path seen = fs::proximate(fs::absolute(given), fs::absolute(path_of_text(folder)), failed);
+  const fs::path seen = fs::proximate(whole, base, failed);
   return text_of_path(failed ? fs::absolute(given) : seen);
 }
 

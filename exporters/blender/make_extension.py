@@ -3,7 +3,7 @@
 
     make_extension.py WHEELS OUT [PLATFORM...]
 
-WHEELS: a folder with meniscus-VERSION-py3-none-*.whl, of the add-on's version. OUT: a folder, made if it is missing; it gets
+WHEELS: a folder with meniscus_ses-VERSION-py3-none-*.whl, of the add-on's version. OUT: a folder, made if it is missing; it gets
 meniscus_import-VERSION-PLATFORM.zip. Without PLATFORM all are made. The same files give the same bytes."""
 
 import fnmatch
@@ -27,7 +27,7 @@ class Refusal(Exception):
 
 def find_wheel(folder, platform, version):
     """The path of the wheel for a platform. Raises Refusal if it is missing, of another version, or one of several."""
-    found = [name for name in sorted(os.listdir(folder)) if name.startswith("meniscus-") and name.endswith(".whl")
+    found = [name for name in sorted(os.listdir(folder)) if name.startswith("meniscus_ses-") and name.endswith(".whl")
              and any(fnmatch.fnmatch(name[:-len(".whl")].split("-")[-1], tag) for tag in PLATFORMS[platform])]
     if not found:
         raise Refusal(f"{folder}: there is no wheel of meniscus for {platform}")

@@ -25,8 +25,8 @@ def the_library():
     try:
         import meniscus
     except ImportError as error:
-        raise CmdException(f"Meniscus is not in PyMOL's Python ({error}); install it there: "
-                           f"{sys.executable} -m pip install meniscus") from error
+        raise CmdException(f"Meniscus is not in PyMOL's Python ({error}); install its wheel there: "
+                           f"{sys.executable} -m pip install meniscus_ses-VERSION-py3-none-SYSTEM.whl") from error
     return meniscus
 
 

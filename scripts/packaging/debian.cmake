@@ -97,14 +97,14 @@ install(DIRECTORY ${CMAKE_SOURCE_DIR}/exporters/bindings/python/meniscus DESTINA
         COMPONENT python3-meniscus EXCLUDE_FROM_ALL PATTERN __pycache__ EXCLUDE)
 file(CONFIGURE OUTPUT ${generated}/METADATA CONTENT [[
 Metadata-Version: 2.1
-Name: meniscus
+Name: meniscus-ses
 Version: @PROJECT_VERSION@
 Summary: Exact solvent-excluded surfaces of molecules: areas, volumes, patches, meshes, distances, pictures
 License: BSD-3-Clause
 Requires-Python: >=3.9
 Requires-Dist: numpy>=1.21
 ]] @ONLY)
-install(FILES ${generated}/METADATA DESTINATION lib/python3/dist-packages/meniscus-${PROJECT_VERSION}.dist-info
+install(FILES ${generated}/METADATA DESTINATION lib/python3/dist-packages/meniscus_ses-${PROJECT_VERSION}.dist-info
         COMPONENT python3-meniscus EXCLUDE_FROM_ALL)
 debian_package(python3-meniscus python3-meniscus
   SECTION python

@@ -97,7 +97,8 @@ std::vector<BadFile> bad_files() {
       // PQR (33)
       {"pdb named pqr", "a.pqr", pdb({}), "the name says PQR, but the content is PDB"},
       {"pqr named pdb", "a.pdb", kPqr, "the name says PDB, but the content is PQR"},
-      {"pqr without radius", "a.pqr", "ATOM 1 N ALA 1 0 0 0 0.1\n", ":1: 'ATOM 1 N ALA 1 0 0 0 0.1' cannot be taken"},
+      {"pqr without radius", "a.pqr", "ATOM 1 N ALA 1 0 0 0 0.1\n",
+       ":1: 'ATOM 1 N ALA 1 0 0 0 0.1' cannot be split into fields"},
       {"pqr of touching numbers", "a.pqr", kPqr + "ATOM 2 C ALA A 1 -100.125-100.25 0 0.1 1.5\n", ":2: 'ATOM 2 C ALA"},
       {"pqr negative radius", "a.pqr", kPqr + "ATOM 2 C ALA A 1 1 0 0 0.1 -1.0\n", ":2: radius is -1 Å"},
       {"pqr nan radius", "a.pqr", kPqr + "ATOM 2 C ALA A 1 1 0 0 0.1 nan\n",

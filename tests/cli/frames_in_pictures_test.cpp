@@ -231,7 +231,8 @@ TEST_F(FramesInPictures, ACurveGoesAlong) {
   refused({"--curve", table, "--curve-column", "depth"}, 3,
           "series.csv:1: has no column 'depth'; it has time, ses_area");
   refused({"--curve", folder_.file("short.csv", "frame,time,volume\n0,,1\n1,,2\n")}, 3, "has no row for frame 2");
-  refused({"--curve", folder_.file("twice.csv", "frame,volume\n0,1\n0,2\n")}, 3, "twice.csv:3: frame 0 stands here a");
+  refused({"--curve", folder_.file("twice.csv", "frame,volume\n0,1\n0,2\n")}, 3,
+          "twice.csv:3: frame 0 appears a second time");
   refused({"--curve", folder_.file("word.csv", "frame,volume\n0,many\n")}, 3,
           "word.csv:2: volume 'many' is not a number");
   refused({"--curve", folder_.file("none.csv", "a,b\n")}, 3, "none.csv:1: is not a header with a column 'frame'");

@@ -84,6 +84,16 @@ TEST_F(SceneFile, WhatIsSavedMakesTheSamePictureAgain) {
 }
 
 // Version 0.1.0 wrote the number of an enumerator where the user had given a word.
+TEST_F(SceneFile, ALinkInItsFolderKeepsItsName) {
+  const TemporaryFolder elsewhere;
+  std::filesystem::create_symlink(elsewhere.file("far.xyzr", kTwoAtoms), path("near.xyzr"));
+  ASSERT_EQ(render({path("near.xyzr"), "--size=32x24", "-o", path("a.png"), "--save-scene", path("a.json")}).exit_code,
+            0);
+  EXPECT_EQ(nlohmann::json::parse(bytes("a.json"))["molecule"]["file"], "near.xyzr");
+  const ProgramResult again = render({"--scene", path("a.json"), "-o", path("b.png")});
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+}
+
 TEST_F(SceneFile, HasWordsAsTheyWereGivenAndReadsTheNumbersOfVersion010) {
   const std::vector<std::string> options{molecule_, "--size=64x48", "--preset", "soft",         "--surface",
                                          "sas",     "--cavities",   "drop",     "--projection", "orthographic"};

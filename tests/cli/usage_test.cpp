@@ -84,7 +84,7 @@ TEST_F(Words, ABackgroundMayHaveAnyNameOfAColour) {
   const auto picture = [&](const std::string& color) {
     const std::string output = (folder_.path() / (color + ".png")).string();
     const ProgramResult result = says({"render", molecule_, "-o", output, "--size", "40x30", "--samples", "1",
-                                       "--no-provenance", "--background", color});
+                                       "--no-provenance", "--force", "--background", color});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return test::read_bytes(output);
   };
@@ -218,7 +218,7 @@ TEST_F(Words, SizesMayBeLengths) {
   EXPECT_EQ(header({"--width", "1in", "--dpi", "72"}), (Numbers{72, 54, 2835}));
   EXPECT_EQ(header({"--dpi", "72", "--height", "2.54cm"}), (Numbers{96, 72, 2835}));
   EXPECT_EQ(header({"--width", "64px", "--height", "64"}), (Numbers{64, 64}));
-  EXPECT_NE(fault({"--width", "9ft"}).find("'9ft' is not a length, such as 85mm"), std::string::npos);
+  EXPECT_NE(fault({"--width", "9ft"}).find("'9ft' is not a length such as 85mm"), std::string::npos);
   EXPECT_NE(fault({"--width", "0.01mm"}).find("makes 0 pixels"), std::string::npos);
   EXPECT_NE(fault({"--width", "9in", "--size", "3x3"}).find("excludes"), std::string::npos);
 }

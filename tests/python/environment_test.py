@@ -131,12 +131,12 @@ class Wheels(unittest.TestCase):
 
     def test_systems(self):
         with tempfile.TemporaryDirectory() as name:
-            wheel = pathlib.Path(name, "meniscus-0.2.0-py3-none-manylinux_2_28_x86_64.whl")
+            wheel = pathlib.Path(name, "meniscus_ses-1.0-py3-none-manylinux_2_28_x86_64.whl")
             with zipfile.ZipFile(wheel, "w") as file:
-                for part, text in (("METADATA", "Metadata-Version: 2.1\nName: meniscus\nVersion: 0.1.0\nRequires-Python: >=3.9\n"),
+                for part, text in (("METADATA", "Metadata-Version: 2.1\nName: meniscus-ses\nVersion: 1.0\nRequires-Python: >=3.9\n"),
                                    ("WHEEL", "Wheel-Version: 1.0\nRoot-Is-Purelib: false\nTag: py3-none-manylinux_2_28_x86_64\n"),
                                    ("RECORD", "")):
-                    file.writestr(f"meniscus-0.1.0.dist-info/{part}", text)
+                    file.writestr(f"meniscus_ses-1.0.dist-info/{part}", text)
             refused = "is not a supported wheel on this platform"
             for platform, python, said in (("manylinux_2_28_x86_64", "3.9", ""), ("manylinux_2_28_x86_64", "3.14", ""),
                                            ("musllinux_1_2_x86_64", "3.12", refused), ("manylinux_2_17_x86_64", "3.12", refused),

@@ -70,9 +70,9 @@ class Wheels(unittest.TestCase):
         path = self.wheels.pack("x86_64-windows", self.folder)
         with zipfile.ZipFile(path) as wheel:
             info = {entry.filename: entry for entry in wheel.infolist()}
-            record = wheel.read(f"meniscus-{self.wheels.version()}.dist-info/RECORD").decode()
+            record = wheel.read(f"{self.wheels.WHEEL}-{self.wheels.version()}.dist-info/RECORD").decode()
         self.assertEqual(sorted(row[0] for row in csv.reader(io.StringIO(record))), sorted(info))
-        scripts = f"meniscus-{self.wheels.version()}.data/scripts/"
+        scripts = f"{self.wheels.WHEEL}-{self.wheels.version()}.data/scripts/"
         names = [name for name in info if name.startswith(scripts)]
         self.assertEqual(sorted(names), [scripts + name + ".exe" for name in sorted(self.wheels.PROGRAMS)])
         for name in names:

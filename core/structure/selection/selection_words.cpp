@@ -109,7 +109,7 @@ Rules:
   '...') take a value literally; they are needed for a value that is also a keyword.
   Ranges of residues are ordered by number and insertion code: 52 < 52A < 53.
   After within, around, byres, bychain or same ... as, put EXPR in parentheses if and/or follows.
-  SET within 5 of (EXPR): the atoms of SET near EXPR. (EXPR) around 5 and (EXPR) expand 5 work as in PyMOL.
+  SET within 5 of (EXPR): atoms of SET near EXPR. (EXPR) around 5 and (EXPR) expand 5 work as in PyMOL.
   Distances are exact, between the atoms of the file, without periodic images. In a run of frames
   within, x, y, z, helix, strand and coil are evaluated in each frame; with --select-once in the first
   frame only.

@@ -32,8 +32,8 @@ def meniscus(session, atoms=None, *, probe_radius=1.4, tolerance=0.05):
     try:
         import meniscus as library
     except ImportError as error:
-        raise UserError(f"Meniscus is not in ChimeraX's Python ({error}); install it by the command: "
-                        "pip install meniscus") from error
+        raise UserError(f"Meniscus is not in ChimeraX's Python ({error}); install its wheel by the command: "
+                        "pip install meniscus_ses-VERSION-py3-none-SYSTEM.whl") from error
     atoms = all_atoms(session) if atoms is None else atoms
     in_chains = atoms.filter(atoms.in_chains)
     models = []

@@ -29,7 +29,7 @@ class Extension(unittest.TestCase):
 
     def wheel(self, tag, version=None, license="licenses/LICENSE"):
         """Its path. Written again, it has the same bytes."""
-        path = os.path.join(self.wheels, f"meniscus-{version or self.manifest['version']}-py3-none-{tag}.whl")
+        path = os.path.join(self.wheels, f"meniscus_ses-{version or self.manifest['version']}-py3-none-{tag}.whl")
         with zipfile.ZipFile(path, "w") as file:
             file.writestr(zipfile.ZipInfo(f"meniscus.dist-info/{license}"), tag)  # of 1980, not of now
         return path

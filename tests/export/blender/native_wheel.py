@@ -18,8 +18,8 @@ def text_of(*path):
 
 
 version = re.search(r"project\(meniscus VERSION ([0-9.]+)", text_of("CMakeLists.txt")).group(1)
-tag, info = f"py3-none-linux_{os.uname().machine}", f"meniscus-{version}.dist-info"
-contents = {f"{info}/METADATA": f"Metadata-Version: 2.1\nName: meniscus\nVersion: {version}\n".encode(),
+tag, info = f"py3-none-linux_{os.uname().machine}", f"meniscus_ses-{version}.dist-info"
+contents = {f"{info}/METADATA": f"Metadata-Version: 2.1\nName: meniscus-ses\nVersion: {version}\n".encode(),
             f"{info}/WHEEL": f"Wheel-Version: 1.0\nGenerator: native_wheel\nRoot-Is-Purelib: false\nTag: {tag}\n".encode(),
             f"{info}/licenses/LICENSE": text_of("LICENSE").encode()}
 paths = [os.path.join(PACKAGE, name) for name in os.listdir(PACKAGE) if name.endswith((".py", ".typed"))]
@@ -30,6 +30,6 @@ rows = [f"{name},sha256={base64.urlsafe_b64encode(hashlib.sha256(data).digest())
         for name, data in contents.items()]
 contents[f"{info}/RECORD"] = "\n".join([*rows, f"{info}/RECORD,,", ""]).encode()
 os.makedirs(FOLDER, exist_ok=True)
-with zipfile.ZipFile(os.path.join(FOLDER, f"meniscus-{version}-{tag}.whl"), "w", zipfile.ZIP_DEFLATED) as wheel:
+with zipfile.ZipFile(os.path.join(FOLDER, f"meniscus_ses-{version}-{tag}.whl"), "w", zipfile.ZIP_DEFLATED) as wheel:
     for name, data in contents.items():
         wheel.writestr(name, data)

@@ -116,7 +116,7 @@ class Bundle(unittest.TestCase):
             self.command(self.session)
         with self.assertRaisesRegex(UserError, "there are no atoms"):
             self.command(self.session, self.atoms.filter(np.zeros(6, dtype=bool)))
-        with mock.patch.dict(sys.modules, {"meniscus": None}), self.assertRaisesRegex(UserError, "pip install meniscus"):
+        with mock.patch.dict(sys.modules, {"meniscus": None}), self.assertRaisesRegex(UserError, "pip install meniscus_ses"):
             self.command(self.session)
 
     def test_sessions_find_the_class_of_the_model(self):

@@ -166,7 +166,7 @@ class Plugin(unittest.TestCase):
         self.assertIn("tolerance", said_by("meniscus ubi, tolerance=0").splitlines()[0])
         self.assertIn("large_probe", said_by("meniscus_pockets ubi, large_probe=1").splitlines()[0])
         self.assertIn("no atoms in this state", said_by("meniscus_area ubi, state=7"))
-        with mock.patch.dict(sys.modules, {"meniscus": None}), self.assertRaisesRegex(CmdException, "-m pip install meniscus"):
+        with mock.patch.dict(sys.modules, {"meniscus": None}), self.assertRaisesRegex(CmdException, "-m pip install meniscus_ses"):
             plugin.meniscus("ubi")
 
     def test_names_of_users_do_not_break_it(self):

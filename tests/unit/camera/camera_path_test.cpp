@@ -110,7 +110,7 @@ TEST(CameraPath, FilesAndTheirFaults) {
   EXPECT_NE(complaint(R"({"keys":[{"frame":1,"camera":{}}]})").find("path.json: key 1: camera: \"position\""),
             std::string::npos);
   EXPECT_NE(complaint(R"({"keys":[{"frame":1,"camera":)" + good + R"(},{"frame":1,"camera":)" + good + "}]}")
-                .find("key 2: frames must rise"),
+                .find("key 2: frame numbers must increase"),
             std::string::npos);
 }
 

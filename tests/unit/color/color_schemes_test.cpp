@@ -189,7 +189,7 @@ TEST(Colors, MapsOfOnesOwn) {
   const std::pair<const char*, const char*> faults[] = {{"red\nbleu\n", "ramp:2: 'bleu' is not a colour"},
                                                         {"red\n", "holds 1 colours"},
                                                         {"0 red\nblue\n", "ramp:2: some colours have a position"},
-                                                        {"1 red\n1 blue\n", "ramp:2: the place 1 does not lie"},
+                                                        {"1 red\n1 blue\n", "ramp:2: the position 1 does not follow 1"},
                                                         {"[\"red\", 7]", "entry 2 is neither"},
                                                         {"[\"red\"", "is not valid JSON"},
                                                         {"a red blue\n", "ramp:1: "}};

@@ -239,7 +239,7 @@ TEST(Selection, MistakesArePointedAt) {
       {"same residue water", "'as' is expected here", 13},
       {"byres name CA and chain A", "it is unclear where the selection of 'byres' ends", 6},
       {"within 5 of water or ion", "it is unclear where the selection of 'within' ends", 12},
-      {"water\x01", "is not a word", 0},
+      {"water\x01", "is not a selection keyword", 0},
   };
   for (const Mistake& mistake : mistakes) {
     try {
@@ -346,8 +346,8 @@ TEST(Selection, HostileTextIsRefusedSoon) {
   EXPECT_NE(refused(prefixes + "all").find("nested"), std::string::npos);
   EXPECT_NE(refused(std::string(std::size_t{1} << 20, 'a')).find("1,048,576 bytes"), std::string::npos);
   EXPECT_NE(refused("name " + std::string(50'000, '"') + "\"").find("not closed"), std::string::npos);
-  EXPECT_NE(refused(std::string("all\0", 4)).find("is not a word"), std::string::npos);
-  EXPECT_NE(refused("\xff\xfe\x80").find("is not a word"), std::string::npos);
+  EXPECT_NE(refused(std::string("all\0", 4)).find("is not a selection keyword"), std::string::npos);
+  EXPECT_NE(refused("\xff\xfe\x80").find("is not a selection keyword"), std::string::npos);
 }
 
 TEST(Selection, LongChainsAndTheDeepestNestingWork) {
