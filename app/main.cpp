@@ -102,8 +102,11 @@ class ManualFormatter : public CLI::Formatter {
     std::ranges::stable_sort(headings, {}, [&](const std::string& heading) { return place_of(heading); });
     std::string text;
     for (const std::string& heading : headings) {
-      const std::vector<const CLI::Option*> options = app->get_options([&](const CLI::Option* option) {
+      std::vector<const CLI::Option*> options = app->get_options([&](const CLI::Option* option) {
         return heading_of(option->get_group()) == heading && option->nonpositional() && (!short_ || is_common(*option));
+      });
+      std::ranges::stable_sort(options, {}, [](const CLI::Option* option) {
+        return std::ranges::find(kHeadings, option->get_group(), &Heading::full) - std::begin(kHeadings);
       });
       if (!options.empty()) text += make_group(heading, false, options);
     }

@@ -19,6 +19,9 @@ NUMBERS = {
         r"MENISCUS_VERSION_MAJOR (\d+)\n#define MENISCUS_VERSION_MINOR (\d+)\n#define MENISCUS_VERSION_PATCH (\d+)",
     "exporters/blender/addon/meniscus_import/__init__.py": r'"version": \((\d+), (\d+), (\d+)\)',
 }
+#: What asks for a version asks for the same minor one.
+MINOR = ("docs/reference/library.md", "exporters/bindings/c/example/CMakeLists.txt", "scripts/packaging/try_package.sh",
+         "tests/c_api/installed_test.py")
 
 
 class Version(unittest.TestCase):
@@ -31,6 +34,11 @@ class Version(unittest.TestCase):
         for name, pattern in (PLACES | NUMBERS).items():
             with self.subTest(name):
                 self.assertEqual(self.found(name, pattern), VERSION)
+
+    def test_examples_ask_for_it(self):
+        for name in MINOR:
+            with self.subTest(name):
+                self.assertEqual(self.found(name, r"find_package\(Meniscus ([0-9.]+) REQUIRED\)"), VERSION.rpartition(".")[0])
 
     def test_the_changelog_has_it_within_sixty_lines(self):
         sections = re.split(r"^## ", (ROOT / "CHANGELOG.md").read_text(), flags=re.M)

@@ -57,7 +57,7 @@ class SequenceReader(unittest.TestCase):
             name = camera_reader.SIZES[projection]
             missing = {key: value for key, value in good.items() if key != "up"}
             for wrong, said in ((missing, "'up' is missing"), ({**good, "projection": "fisheye"}, "projection"), ([1, 2], "projection"),
-                                ({**good, "size": [4, 3]}, "'size' is nothing"), ({**good, name: 0}, "positive"),
+                                ({**good, "size": [4, 3]}, "'size' is not a key"), ({**good, name: 0}, "positive"),
                                 ({**good, name: "wide"}, "camera: "), ({**good, "position": good["target"]}, "position equals target"),
                                 ({**good, "up": [0, 0, "x"]}, "camera: "), ({**good, "up": [0, 0]}, "camera: "),
                                 ({**good, "target": [float("nan"), 0, 0]}, "not finite")):
@@ -67,7 +67,7 @@ class SequenceReader(unittest.TestCase):
                     camera_reader.read(path)
         with open(path, "w", encoding="utf-8") as file:
             json.dump({**good, "projection": "perspective", "vertical_fov": 180.0}, file)
-        with self.assertRaisesRegex(mns_reader.MnsError, "'height' is nothing"):
+        with self.assertRaisesRegex(mns_reader.MnsError, "'height' is not a key"):
             camera_reader.read(path)
         with open(path, "w", encoding="utf-8") as file:
             file.write("set_view (1, 2)")

@@ -309,9 +309,9 @@ class Scenes(unittest.TestCase):
         for renderer in ENDING:
             for options, code, word in (
                     (["--film-opacity"], 2, "--film-opacity"), (["--clip", "x<0", "--cap-hatching", "1"], 2, "--cap-hatching"),
-                    (["--material", "gold"], 2, "gold"), (["--hide-surface"], 2, "nothing"),
+                    (["--material", "gold"], 2, "gold"), (["--hide-surface"], 2, "no part of the surface is shown"),
                     (["--turntable", "1"], 2, "--frames"), (["--tolerance", "-1"], 2, "--tolerance"),
-                    (["--frames", "all", "--hide-surface"], 2, "nothing")):
+                    (["--frames", "all", "--hide-surface"], 2, "no part of the surface is shown")):
                 with self.subTest(renderer=renderer, options=options):
                     said = self.run_program("export", renderer, UBIQUITIN, "-o", self.folder / "none", "-q", *options, code=code)
                     self.assertIn(word, said.stderr)
