@@ -19,9 +19,10 @@ struct SurfacePoint {
   std::uint32_t face = kNone;  ///< into Surface::faces
 };
 
-/// Projects along the line to the nearest place of the probe's centre: the cones, wedges and tetrahedra over the
-/// patches (theorem 1) tile the solid below the surface, their walls are on the borders, so whoever is beyond a wall
-/// goes on with the face on its other side. Points have to be nearer to the surface than its radii of curvature.
+/// Projects a point onto the surface, along the line to the nearest place of the probe's centre. The cones, wedges and
+/// tetrahedra over the patches (theorem 1) tile the solid below the surface, and their walls are on the borders. A walk
+/// that crosses a wall continues on the face on its other side. Points have to be nearer to the surface than its radii
+/// of curvature.
 class SurfaceWalk {
  public:
   /// `surface` must live as long. Walks may cross all borders.

@@ -34,12 +34,13 @@ Json number_or_text(const std::string& text) {
 std::string seen_from(const std::string& folder, const std::string& path) {
   const fs::path given = path_of_text(path);
   if (folder.empty()) return text_of_path(given.filename());
-  const fs::path whole = fs::absolute(given).lexically_normal(),
-                 base = fs::absolute(path_of_text(folder)).lexically_normal();
-  // A link within the folder keeps its name: a scene may read no file outside of it.
-  if (const fs::path within = whole.lexically_relative(base); !within.empty() && *within.begin() != "..")
-    return text_of_path(within);
+  const fs::path whole = fs::absolute(given), base = fs::absolute(path_of_text(folder));
   std::error_code failed;
+  // A link within the folder keeps its name: a scene may read no file outside of it. By names alone "link/.." would be
+  // the folder of the link, so the file itself is asked.
+  if (const fs::path within = whole.lexically_normal().lexically_relative(base.lexically_normal());
+      !within.empty() && *within.begin() != ".." && fs::equivalent(base / within, whole, failed))
+    return text_of_path(within);
   const fs::path seen = fs::proximate(whole, base, failed);
   return text_of_path(failed ? fs::absolute(given) : seen);
 }

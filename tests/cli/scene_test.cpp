@@ -94,6 +94,19 @@ TEST_F(SceneFile, ALinkInItsFolderKeepsItsName) {
   EXPECT_EQ(again.exit_code, 0) << again.err;
 }
 
+// Of a link to a folder ".." is the folder around its target, where another file may have the same name.
+TEST_F(SceneFile, APathThroughALinkIsThatOfTheFileThatWasRead) {
+  const TemporaryFolder elsewhere;
+  const std::string far = elsewhere.file("two.xyzr", "0 0 0 3\n");
+  std::filesystem::create_directory(elsewhere.path() / "inner");
+  std::filesystem::create_directory_symlink(elsewhere.path() / "inner", path("link"));
+  ASSERT_EQ(
+      render({path("link/../two.xyzr"), "--size=32x24", "-o", path("a.png"), "--save-scene", path("a.json")}).exit_code,
+      0);
+  const std::string file = nlohmann::json::parse(bytes("a.json"))["molecule"]["file"];
+  EXPECT_TRUE(std::filesystem::equivalent(folder_.path() / file, far)) << file;
+}
+
 TEST_F(SceneFile, HasWordsAsTheyWereGivenAndReadsTheNumbersOfVersion010) {
   const std::vector<std::string> options{molecule_, "--size=64x48", "--preset", "soft",         "--surface",
                                          "sas",     "--cavities",   "drop",     "--projection", "orthographic"};

@@ -82,7 +82,8 @@ std::string from_pymol(std::string_view word) {
   return ours.text();
 }
 
-/// #model/chain:residue@name, any of them left out; :10.A of Chimera has the chain after the residue.
+/// #structure.model/chain:residue@name, any of them left out; :10.A of Chimera has the chain after the residue. The
+/// number of the structure that was opened means nothing here.
 std::string from_chimerax(std::string_view word) {
   constexpr std::string_view kSigns = "#/:@";
   OurWords ours;
@@ -91,7 +92,7 @@ std::string from_chimerax(std::string_view word) {
     const std::size_t end = std::min(word.find_first_of(kSigns, 1), word.size());
     const std::string_view value = word.substr(1, end - 1);
     const std::size_t dot = value.find('.');
-    if (sign == '#') ours.add("model", value.substr(0, dot));
+    if (sign == '#' && dot != std::string_view::npos) ours.add("model", value.substr(dot + 1));
     if (sign == '/') ours.add("chain", value);
     if (sign == ':') {
       ours.add_residues(value.substr(0, dot));

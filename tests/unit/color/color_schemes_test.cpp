@@ -102,7 +102,7 @@ TEST(Colors, NamesAreThoseOfCss) {
 
 TEST(Colors, RulesPaintTheAtomsMeantAndTheLastCounts) {
   ColorScheme wish = scheme("chain");
-  for (const char* rule : {"chain A=red", "b >= 15=#00f", "resname XXX=element"})
+  for (const char* rule : {"chain A=red", "b >= 15=#00f", "resname NONE=element"})
     wish.rules.push_back(parse_color_rule(rule));
   const Coloring coloring = color_atoms(four_atoms(), wish);
   const glm::vec3 red(1, 0, 0), blue(0, 0, 1);

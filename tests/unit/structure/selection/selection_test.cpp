@@ -223,7 +223,9 @@ TEST(Selection, MistakesArePointedAt) {
       {":LIG", "write 'resname LIG'", 0},
       {":10-20.A", "write 'resid 10-20 and chain A'", 0},
       {"/A", "'/A' is written in ChimeraX's way; write 'chain A'", 0},
-      {"#1/A:10@CA", "write 'model 1 and chain A and resid 10 and name CA'", 0},
+      {"#1/A:10@CA", "write 'chain A and resid 10 and name CA'", 0},
+      {"#1.2/A", "write 'model 2 and chain A'", 0},
+      {"#1", "'#1' is not a selection keyword", 0},
       {"/", "'/' is not a selection keyword", 0},
       {"index < 1.5", "is not a whole number", 8},
       {"b < nan", "is not a finite number", 4},
@@ -248,6 +250,10 @@ TEST(Selection, MistakesArePointedAt) {
     } catch (const SelectionError& error) {
       EXPECT_NE(error.sentence().find(mistake.sentence), std::string::npos)
           << mistake.expression << ": " << error.sentence();
+      // What is proposed in place of another program's words is understood.
+      const std::string sentence = error.sentence();
+      if (const std::size_t ours = sentence.find("write '"); ours != std::string::npos)
+        EXPECT_NO_THROW(parse_selection(sentence.substr(ours + 7, sentence.rfind('\'') - ours - 7))) << sentence;
       const std::string picture = error.picture();
       EXPECT_EQ(picture, pointed_at(mistake.expression, mistake.caret)) << mistake.expression;
     }
