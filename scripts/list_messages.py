@@ -3,7 +3,7 @@
 """list_messages.py [FOLDER...]: prints every message that the program and its add-ons can show, grouped by folder.
 
 A message is a text in the sources that is thrown, returned as a reason, or given as a warning or a note; {} stands for
-a value. Without folders those of core, app and exporters are listed. Whoever changes messages reads the whole list.
+a value. Without folders those of core, app and exporters are listed. Read the whole list after you change messages.
 """
 
 import ast

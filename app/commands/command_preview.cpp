@@ -161,7 +161,7 @@ std::vector<WrittenCommand> written_commands(const PreviewCommand& command) {
 
 void serve(DeclaredPreview& declared) {
   PreviewCommand& command = declared.state;
-  std::signal(SIGPIPE, SIG_IGN);  // whoever stops reading must not end the server
+  std::signal(SIGPIPE, SIG_IGN);  // a client that stops reading must not end the server
   const std::vector<WrittenCommand> commands = written_commands(command);
   Shown shown = read_inputs(command);
   const PictureDevice device(command.scene.molecule.surface);

@@ -118,7 +118,7 @@ bool Claims::take(const std::string& step, std::uint64_t frame) {
   for (int generation = 1; generation <= kMostGenerations; ++generation) {
     const fs::path path = claim_path(step, frame, generation);
     {
-      // Whoever gives all back sees a claim with its entry, or neither, and nothing is claimed after that.
+      // A worker that gives all back sees a claim with its entry, or neither, and nothing is claimed after that.
       const std::lock_guard lock(mutex_);
       if (over_) return false;
       if (make_claim(path)) {

@@ -27,7 +27,7 @@ namespace meniscus::farm {
 /// file system itself gave: clocks of machines do not matter.
 ///
 /// A worker that slept over its lease and goes on makes a frame twice; that costs time and nothing else, for frames
-/// appear whole and are the same whoever made them.
+/// appear whole and do not depend on the worker that made them.
 class Claims {
  public:
   /// Begins to show that this worker is running. Throws OutputError if that cannot be written.

@@ -77,9 +77,9 @@ double probe_decision_weight(double probe_radius, std::size_t index);
 /// wins). They have no patch and block nothing more. protruding: gets the Å by which one of them sticks out at most.
 std::vector<bool> swallowed_atoms(std::span<const Ball> atoms, double* protruding = nullptr);
 
-/// swallowed_atoms() of one frame after another: whoever could swallow whom is found once, with room for a way that all
-/// atoms may go. As long as none has gone farther, and radii are the same, only those pairs are asked again; where
-/// atoms go farther from frame to frame all is found again.
+/// swallowed_atoms() of one frame after another: the pairs in which one ball could swallow another are found once, with
+/// room for a way that all atoms may go. As long as none has gone farther, and radii are the same, only those pairs are
+/// asked again; where atoms go farther from frame to frame all is found again.
 class SwallowedAtoms {
  public:
   std::vector<bool> of(std::span<const Ball> atoms);

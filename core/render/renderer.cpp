@@ -155,7 +155,7 @@ bool Renderer::draw(Drawable& drawable, const Camera& camera, const RenderSettin
 bool Renderer::draw_once(Drawable& drawable, const RenderSettings& settings, const std::function<bool()>& stop,
                          bool& settled) {
   const PictureBlock block{{0, 0}, frame_.size};
-  // Whoever may give the picture up between samples wants to hear of each when it is there.
+  // A caller that may give the picture up between samples is told when each is there.
   const bool needs_map = needs_shade_map(block, settings);
   const bool trusts =
       counting_ == Counting::later && !needs_map && caster_.can_trust(block) && !(stop && settings.samples > 1);

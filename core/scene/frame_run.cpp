@@ -319,7 +319,7 @@ void FrameRun::survey(const std::function<void(std::uint64_t, const Structure&)>
       else
         place(frame.positions, structure);
     } catch (const InputError&) {
-      continue;  // whoever makes this frame says what is wrong with it
+      continue;  // the code that makes this frame reports the fault
     }
     look(number, structure);
   }

@@ -10,7 +10,7 @@
 namespace meniscus {
 namespace {
 
-/// Does `work`, unless the frame is at fault: whoever makes this frame says so.
+/// Does `work`, unless the frame is at fault; the code that makes the frame reports that.
 template <typename Work>
 std::exception_ptr fault_of_frame(const Work& work) {
   try {

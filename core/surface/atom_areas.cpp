@@ -259,7 +259,7 @@ class AreaDivider {
     return taken(0) && taken(1);
   }
 
-  // Whoever computed the faces: what is divided among the atoms is all of it.
+  // Checked for faces of either engine: the areas of the atoms add up to the surface.
   void require_sum() const {
     const double noise = 1e-6 * (1 + s_.area);
     double sum = 0, least = 0;

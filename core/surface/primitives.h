@@ -196,7 +196,7 @@ struct Surface {
   bool spindle(const ToroidalPatch& t) const { return crosses_axis(t, atoms, probe_radius); }
 };
 
-/// Where the clip planes of convex patches (by their index) come from: the tables of a surface, or whoever finds them
+/// Where the clip planes of convex patches (by their index) come from: the tables of a surface, or code that finds them
 /// for the few that are asked for.
 enum class PlaneChoice {
   bordering,  ///< at least the contact circles that border the patch: what they leave holds all of it

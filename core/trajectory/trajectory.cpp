@@ -124,7 +124,7 @@ void JoinedFrames::warn_of_overlap(std::size_t part) {
     parts_[part - 1]->read(parts_[part - 1]->frame_count() - 1, last);
     parts_[part]->read(0, first);
   } catch (const InputError&) {
-    return;  // whoever makes this frame says what is wrong with it
+    return;  // the code that makes this frame reports the fault
   }
   if (!last.time || !first.time || *first.time > *last.time) return;
   warnings_.emplace_back(fmt::format("{} begins at {} ps, and {} ends at {} ps; no frame is left out",

@@ -1,6 +1,6 @@
 # Run by cpack behind the packages, for what it does otherwise than Debian's policy: of a shared library it makes scripts
 # that call ldconfig, for modules of a program too, where a trigger is wanted, and only where the library is one for
-# others; and folders have the modes of whoever made the packages.
+# others; and folders have the modes that the maker's umask gave them.
 foreach(package ${CPACK_PACKAGE_FILES})
   set(tree ${package}.tree)
   file(REMOVE_RECURSE ${tree})

@@ -146,6 +146,14 @@ TEST_F(Words, HelpBeginsWithThePictureAndFitsTwoScreens) {
 TEST_F(Words, HelpShowsPagesOfTheManual) {
   EXPECT_NE(says({"help"}).out.find("figures"), std::string::npos);
   EXPECT_TRUE(says({"help", "figures"}).out.starts_with("# ")) << says({"help", "figures"}).out.substr(0, 80);
+  // Of a command that has a page of the manual that is shown, and where its options are; others show their help.
+  const std::string pockets = says({"help", "pockets"}).out;
+  EXPECT_TRUE(pockets.starts_with("# ")) << pockets.substr(0, 80);
+  EXPECT_TRUE(pockets.ends_with("The options of the command: meniscus pockets --help\n"));
+  EXPECT_NE(says({"help", "surface"}).out.find("Usage: meniscus surface"), std::string::npos);
+  const std::string scenes = says({"help", "scenes"}).out;
+  EXPECT_NE(scenes.find("## What it looks like"), std::string::npos);
+  EXPECT_NE(scenes.find("--silhouettes"), std::string::npos);
   const ProgramResult wrong = says({"help", "figurs"});
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_NE(wrong.err.find("did you mean figures?"), std::string::npos) << wrong.err;

@@ -110,6 +110,21 @@ class Messages(unittest.TestCase):
         self.assertTrue(any("checksum {} instead of {}" in text for text in texts))
 
 
+class Sources(unittest.TestCase):
+    def test_have_no_riddle_in_their_comments(self):
+        """Of WORDS only what has no use in code."""
+        checked = 0
+        for folder in ("app", "core", "exporters", "gpu_shaders", "scripts"):
+            for path in (ROOT / folder).rglob("*.*"):
+                if path.suffix not in {".cpp", ".h", ".hpp", ".glsl", ".comp", ".py", ".js", ".sh", ".cmake", ".txt"}:
+                    continue
+                checked += 1
+                for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+                    with self.subTest(place=f"{path.relative_to(ROOT)}:{number}"):
+                        self.assertNotRegex(line, r"(?i)\bwhom?ever\b")
+        self.assertGreater(checked, 900)
+
+
 class Patterns(unittest.TestCase):
     def test_meet_what_they_are_for_and_nothing_else(self):
         for text in ("it is no file", "leave --by away", "a line a frame", "bytes behind it", "what shall it be"):

@@ -23,7 +23,7 @@ HOLDS = {
                         f"{LIBRARIES}/cmake/Meniscus/MeniscusConfig.cmake"},
     "python3-meniscus": {f"usr/lib/python3/dist-packages/meniscus/{path.name}"
                          for path in (ROOT / "exporters/bindings/python/meniscus").iterdir() if path.is_file()}
-                        | {"usr/lib/python3/dist-packages/meniscus-{version}.dist-info/METADATA"},
+                        | {"usr/lib/python3/dist-packages/meniscus_ses-{version}.dist-info/METADATA"},
 }
 
 

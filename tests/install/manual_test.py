@@ -23,9 +23,16 @@ class Manual(Installation):
         self.assertEqual(names | OTHER_PROGRAMS, {page.name for page in self.pages(1)})
 
     def test_every_topic_has_its_page(self):
-        listed = self.good(self.program, "help").stdout.split("\n\n")[1]
-        self.assertEqual({f"meniscus-{line.split()[0]}.7.gz" for line in listed.splitlines()},
-                         {page.name for page in self.pages(7)})
+        names = ("selections", "scenes", "assemblies", "frames", "exit-codes")
+        self.assertEqual({f"meniscus-{name}.7.gz" for name in names}, {page.name for page in self.pages(7)})
+        for name in names:
+            page = gzip.decompress((self.prefix / f"share/man/man7/meniscus-{name}.7.gz").read_bytes()).decode().replace("\\-", "-")
+            last = self.good(self.program, "help", name).stdout.split()[-1]
+            self.assertIn(last, page, name)
+
+    def test_exit_codes_are_those_of_the_manual(self):
+        page = gzip.decompress((self.prefix / "share/man/man1/meniscus-render.1.gz").read_bytes()).decode()
+        self.assertEqual(re.findall(r"^  (\d)  ", page, re.M), list("0123456789"))
 
     def test_every_option_of_msms_is_in_its_page(self):
         told = self.good(self.prefix / "bin/meniscus-msms", "-h").stderr

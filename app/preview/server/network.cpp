@@ -42,7 +42,7 @@ struct Network::State {
     acceptor.async_accept([this](boost::system::error_code error, asio::ip::tcp::socket socket) {
       if (error == asio::error::operation_aborted) return;
       if (error) return accept_later();
-      // Whoever says nothing makes room for whoever may know the token.
+      // A silent connection makes room for one that may know the token.
       if (clients->connections >= kMostConnections && !clients->strangers.empty()) {
         const auto oldest = clients->strangers.begin();
         const std::function<void()> end = oldest->second;

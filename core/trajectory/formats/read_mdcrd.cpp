@@ -98,7 +98,7 @@ class Mdcrd final : public Trajectory {
     }
     frame_bytes_ = lines.behind() - begin_;
     last_newline_ = lines.ended_by_newline() ? (line.ends_with('\r') ? 2 : 1) : 0;
-    // One atom looks like a box, and whoever has one needs none.
+    // A frame of one atom looks like a box, and a run of one atom needs no box.
     if (numbers_ != 3 && lines.next(line) && edges_of(line)) {
       has_box_ = true;
       frame_bytes_ = lines.behind() - begin_;

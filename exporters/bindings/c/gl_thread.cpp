@@ -81,7 +81,7 @@ struct GlThread::Worker {
 GlThread::GlThread() : process_(claim_driver()), worker_(std::make_unique<Worker>()) {}
 
 GlThread::~GlThread() {
-  // Whoever waits on the condition in the parent would be waited for here.
+  // A thread of the parent that waits on the condition would be waited for here.
   if (!alive()) static_cast<void>(worker_.release());
 }
 

@@ -102,7 +102,7 @@ TEST(Colors, NamesAreThoseOfCss) {
 
 TEST(Colors, RulesPaintTheAtomsMeantAndTheLastCounts) {
   ColorScheme wish = scheme("chain");
-  for (const char* rule : {"chain A=red", "b >= 15=#00f", "resname NONE=element"})
+  for (const char* rule : {"chain A=red", "b >= 15=#00f", "resname UNX=element"})
     wish.rules.push_back(parse_color_rule(rule));
   const Coloring coloring = color_atoms(four_atoms(), wish);
   const glm::vec3 red(1, 0, 0), blue(0, 0, 1);
@@ -280,7 +280,7 @@ TEST(Colors, HydrophobicityIsThatOfKyteAndDoolittle) {
       {"PRO", -1.6}, {"HIS", -3.2}, {"GLU", -3.5}, {"GLN", -3.5}, {"ASP", -3.5}, {"ASN", -3.5},
       {"LYS", -3.9}, {"ARG", -4.5}, {"MSE", 1.9},  {"HID", -3.2}, {"CYX", 2.5}};
   for (const auto& [name, value] : table) EXPECT_EQ(hydropathy(name), value) << name;
-  for (const char* name : {"", "XXX", "HOH", "A", "I", "ILE VAL"}) EXPECT_TRUE(std::isnan(hydropathy(name))) << name;
+  for (const char* name : {"", "UNX", "HOH", "A", "I", "ILE VAL"}) EXPECT_TRUE(std::isnan(hydropathy(name))) << name;
   const ColorScale scale = color_scale(four_atoms(), scheme("hydrophobicity"));
   EXPECT_EQ(scale.range, (std::array<double, 2>{-4.5, 4.5}));
   EXPECT_NE(scale.title.find("Kyte & Doolittle"), std::string::npos);

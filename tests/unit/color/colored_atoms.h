@@ -20,7 +20,7 @@ inline Structure four_atoms() {
   Structure structure;
   structure.file = "four";
   const char* chains[] = {"A", "A", "B", "A"};
-  const char* residues[] = {"ASP", "LYS", "GLY", "XXX"};
+  const char* residues[] = {"ASP", "LYS", "GLY", "UNX"};
   const float b_factors[] = {10.0f, 20.0f, 30.0f, kNan};
   const float charges[] = {-0.25f, 0.5f, kNan, 0.0f};
   for (std::uint32_t n = 0; n < 4; ++n) {

@@ -113,7 +113,7 @@ function set_role(in_control) {
   allow_controls();
 }
 
-/// To whoever decides, once there is something to be changed.
+/// Sends the choice, once there is something to be changed.
 function allow_controls() { $("controls").disabled = !controls || !state; }
 
 // Pictures

@@ -12,7 +12,7 @@ ARRAYS = {"b_factor": ("atom.b_factor", np.float32), "atomic_number": ("atom.ato
           "res_id": ("atom.res_id", np.int32), "chain_id": ("atom.chain_id", np.int32)}
 #: Units of length that scales of Blender units per Å are looked for in: Molecular Nodes has had 0.01 and 0.1.
 SCALES = 10.0 ** np.arange(-4, 3)
-#: Å: radii of atoms lie about it, whoever published them.
+#: Å: radii of atoms lie about it in every published table.
 USUAL_RADIUS = 1.6
 #: sRGB of atoms without an attribute Color.
 PLAIN = (0.78, 0.80, 0.83)

@@ -39,7 +39,7 @@ class Task:
             self.check()
         except engines.Cancelled:
             self.result = None
-        except Exception as error:  # goes to whoever takes it
+        except Exception as error:  # raised again where the result is taken
             self.error = error
         finally:
             self.finished.set()
