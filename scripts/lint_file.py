@@ -20,13 +20,17 @@ SOUND = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "menisc
 
 
 def as_compiled():
-    """The command that compiles the file, from the name of the compiler on."""
-    for entry in json.loads(Path(BUILD, "compile_commands.json").read_text()):
-        if os.path.relpath(entry["file"], ROOT) == FILE:
-            words = shlex.split(entry["command"])
-            first = next(n for n, word in enumerate(words) if os.path.basename(word).startswith("clang++"))
-            return words[first:words.index("-o")], entry["directory"]
-    sys.exit(f"lint_file.py: {FILE} is compiled nowhere in {BUILD}")
+    """The command that compiles the file, from the name of the compiler on. A file that only other builds compile, such as
+    core/base/without_gzip.cpp, is compiled as its neighbours are: clang-tidy does the same."""
+    entries = {os.path.relpath(entry["file"], ROOT): entry
+               for entry in json.loads(Path(BUILD, "compile_commands.json").read_text())}
+    entry = entries.get(FILE) or next(
+        (entries[name] for name in sorted(entries) if os.path.dirname(name) == os.path.dirname(FILE)), None)
+    if entry is None:
+        sys.exit(f"lint_file.py: {BUILD} compiles no file in the folder of {FILE}")
+    words = shlex.split(entry["command"])
+    first = next(n for n, word in enumerate(words) if os.path.basename(word).startswith("clang++"))
+    return words[first:words.index("-o")], entry["directory"]
 
 
 def fingerprint():
