@@ -153,12 +153,16 @@ Json tell_stats(const CommandReader&, const Surroundings& around) {
 Json tell_choices(const CommandReader&, const Surroundings& around) {
   const ColorScheme& first = around.first.color;
   const auto is_copy = [](const Atom& atom) { return atom.copy > 0; };
-  const bool has_copies = std::ranges::any_of(around.molecule.structure().atoms, is_copy);
+  const std::vector<Atom>& atoms = around.molecule.structure().atoms;
+  const bool has_copies = std::ranges::any_of(atoms, is_copy);
+  const bool has_models =
+      std::ranges::any_of(atoms, [&](const Atom& atom) { return atom.model != atoms.front().model; });
   Json schemes = Json::array(), maps = Json::array();
   for (const ColorSchemeMetadata& scheme : color_schemes()) {
     if (!is_previewed(scheme.by) && scheme.by != first.by) continue;
     if (scheme.by == ColorScheme::By::file && first.file.empty()) continue;
     if (scheme.by == ColorScheme::By::copy && !has_copies) continue;
+    if (scheme.by == ColorScheme::By::model && !has_models) continue;
     ColorScheme color;
     color.by = scheme.by;
     schemes.push_back({{"word", scheme.word}, {"has_map", color.has_scale()}, {"description", scheme.description}});

@@ -20,6 +20,7 @@ namespace {
 
 void tell_structure(const SceneCommand& command, const Structure& structure) {
   say(command, fmt::format("{}: {}", structure.file, structure.report.sentence()));
+  for (const AddedFile& added : structure.added) say(command, added.sentence());
   say_warnings(command, structure);
   for (const std::string& rule : rules_without_atoms(structure, command.scene.molecule.color))
     say(command, fmt::format("warning: {}: {} selects none of the atoms used; chains and names are case-sensitive",

@@ -163,6 +163,18 @@ std::string chain_table(const SurfaceReport& report) {
   return text;
 }
 
+Json added_json(const AddedFile& added) {
+  Json json{{"file", added.file}, {"model", added.model}, {"atoms", added.atoms}};
+  if (!added.fit) return json;
+  const RigidMotion& motion = added.fit->motion;
+  Json rows = Json::array();
+  for (int row = 0; row < 3; ++row)
+    rows.push_back(
+        {motion.rotation[0][row], motion.rotation[1][row], motion.rotation[2][row], motion.translation[row]});
+  json["superposition"] = {{"atoms", added.fit->atoms}, {"rmsd", added.fit->rmsd}, {"matrix", rows}};
+  return json;
+}
+
 Json report_object(const SurfaceReport& report) {
   const Structure& structure = report.molecule.structure;
   const Totals totals = totals_of(report.molecule.objects);
@@ -190,6 +202,7 @@ Json report_object(const SurfaceReport& report) {
                {"cavities", totals.cavities},
                {"cavity_area", totals.cavity_area},
                {"cavity_volume", totals.cavity_volume}};
+  for (const AddedFile& added : structure.added) json["added"].push_back(added_json(added));
   for (const AreaColumn& column : report.columns) json[column.name] = column.total;
   if (report.context) json["context"] = {{"selection", report.context->selection}, {"atoms", report.context->atoms}};
   json["components"] = component_list(report.molecule.objects);
@@ -241,6 +254,7 @@ std::string report_table(const SurfaceReport& report) {
   std::string text;
   const auto out = std::back_inserter(text);
   fmt::format_to(out, "molecule      {} ({})\n", escaped(structure.file), structure.format);
+  for (const AddedFile& added : structure.added) fmt::format_to(out, "added         {}\n", escaped(added.sentence()));
   fmt::format_to(out, "atoms         {}\n", structure.report.sentence());
   fmt::format_to(out, "surface       {}{}\n", surface_words(report.options.surface),
                  cavity_words(report.options.division.cavities));

@@ -46,6 +46,8 @@ std::vector<glm::vec3> colors_of(const Structure& structure, const ColorScheme& 
       colors.push_back(scheme.fixed);
     else if (scheme.by == By::copy)
       colors.push_back(categorical_color(atom.copy));
+    else if (scheme.by == By::model)
+      colors.push_back(categorical_color(static_cast<std::size_t>(atom.model) - 1));
     else if (scheme.by == By::element)
       colors.push_back(element_color(atom.element));
     else if (scheme.by == By::element_cpk)

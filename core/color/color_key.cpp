@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/error.h"
+#include "core/base/system_file.h"
 #include "core/base/text.h"
 #include "core/color/color_maps.h"
 #include "core/color/named_colors.h"
@@ -180,7 +181,16 @@ std::string class_title(By by) {
   return by == By::element || by == By::element_cpk ? "element"
          : by == By::chain                          ? "chain"
          : by == By::copy                           ? "copy"
+         : by == By::model                          ? "model"
                                                     : "residue type";
+}
+
+/// "model 2", or its file where there are several.
+std::string model_name(const Structure& structure, std::int32_t model) {
+  const std::string* file = structure.added.empty() ? nullptr : &structure.file;
+  for (const AddedFile& added : structure.added)
+    if (added.model <= model) file = &added.file;
+  return file ? text_of_path(path_of_text(*file).filename()) : fmt::format("model {}", model);
 }
 
 /// Adds a class unless it is there already.
@@ -263,6 +273,8 @@ ColorKey color_key(const Structure& structure, const ColorScheme& scheme, std::s
         classes.add_chain(chain_of_file(atom), scheme.chains);
       else if (scheme.by == By::copy)
         classes.add(fmt::format("copy {}", atom.copy + 1), categorical_color(atom.copy));
+      else if (scheme.by == By::model)
+        classes.add(model_name(structure, atom.model), categorical_color(static_cast<std::size_t>(atom.model) - 1));
       else
         classes.add(std::string(residue_group(atom.residue_name).name),
                     color_from_hex(residue_group(atom.residue_name).color));

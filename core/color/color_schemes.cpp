@@ -31,6 +31,7 @@ constexpr ColorSchemeMetadata kSchemes[] = {
     {"chain", By::chain, "chains in order of appearance, 21 colours in turn",
      "M. Okabe and K. Ito, Color Universal Design (2008)"},
     {"copy", By::copy, "copies of an --assembly made of atoms, 21 colours in turn", "colours of Okabe and Ito"},
+    {"model", By::model, "models of the file, and each file of --add, 21 colours in turn", "colours of Okabe and Ito"},
     {"residue", By::residue, "residue type: acidic, basic, polar, aliphatic, aromatic, sulphur, GLY and PRO; each base",
      "grouped by side chain; colours of Okabe and Ito"},
     {"kind", By::kind, "kind of patch: convex, toroidal, concave", "colours of Okabe and Ito"},

@@ -40,6 +40,7 @@ struct ColorScheme {
     chain,
     residue,    ///< type of residue, by chemistry
     copy,       ///< of an assembly made of atoms
+    model,      ///< of the file, and each added file
     kind,       ///< of patch
     component,  ///< objects in turn: closed parts of the surface, chains, ...
     fixed,      ///< one colour

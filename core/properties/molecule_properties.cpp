@@ -15,6 +15,16 @@ constexpr auto kTable = of_commands(
     kForMolecules,
     std::to_array<Property>({
         file("molecule.file", "FILE", "", "Molecule").in(kInput, in_scene),
+        file("molecule.add", "--add", "FILE",
+             "Add the atoms of another molecule file, as model 2, 3 ... of the first. Repeatable")
+            .in(kInput, kShared | repeatable)
+            .in_short_help(),
+        text(
+            "molecule.superpose_on", "--superpose-on", "EXPR",
+            "Superpose the files of --add on FILE by these atoms. 'name CA' takes alpha carbons. Chains are paired and "
+            "aligned by sequence; the number of atoms and the RMSD are printed")
+            .in(kInput, kShared)
+            .needs("molecule.add"),
         text("molecule.model", "--model", "N|all", "Model to read, from 1; all: all models as one molecule")
             .initially("1")
             .in(kInput, kShared),

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <charconv>
+#include <iterator>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -36,6 +37,8 @@ void check_options(const MoleculeRequest& molecule, const RunRequest& request) {
     throw RequestError("standard input is read once, so it has no frames; save it as a file");
   if (request.smooth % 2 == 0)
     throw RequestError(fmt::format("--smooth {}: give an odd number of frames", request.smooth));
+  if (request.select_once && !molecule.reading.added.empty())
+    throw RequestError("--select-once and --add: frames have the atoms of the first file only; leave one of them out");
 }
 
 /// A bound in ps, if the text is one: a number and "ps", "ns" or "fs".
@@ -105,10 +108,18 @@ class Bound {
 bool chooses_by_positions(const MoleculeRequest& molecule, const RunRequest& request) {
   const auto asks = [](const std::optional<Selection>& selection) { return selection && selection->uses_positions(); };
   const ReadOptions& reading = molecule.reading;
-  return reading.secondary_structure || asks(reading.selection) || asks(request.context) ||
+  return reading.secondary_structure || !reading.added.empty() || asks(reading.selection) || asks(request.context) ||
          std::ranges::any_of(reading.shown, [](const ShownAtoms& shown) { return shown.atoms.uses_positions(); }) ||
          std::ranges::any_of(reading.radii.overrides,
                              [](const RadiusOverride& radius) { return radius.atoms.uses_positions(); });
+}
+
+/// The atoms that frames have: those of added files are not among them.
+std::vector<Atom> without_added(const std::vector<Atom>& atoms, const Topology& topology) {
+  std::vector<Atom> own;
+  std::ranges::copy_if(atoms, std::back_inserter(own),
+                       [&](const Atom& atom) { return atom.index < topology.atoms.size(); });
+  return own;
 }
 
 /// Adds those from which selections measure distances.
@@ -200,7 +211,7 @@ void FrameRun::read_atoms(const MoleculeRequest& molecule, const RunRequest& req
   }
   if (!request.trajectories.empty() && !request.trust_atom_order)
     check_atom_order(
-        *structure_.topology, structure_.atoms, first,
+        *structure_.topology, without_added(structure_.atoms, *structure_.topology), first,
         {structure_.file, !structure_.topology->without_positions, trajectory_->path(), source(run_.front())});
 }
 
@@ -256,10 +267,10 @@ void FrameRun::prepare(const MoleculeRequest& molecule, const RunRequest& reques
     bonds.insert(bonds.end(), topology.bonds.begin(), topology.bonds.end());
     std::vector<std::uint32_t> wanted = preparation.superposed;
     wanted.insert(wanted.end(), preparation.centered.begin(), preparation.centered.end());
-    for (const Atom& atom : structure_.atoms) wanted.push_back(atom.index);
-    for (const Atom& atom : structure_.beside) wanted.push_back(atom.index);
+    for (const Atom& atom : without_added(structure_.atoms, topology)) wanted.push_back(atom.index);
+    for (const Atom& atom : without_added(structure_.beside, topology)) wanted.push_back(atom.index);
     if (together_)
-      for (const Atom& atom : together_->atoms) wanted.push_back(atom.index);
+      for (const Atom& atom : without_added(together_->atoms, topology)) wanted.push_back(atom.index);
     if (molecule.reading.selection) add_measured(*molecule.reading.selection, topology.atoms, wanted);
     if (request.context) add_measured(*request.context, topology.atoms, wanted);
     for (const ShownAtoms& shown : molecule.reading.shown) add_measured(shown.atoms, topology.atoms, wanted);
@@ -360,7 +371,8 @@ std::optional<RunFrame> FrameRun::next() {
   }
   if (!velocities_) return frame;
   for (const Atom& atom : shown_atoms(frame.structure)) {
-    const glm::dvec3& velocity = read->velocities[atom.index];
+    const bool moves = atom.index < read->velocities.size();  // atoms of added files do not
+    const glm::dvec3 velocity = moves ? read->velocities[atom.index] : glm::dvec3(0.0);
     frame.velocities.push_back(assembly_ ? copy_motion(*assembly_, atom).rotation * velocity : velocity);
   }
   return frame;

@@ -140,6 +140,10 @@ void complete_interface(Scene& scene) {
 constexpr auto kMoleculeRows = std::to_array<SceneValue>({
     plain(
         "molecule.file", [](auto& s) -> auto& { return s.molecule.file; }),
+    plain(
+        "molecule.add", [](auto& s) -> auto& { return s.molecule.reading.added; }),
+    plain(
+        "molecule.superpose_on", [](auto& s) -> auto& { return s.molecule.reading.superpose_on; }),
     {"molecule.model", read_model, write_model},
     {"molecule.altloc", read_altloc, write_altloc},
     plain(

@@ -14,7 +14,7 @@
 #include "core/scene/copied_atoms.h"
 #include "core/scene/hidden_atoms.h"
 #include "core/scene/representations.h"
-#include "core/trajectory/prepared_frames.h"
+#include "core/structure/superposition.h"
 
 namespace meniscus {
 namespace {

@@ -36,6 +36,7 @@ void warn_of_coincident_atoms(Structure& structure) {
     const glm::dvec3 place_of_atom = atom.position + 0.0;  // -0 becomes 0
     std::string key(sizeof(place_of_atom), '\0');
     std::memcpy(key.data(), &place_of_atom, sizeof(place_of_atom));
+    if (!structure.added.empty()) key += fmt::format("{}", atom.model);  // superposed files may have atoms in common
     const auto [place, free] = places.try_emplace(std::move(key), &atom);
     if (!free) cases.push_back(fmt::format("{} at {}", label_of(atom), label_of(*place->second)));
   }

@@ -70,6 +70,14 @@ std::string ReadReport::sentence() const {
                      assembled);
 }
 
+std::string AddedFile::sentence() const {
+  std::string text = fmt::format("{} is model {}", file, model);
+  if (fit)
+    text += fmt::format(", superposed on the first file by {} atoms with an RMSD of {:.3f} Å",
+                        with_thousands(fit->atoms), fit->rmsd);
+  return text;
+}
+
 std::vector<Ball> balls_of(const Structure& structure) {
   std::vector<Ball> balls;
   balls.reserve(structure.atoms.size());

@@ -45,7 +45,7 @@ struct Atom {
   char altloc = ' ';          ///< letter of the alternate location, blank for none
   std::uint32_t index = 0;    ///< place in the file, from 0, counting every atom of every model that was read
   std::uint32_t residue = 0;  ///< running number of the residue, from 0; residues whose numbers wrapped stay distinct
-  std::int32_t model = 1;     ///< which model of the file, from 1
+  std::int32_t model = 1;     ///< which model of the file, from 1; those of added files go on counting
   std::int32_t residue_number = 0;
   float occupancy = std::numeric_limits<float>::quiet_NaN();  ///< NaN: missing
   float b_factor = std::numeric_limits<float>::quiet_NaN();   ///< Å²; NaN: missing
@@ -139,12 +139,24 @@ struct Topology {
   bool without_positions = false;  ///< the file does not place its atoms: others did
 };
 
+/// A file whose atoms were added to those of another.
+struct AddedFile {
+  std::string file;                  ///< the path as given
+  std::int32_t model = 0;            ///< Atom::model of its atoms, of the first of them if it has several
+  std::size_t atoms = 0;             ///< all that were read
+  std::optional<Superposition> fit;  ///< on the first file, by which all its atoms were moved
+
+  /// "b.pdb is model 2, superposed on the first file by 214 atoms with an RMSD of 1.234 Å".
+  std::string sentence() const;
+};
+
 /// The atoms a surface is made of, in file order.
 struct Structure {
   std::string file;       ///< the path as given, or "standard input"
   std::string format;     ///< the reader's name for it: "PDB", "mmCIF", ...
   std::string radii_set;  ///< "bondi", "united", "protor", "file", or the files of radii
   std::vector<RadiusClass> radius_classes;
+  std::vector<AddedFile> added;  ///< files whose atoms come after those of `file`
   std::vector<Atom> atoms;
   std::vector<Atom> beside;  ///< those that are shown beside the surface, which is not made of them
   std::shared_ptr<const std::vector<Bond>> shown_bonds;  ///< of shown atoms: places in atoms with beside after them

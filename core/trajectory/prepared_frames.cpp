@@ -8,13 +8,13 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <gemmi/qcp.hpp>
 #include <glm/geometric.hpp>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/math/rigid_motion.h"
 #include "core/structure/periodic_cell.h"
+#include "core/structure/superposition.h"
 
 namespace meniscus {
 namespace {
@@ -211,22 +211,6 @@ void WholeMolecules::apply(const glm::dmat3& vectors, std::vector<glm::dvec3>& p
     const glm::dvec3 shift = cell->shortest(center - anchor) - (center - anchor);
     for (const std::uint32_t a : atoms) positions[a] += shift;
   }
-}
-
-RigidMotion superposition(std::span<const glm::dvec3> reference, std::span<const glm::dvec3> positions,
-                          std::span<const std::uint32_t> atoms) {
-  std::vector<gemmi::Position> target, moved;
-  for (const std::uint32_t a : atoms) {
-    target.emplace_back(reference[a].x, reference[a].y, reference[a].z);
-    moved.emplace_back(positions[a].x, positions[a].y, positions[a].z);
-  }
-  const gemmi::SupResult best = gemmi::superpose_positions(target.data(), moved.data(), atoms.size(), nullptr);
-  const gemmi::Mat33& m = best.transform.mat;
-  RigidMotion motion;
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column) motion.rotation[column][row] = m[row][column];
-  motion.translation = {best.transform.vec.x, best.transform.vec.y, best.transform.vec.z};
-  return motion;
 }
 
 ReadAhead::ReadAhead(std::function<void(ReadFrame&)> read, std::vector<std::uint64_t> numbers, std::size_t depth)

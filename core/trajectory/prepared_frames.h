@@ -22,8 +22,6 @@
 
 namespace meniscus {
 
-struct RigidMotion;
-
 class WholeMolecules {
  public:
   /// Molecules are what the bonds join; those with an atom in `wanted` are treated. Throws InputError(file) when a
@@ -46,12 +44,6 @@ class WholeMolecules {
   std::vector<std::size_t> begins_;  ///< of the molecules in steps_, and its end; the largest comes first
   std::vector<Bond> bonds_;          ///< of these molecules
 };
-
-/// The rotation and translation of `positions` that makes the sum of squared distances of its `atoms` to those of
-/// `reference` least (D. L. Theobald, Acta Cryst. A 61, 478, 2005). No mirror image. At least three atoms not in a
-/// line, else the rotation about the line is any.
-RigidMotion superposition(std::span<const glm::dvec3> reference, std::span<const glm::dvec3> positions,
-                          std::span<const std::uint32_t> atoms);
 
 /// What is done to each frame, in this order. Atoms are given by their place in the file.
 struct Preparation {

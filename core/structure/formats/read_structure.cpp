@@ -14,6 +14,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/structure/bonds.h"
+#include "core/structure/formats/added_files.h"
 #include "core/structure/plausibility.h"
 #include "core/structure/secondary_structure.h"
 #include "core/structure/selection/selection.h"
@@ -330,28 +331,44 @@ struct StructureFile::Parts {
         reader(choose_reader(file)),
         contents(reader.read(file, asked.model)) {
     require_model(file.path, options.model, contents.models);
-    report.read = contents.atoms.size() + contents.other_model_atoms;
     report.models = contents.models;
-    report.warnings.insert(report.warnings.end(), contents.warnings.begin(), contents.warnings.end());
-    if (contents.other_model_atoms > 0) report.excluded[kExcludedModel] = contents.other_model_atoms;
     if (options.trajectory_atoms) keep_trajectory_atoms(contents, *options.trajectory_atoms, file, report);
     place_atoms(contents, options, file);
     if (options.keep_topology)
       topology = std::make_shared<const Topology>(
           Topology{contents.atoms, options.shown.empty() ? std::move(contents.bonds) : contents.bonds,
                    contents.without_positions});
+    add_files();
+    report.read = report.excluded[kExcludedTrajectory] + contents.atoms.size() + contents.other_model_atoms;
+    report.excluded[kExcludedModel] = contents.other_model_atoms;
+    std::erase_if(report.excluded, [](const auto& reason) { return reason.second == 0; });
+    report.warnings = contents.warnings;
     radii.emplace(options.radii, file.path, contents.radii);
   }
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
 
-  /// atoms: those of the contents, wherever they are. Without bonds of what is shown.
+  void add_files() {
+    if (options.added.empty()) {
+      if (options.superpose_on)
+        throw RequestError(fmt::format("{} superposes the files of {}, and there are none", option_name("superpose-on"),
+                                       option_name("add")));
+      return;
+    }
+    if (!options.assembly.empty())
+      throw RequestError(fmt::format("{} and {} cannot be combined: write the assembly to a file and add that",
+                                     option_name("add"), option_name("assembly")));
+    added.emplace(file.path, options.added, options.model, options.superpose_on, contents);
+  }
+
+  /// atoms: those of the contents, wherever the first file has them. Without bonds of what is shown.
   Structure choose(std::vector<Atom> atoms, Meaning meaning) const {
     Structure structure;
     structure.file = file.path;
     structure.format = reader.metadata.name;
     structure.report = report;
     structure.topology = topology;
+    if (added) structure.added = added->place(atoms);
     warn_of_missing_altloc(structure, atoms, options.altloc);
     choose_atoms(atoms, structure.beside, options, *radii, structure.report, file.path, meaning);
     structure.atoms = std::move(atoms);
@@ -373,6 +390,7 @@ struct StructureFile::Parts {
   TextFile file;
   const Reader& reader;
   FileContents contents;
+  std::optional<AddedFiles> added;
   ReadReport report;
   std::shared_ptr<const Topology> topology;
   std::optional<RadiiChoice> radii;
@@ -393,7 +411,7 @@ StructureFile::~StructureFile() = default;
 
 Structure StructureFile::at(std::span<const glm::dvec3> positions) const {
   std::vector<Atom> atoms = parts_->contents.atoms;
-  for (std::size_t n = 0; n < atoms.size(); ++n) atoms[n].position = positions[n];
+  for (std::size_t n = 0; n < positions.size(); ++n) atoms[n].position = positions[n];
   Structure structure = parts_->choose(std::move(atoms), Meaning::in_a_frame);
   if (!parts_->options.shown.empty())
     structure.shown_bonds = std::make_shared<const std::vector<Bond>>(places_of(structure, parts_->bonds_by_index));

@@ -41,6 +41,8 @@ struct ReadOptions {
   std::string assembly{};                                 ///< id of the assembly to build; empty: as deposited
   CopyMode copy_mode = CopyMode::atoms;                   ///< what becomes of its copies
   bool list_assemblies = false;                           ///< fill in Structure::assemblies
+  std::vector<std::string> added{};  ///< further files, whose atoms come after those of the first as further models
+  std::optional<Selection> superpose_on{};  ///< of both: each added file is superposed on the first (AddedFiles)
   /// Evaluated on what other models, altlocs and virtual sites leave, water and ions included. Water and ions that it
   /// selects are used only if it names them (Selection::names) or keep_water, keep_ions.
   std::optional<Selection> selection = {};
@@ -79,8 +81,9 @@ class StructureFile {
   const Structure& reach() const { return reach_; }
 
   /// What read_structure gives for atoms that are there: one position, Å, of each atom of the file, or of
-  /// ReadOptions::trajectory_atoms. ReadOptions::shown may mean none of them, and bonds are those found in reach(), so
-  /// that they stay. Throws as read_structure.
+  /// ReadOptions::trajectory_atoms. Atoms of added files are superposed on them, if they are to be, or stay.
+  /// ReadOptions::shown may mean none of them, and bonds are those found in reach(), so that they stay. Throws as
+  /// read_structure.
   Structure at(std::span<const glm::dvec3> positions) const;
 
  private:

@@ -28,7 +28,7 @@ constexpr SelectionWord kWords[] = {
     {"index", WordKind::whole, of(AtomField::index), "index 0 to 99", "place in the file, from 0"},
     {"serial bynum", WordKind::whole, of(AtomField::serial), "serial 1 to 100",
      "position in the file, from 1; not the file's own serial numbers"},
-    {"model", WordKind::whole, of(AtomField::model), "model 1", "model of the file, from 1"},
+    {"model", WordKind::whole, of(AtomField::model), "model 1", "model of the file, from 1; files of --add count on"},
 
     {"bfactor b beta tempfactor", WordKind::number, of(AtomField::b_factor), "bfactor > 40",
      "B-factor in Å²; < <= > >= = !="},

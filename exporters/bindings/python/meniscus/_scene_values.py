@@ -85,6 +85,11 @@ class SceneValues(SurfaceValues, total=False):
     """Of a scene."""
     #: Molecule
     file: Path
+    #: FILE: Add the atoms of another molecule file, as model 2, 3 ... of the first. Repeatable
+    add: Union[Path, Sequence[Path]]
+    #: EXPR: Superpose the files of --add on FILE by these atoms. 'name CA' takes alpha carbons. Chains are
+    #: paired and aligned by sequence; the number of atoms and the RMSD are printed
+    superpose_on: Text
     #: N|all: Model to read, from 1; all: all models as one molecule [1]
     model: Text
     #: WORD: Alternate location to keep: best, first, a letter, or all. best: that of the highest occupancy in
