@@ -33,7 +33,7 @@ def pdb(atoms, record="ATOM"):
             for serial, (name, altloc, residue, chain, number, x, y, z, element) in enumerate(atoms, 1)]
 
 
-def molecule(models, turn=0.4, water=True, broken=False):
+def molecule(models, turn=0.4, water=True, broken=False, shift=0.0):
     """Two chains, a ligand, water, an ion, a hydrogen and alternate locations; each model is turned and moved."""
     atoms = [("N", " ", "ALA", "A", 1, 0.0, 0.0, 0.0, "N"), ("CA", " ", "ALA", "A", 1, 1.46, 0.0, 0.0, "C"),
              ("C", " ", "ALA", "A", 1, 2.0, 1.42, 0.0, "C"), ("O", " ", "ALA", "A", 1, 1.3, 2.4, 0.1, "O"),
@@ -47,12 +47,12 @@ def molecule(models, turn=0.4, water=True, broken=False):
              ("O", " ", "HOH", "A", 21, -4.0, 1.0, 2.0, "O"), ("NA", " ", " NA", "A", 31, 0.0, -6.0, 3.0, "NA")]
     lines = ["CRYST1   40.000   40.000   40.000  90.00  90.00  90.00 P 1           1",
              "REMARK 350 BIOMOLECULE: 1", "REMARK 350 APPLY THE FOLLOWING TO CHAINS: A, B"]
-    for number, shift in ((1, 0.0), (2, 25.0)):
+    for number, step in ((1, 0.0), (2, 25.0)):
         lines += [f"REMARK 350   BIOMT{row + 1}{number:4d}{float(row == 0):10.6f}{float(row == 1):10.6f}"
-                  f"{float(row == 2):10.6f}{shift if row == 0 else 0.0:15.5f}" for row in range(3)]
+                  f"{float(row == 2):10.6f}{step if row == 0 else 0.0:15.5f}" for row in range(3)]
     for model in range(models):
         cosine, sine = math.cos(turn * model), math.sin(turn * model)
-        moved = [(*atom[:5], cosine * atom[5] - sine * atom[6] + 1.5 * model, sine * atom[5] + cosine * atom[6],
+        moved = [(*atom[:5], cosine * atom[5] - sine * atom[6] + 1.5 * model + shift, sine * atom[5] + cosine * atom[6],
                   atom[7] + 0.05 * model * n + (40.0 if broken and atom[:4] == ("O", " ", "ASP", "B") else 0.0), atom[8])
                  for n, atom in enumerate(atoms) if water or atom[2] != "HOH"]
         lines += [f"MODEL     {model + 1:4d}"] * (models > 1) + pdb(moved) + ["ENDMDL"] * (models > 1)
@@ -85,7 +85,7 @@ def camera(x):
 
 INPUTS = {
     "one.pdb": molecule(1), "run.pdb": molecule(4), "other.pdb": molecule(3, 0.9), "dry.pdb": molecule(3, water=False),
-    "broken.pdb": molecule(3, broken=True), "odd.pdb": molecule(1).replace(" H\n", " Q\n").replace(" H   ALA", " Q   ALA"),
+    "broken.pdb": molecule(3, broken=True), "moved.pdb": molecule(1, shift=9.0), "odd.pdb": molecule(1).replace(" H\n", " Q\n").replace(" H   ALA", " Q   ALA"),
     "cup.pdb": sphere(lid=False), "hollow.pdb": sphere(lid=True), "cups.pdb": sphere(False, 3), "map.dx": potential(),
     "numbers.csv": "chain,number,first,second\nA,1,1.0,7\nA,2,2.0,5\nB,1,3.0,1\n",
     "plain.txt": "A 1 1.0\nA 2 2.0\nB 1 3.0\n", "ramp.txt": "#ff0000\n#00ff00\n#0000ff\n", "radii.txt": "ALA CA 2.5\n",
@@ -104,7 +104,7 @@ for name in ("look.jsonl", "other.jsonl"):
 
 # What must be there for an option to do anything, as words of a command; {name} is an input.
 CONTEXTS = {
-    "plain": ["{one.pdb}"], "models": ["{run.pdb}"], "odd": ["{odd.pdb}"],
+    "plain": ["{one.pdb}"], "added": ["{one.pdb}", "--add", "{moved.pdb}"], "models": ["{run.pdb}"], "odd": ["{odd.pdb}"],
     "frames": ["{run.pdb}", "--frames", "all"], "film": ["{run.pdb}", "--frames", "0-1"],
     "moving": ["{run.pdb}", "--frames", "all", "--select", "x < 4"],
     "near": ["{run.pdb}", "--frames", "all", "--select", "within 6 of resname LIG"],
@@ -134,7 +134,7 @@ CONTEXTS = {
 
 # Of each option a value, and a context in which it changes what comes out.
 ROWS = {
-    "--model": ("2", "models"), "--altloc": ("all", "plain"), "--select": ("chain A", "plain"),
+    "--add": ("{moved.pdb}", "plain"), "--superpose-on": ("backbone", "added"), "--model": ("2", "models"), "--altloc": ("all", "plain"), "--select": ("chain A", "plain"),
     "--show": ("chain A", "plain"), "--keep-water": (None, "plain"), "--keep-ions": (None, "plain"),
     "--unknown-element": ("guess", "odd"), "--surface": ("sas", "plain"), "--probe": ("2", "plain"),
     "--by": ("chain", "plain"), "--cavities": ("drop", "hollow"), "--hydrogens": ("drop", "plain"),
