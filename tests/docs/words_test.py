@@ -4,6 +4,7 @@
 Each row of WORDS has a pattern that readers stumble over, and what to write instead. Messages come from
 scripts/list_messages.py; --program adds the help of every command and every page of help, --docs the documents."""
 
+import ast
 import pathlib
 import re
 import subprocess
@@ -51,6 +52,7 @@ WORDS = (
 
 #: Texts that are right in spite of a pattern.
 ALLOWED = (
+    "Tools.told",  # a function
     "nothing that it computed",
 )
 
@@ -123,6 +125,29 @@ class Sources(unittest.TestCase):
                     with self.subTest(place=f"{path.relative_to(ROOT)}:{number}"):
                         self.assertNotRegex(line, r"(?i)\bwhom?ever\b")
         self.assertGreater(checked, 900)
+
+
+def docstrings():
+    """(place, text) of the public text of the bindings: docstrings of Python, comments of the headers for C and C++."""
+    for path in sorted((ROOT / "exporters").rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and ast.get_docstring(node):
+                yield f"{path.relative_to(ROOT)}:{getattr(node, 'lineno', 1)}", ast.get_docstring(node)
+    for path in sorted((ROOT / "exporters/bindings").rglob("meniscus/*.h*")):
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            comment = re.search(r"(?://+|/\*|^ \*)(.*)", line)
+            if comment:
+                yield f"{path.relative_to(ROOT)}:{number}", comment[1]
+
+
+class Docstrings(unittest.TestCase):
+    def test_have_plain_words(self):
+        found = list(docstrings())
+        self.assertGreater(len(found), 900)
+        for place, text in found:
+            for fault in faults(text):
+                with self.subTest(place=place):
+                    self.fail(fault)
 
 
 class Patterns(unittest.TestCase):

@@ -64,7 +64,7 @@ _TYPES = {np.dtype(np.float64): DOUBLE, np.dtype(np.float32): FLOAT}
 
 def real_array(values: Any, name: str, power: Optional[int] = None) -> AnyArray:
     """Of real numbers, in Å to this power where they have a unit; else InputError: what is masked, complex, true or
-    false, or text would become numbers that nobody meant."""
+    false, or text would silently become numbers."""
     values = plain(values, name, power)
     package = "" if isinstance(values, (np.ndarray, list, tuple)) else package_of(values)
     if package:  # some of whose things can be walked through, but are no arrays

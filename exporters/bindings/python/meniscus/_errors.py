@@ -18,7 +18,7 @@ class InternalError(Error):
 
 
 class UsageError(Error, ValueError):
-    """A call that makes no sense, whatever the molecule.
+    """A call that is not valid for any molecule.
 
     >>> meniscus.surface([[0, 0, 0]], 1.7, kind="lee")
     Traceback (most recent call last):

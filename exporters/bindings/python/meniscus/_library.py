@@ -346,7 +346,7 @@ def default(name: str, struct: Any) -> Any:
 
 
 class Handle:
-    """One reference to an object of the library, let go when nobody in Python holds it any longer."""
+    """One reference to an object of the library, released when Python no longer holds it."""
 
     def __init__(self, kind: str, make: str, *arguments: Any) -> None:
         """The last argument of meniscus_MAKE takes the object."""

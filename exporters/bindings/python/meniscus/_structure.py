@@ -33,7 +33,7 @@ class _Report(NamedTuple):
 
 
 class Structure:
-    """The atoms of a file that a surface is made of; read() makes it, and it never changes. Arrays have a row an atom,
+    """The atoms of a file that a surface is made of; read() makes it, and it never changes. Arrays have one row per atom,
     (n,) or (n, 3); of numbers they are read-only views.
 
     >>> molecule = meniscus.read("helix.pdb")
@@ -198,7 +198,7 @@ class Structure:
 
     @property
     def insertion_codes(self) -> Texts:
-        """A letter behind the residue's number, or nothing.
+        """A letter after the residue's number, or nothing.
 
         >>> set(molecule.insertion_codes.tolist())
         {''}"""
@@ -341,8 +341,8 @@ def read(path: Path, *, select: Optional[str] = None, assembly: Union[str, int, 
     as one molecule. altloc: "best", "first", "all" or a letter. hydrogens: "keep", "drop", or as the radii need it.
     radii: "bondi", "united", "protor" or "file"; by default those of the file if it has any, else "bondi".
     radii_files: tables by residue and atom, before that set. radius: of what expressions select, Å, as in
-    {"element Zn": 1.1}. unknown_element: what becomes of atoms whose element nobody can tell. InputError where the file
-    cannot be read, UsageError where an option or an expression makes no sense.
+    {"element Zn": 1.1}. unknown_element: what becomes of atoms of unknown element. InputError where the file
+    cannot be read, UsageError where an option or an expression is not valid.
 
     >>> len(meniscus.read("helix.pdb", select="chain A", radius={"element N": 1.6}))
     32

@@ -85,7 +85,7 @@ def spread(kept, arrays):
 
 
 def add(mesh, name, kind, domain, values):
-    """A new attribute. values: one row an element, in the type that Blender stores."""
+    """A new attribute. values: one row per element, in the type that Blender stores."""
     attribute = mesh.attributes.new(name, kind, domain)
     attribute.data.foreach_set(TYPES[kind][0], np.ascontiguousarray(values).ravel())
 

@@ -44,8 +44,8 @@ class Import:
 
 
 def import_file(path, context=None, **options):
-    """Reads a .mns file into a new collection; options: of Options. Raises mns_reader.MnsError or OSError and then leaves
-    nothing behind."""
+    """Reads a .mns file into a new collection; options: of Options. After mns_reader.MnsError or OSError it
+    leaves nothing in the scene."""
     context = context or bpy.context
     file = mns_reader.read(path)
     options = Options(**options)
@@ -185,7 +185,7 @@ def present(context, items):
 
 
 def let_rays_through(scene, meshes):
-    """Cycles shows black behind more layers than the scene allows, eight by default; never fewer than it had."""
+    """Beyond the number of layers that the scene allows, eight by default, Cycles shows black. The number never becomes smaller."""
     if any("opacity" in mesh.attributes for mesh in meshes) and hasattr(scene, "cycles"):
         scene.cycles.transparent_max_bounces = max(scene.cycles.transparent_max_bounces, MOST_LAYERS)
 
@@ -283,7 +283,7 @@ def set_names(item, names):
 
 
 def place_camera(item, shot, scale, origin=(0.0, 0.0, 0.0)):
-    """Moves a camera's object to where `shot`, the camera of a file, stands. origin: Å, of the scene's coordinates."""
+    """Moves a camera's object to the place of `shot`, the camera of a file. origin: Å, of the scene's coordinates."""
     position, target, up = (mathutils.Vector(shot[key]) for key in ("position", "target", "up"))
     forward = (target - position).normalized()
     right = forward.cross(up).normalized()

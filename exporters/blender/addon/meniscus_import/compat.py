@@ -114,7 +114,7 @@ def scatter_smoothly(shader):
 
 
 def refract(material):
-    """Makes Eevee show what is behind a transmitting surface, if its scene is told to: a setting of another name since 4.2."""
+    """Makes Eevee show through a transmitting surface, if its scene allows it: the setting has another name since 4.2."""
     for name in ("use_screen_refraction", "use_raytrace_refraction"):
         if hasattr(material, name):
             setattr(material, name, True)
@@ -222,8 +222,8 @@ def mix_colors(tree, share, color, other):
 
 
 def line_art(item, name, width):
-    """An object with a Line Art modifier that draws the outlines of another, so many Blender units wide: 4.3 made grease pencil
-    anew."""
+    """An object with a Line Art modifier that draws the outlines of another, so many Blender units wide. Blender 4.3 has
+    another grease pencil."""
     anew = bpy.app.version >= (4, 3, 0)
     store = getattr(bpy.data, "grease_pencils_v3", bpy.data.grease_pencils) if anew else bpy.data.grease_pencils
     drawing = store.new(name)

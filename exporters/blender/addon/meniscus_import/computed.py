@@ -83,7 +83,7 @@ def working():
 
 
 def look_for_tools():
-    """Anew: they may have been installed. What was found, as of works.Tools.told."""
+    """Looks again, because they may have been installed since. Returns what was found, as works.Tools.told does."""
     end()
     return working().told()
 
@@ -132,7 +132,7 @@ def frame_count(item):
 
 
 def changed(item):
-    """A property changed: the surface follows, in the background, if it shall."""
+    """A property changed: the surface follows in the background, if that is switched on."""
     if is_computed(item) and item.meniscus.live and not bpy.app.background:
         ask(item)
 
@@ -251,7 +251,7 @@ def _keep_of_user(item, shown):
 
 
 def place(item, shown):
-    """Where the object stands when it first shows something of a file: its origin in the middle of the molecule, about which it
+    """The place of the object when it first shows something of a file: its origin in the middle of the molecule, about which it
     turns. If its scale changes the middle stays where it is, or where the file has it. Objects of 0.1.0 have the file's origin."""
     before = item.get("meniscus_scale", shown.scale)
     if item.meniscus.source == "FILE" and "meniscus_generator" not in item:
@@ -294,7 +294,7 @@ def fail(item, error):
 
 
 def redraw():
-    """The sidebars, which tell how far it is; views are drawn anew when a mesh has changed, which takes longer."""
+    """Redraws the sidebars, which show the progress; views are drawn again when a mesh has changed, which takes longer."""
     for window in getattr(bpy.context.window_manager, "windows", ()):
         for area in window.screen.areas:
             if area.type == "VIEW_3D":
@@ -368,7 +368,7 @@ def wait():
 # ---- time
 
 def _compute_ahead(item, time):
-    """Has the next frames computed. Of atoms that come from Blender nobody knows where they will be, but of its own frames."""
+    """Has the next frames computed. Only for its own frames: where atoms that come from Blender will be is not known."""
     wanted_keys = set()
     for step in range(1, AHEAD + 1):
         place = place_at(item, time + step)

@@ -10,7 +10,7 @@ from . import joined, mesh_arrays, mns_reader, sequence_reader
 
 @dataclasses.dataclass
 class Prepared:
-    """surface: all objects and copies as one, of which materials and chains are told. arrays: of its mesh. points: (n, 3) Å, all
+    """surface: all objects and copies as one, with their materials and chains. arrays: of its mesh. points: (n, 3) Å, all
     atoms in all places. triangles: how many there are."""
 
     surface: mns_reader.Surface

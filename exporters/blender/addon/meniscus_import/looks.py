@@ -201,7 +201,7 @@ def _wax(tree, shader, color, scale):
 
 
 def _glass(tree, shader, color, output, scale):
-    """Attributes belong to the surface, not to the volume: what enters takes the colour there, what is behind it is darker by
+    """Attributes belong to the surface, not to the volume: light that enters takes the colour there, and gets darker on its way by
     the way through. In Cycles: Eevee fills the whole bounding box with a volume; there more of the colour is at the surface."""
     tree.links.new(_clear(tree, shader, color, 0.5), output.inputs["Surface"])
     absorption = tree.nodes.new("ShaderNodeVolumeAbsorption")

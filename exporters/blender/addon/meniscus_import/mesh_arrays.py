@@ -35,8 +35,8 @@ OURS = {"atom_index", "ses_atom", "opacity", "velocity", "Color", "ses_cap", "ca
 class MeshArrays:
     """positions: (n, 3) float32, Blender units. triangles: (m, 3) int32. normals: (n, 3) of vertices, or (3 m, 3) of corners
     where some are sharp; float32. sharp_edges: sorted keys a << 32 | b of vertex pairs a < b. slots: (m,) int32, of SLOTS.
-    ses_atom: (m,) int32, what each atom is told apart by. velocity: (n, 3) float32, Blender units a frame of the run, or None. attributes: name, type, domain
-    as Blender calls them, and values, a row an element, in the type that it stores and copies as they are."""
+    ses_atom: (m,) int32, the number of each atom. velocity: (n, 3) float32, Blender units a frame of the run, or None. attributes: name, type, domain
+    as Blender calls them, and values, one row per element, in the type that it stores and copies as they are."""
 
     positions: np.ndarray
     triangles: np.ndarray
@@ -54,7 +54,7 @@ class MeshArrays:
 
 def of_surface(surface, scale, crisp_colors, names, base=0.0):
     """The MeshArrays of a mns_reader.Surface. scale: Blender units per Å. crisp_colors: they change at edges, not between
-    vertices. names: as of names_of, of all surfaces that come together. base: Å, taken from all positions. Raises mns_reader.MnsError, too if it shall be closed and is not."""
+    vertices. names: as of names_of, of all surfaces that come together. base: Å, taken from all positions. Raises mns_reader.MnsError, also if it must be closed and is not."""
     surface.check_closed()
     positions = positions_of(surface, scale, base)
     triangles = np.ascontiguousarray(surface["mesh.triangle"], dtype=np.int32)
@@ -78,7 +78,7 @@ def names_of(*surfaces):
 
 def renumber(arrays, names, tables):
     """Has attributes of NAMES in a MeshArrays, whose places are in `names`, point into tables (attribute -> list of names), which
-    grow by names that are new. For meshes that come one after the other and shall have the same places."""
+    grow by names that are new. For meshes that come one after the other and must have the same places."""
     for number, (attribute, kind, domain, values) in enumerate(arrays.attributes):
         if attribute not in NAMES:
             continue

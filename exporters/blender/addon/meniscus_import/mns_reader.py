@@ -77,7 +77,7 @@ class Surface:
         return self.arrays.get(name)
 
     def check_closed(self):
-        """Raises MnsError if the mesh shall be closed and is not; looks once."""
+        """Raises MnsError if the mesh must be closed and is not; checks once."""
         if not self.known_closed and self.header["mesh"].get("closed", True) and not is_closed(self["mesh.triangle"]):
             raise MnsError(f"{self.path}: the mesh is not closed")
         self.known_closed = True
@@ -88,7 +88,7 @@ class Surface:
 
 
 def stamp(path):
-    """What is another when a file has been written anew. Raises OSError."""
+    """Changes when a file has been written again. Raises OSError."""
     found = os.stat(path)
     return found.st_mtime_ns, found.st_size, found.st_ino
 

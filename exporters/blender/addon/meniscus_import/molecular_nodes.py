@@ -43,7 +43,7 @@ def frames_of(item):
 
 def read(item, scale, selection="", place=0):
     """The atoms.Atoms that are selected, and their other attributes by atom as attributes.Kept. selection: the name of a boolean
-    attribute. place: of the frames, from 1; 0: as the object itself stands."""
+    attribute. place: of the frames, from 1; 0: as the object itself is."""
     mesh = item.data
     count = len(mesh.vertices)
     if not is_molecule(item) or not count:

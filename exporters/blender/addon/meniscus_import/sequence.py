@@ -181,7 +181,7 @@ class Run:
 
 def bake(path, context=None, progress=None, **options):
     """Reads all frames into the file: an object whose Geometry Nodes pick that of the scene's time. Renders anywhere,
-    without this add-on; options: of Run. Raises MnsError or OSError and then leaves nothing behind."""
+    without this add-on; options: of Run. After MnsError or OSError it leaves nothing."""
     context = context or bpy.context
     run = Run(path, context, **options)
     sequence, placement = run.sequence, run.placement

@@ -127,7 +127,7 @@ def _shape(library, atoms, request, task):
 
 
 def _painted(shape, atoms):
-    """The surface of a shape with the atoms as they are now: a change of colours computes nothing anew."""
+    """The surface of a shape with the atoms as they are now: a change of colours computes nothing again."""
     header, arrays = shape
     header = {**header, "source": {"file": atoms.source}, "chain_names": atoms.chain_names, **atoms.names}
     if atoms.kind_colors is not None:
@@ -231,7 +231,7 @@ def _about_run(request, frames):
 
 
 def _run(words, task):
-    """Runs the program to its end, or ends it when nobody wants it any more. Raises EngineError in its words."""
+    """Runs the program to its end, or ends it when its result is no longer wanted. Raises EngineError in its words."""
     with tempfile.TemporaryFile() as said:
         child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=said)
         try:

@@ -23,7 +23,7 @@ class Task:
         self._unwanted.set()
 
     def check(self):
-        """Raises engines.Cancelled when nobody waits for it."""
+        """Raises engines.Cancelled when its result is no longer wanted."""
         if self._unwanted.is_set():
             raise engines.Cancelled()
 
@@ -57,7 +57,7 @@ class Worker:
         self._threads = 0
 
     def ask(self, task):
-        """Puts a task behind those that are as urgent; what waits of the same owner falls away, what runs goes on."""
+        """Puts a task after those that are as urgent. Tasks of the same owner that still wait are dropped; one that runs goes on."""
         with self._lock:
             self._waiting.pop(task.owner, None)
             self._waiting[task.owner] = task

@@ -20,13 +20,13 @@ class Messages:
         self._socket.setblocking(True)
 
     def send(self, message):
-        """Raises OSError if nobody is there."""
+        """Raises OSError if the other end is closed."""
         data = pickle.dumps(message, protocol=pickle.HIGHEST_PROTOCOL)
         self._socket.sendall(LENGTH.pack(len(data)))
         self._socket.sendall(data)
 
     def receive(self):
-        """Waits for the next. Raises EOFError or OSError if nobody is there."""
+        """Waits for the next. Raises EOFError or OSError if the other end is closed."""
         (length,) = LENGTH.unpack(self._read(LENGTH.size))
         return pickle.loads(self._read(length))
 

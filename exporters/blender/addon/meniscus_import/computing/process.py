@@ -32,7 +32,7 @@ class Job:
 
 
 class Process:
-    """Started when it is first needed, and anew if it ended."""
+    """Started when it is first needed, and again if it ended."""
 
     def __init__(self, package="", program="", folder=None):
         """package, program: as of engines.find_tools. folder: for files that go again, or None."""
@@ -102,7 +102,7 @@ class Process:
         return done
 
     def told(self):
-        """works.Tools.told() of the process. Raises engines.EngineError if it does not start."""
+        """The same as works.Tools.told(), of the process. Raises engines.EngineError if it does not start."""
         if self._told is None:
             job = self.ask(None, None, "told", {})
             self._over += [other for other in self.wait(job) if other is not job]

@@ -59,7 +59,7 @@ def say(connection, *message):
 
 
 def leave():
-    """Blender is gone: nobody wants what is computed here, or by what was started here."""
+    """Blender is gone: what is computed here, or by programs started here, is no longer wanted."""
     if os.name == "nt":  # where it starts nothing
         os._exit(1)
     os.killpg(0, signal.SIGKILL)
