@@ -14,6 +14,7 @@
 #include "core/base/parse_number.h"
 #include "core/camera/camera_json.h"
 #include "core/camera/foreign_cameras.h"
+#include "core/camera/open_side.h"
 #include "core/math/ball.h"
 #include "core/math/rigid_motion.h"
 
@@ -28,7 +29,7 @@ struct NamedDirection {
   bool has_opposite;  ///< may be behind a minus sign
 };
 
-constexpr std::array<NamedDirection, 14> kDirections{{
+constexpr std::array<NamedDirection, 15> kDirections{{
     {"front", {Frame::inertia, 2, false}, false},
     {"back", {Frame::inertia, 2, true}, false},
     {"top", {Frame::inertia, 1, false}, false},
@@ -43,6 +44,7 @@ constexpr std::array<NamedDirection, 14> kDirections{{
     {"3", {Frame::inertia, 2, false}, true},
     {"symmetry", {Frame::symmetry, 2, false}, true},
     {"symmetry-side", {Frame::beside, 2, false}, true},
+    {"open", {Frame::open, 2, false}, true},
 }};
 
 /// Seen from where `toward` points, with `up` made perpendicular to it.
@@ -59,9 +61,18 @@ glm::dvec3 across(const glm::dvec3& axis) {
   return glm::normalize(wanted - axis * glm::dot(axis, wanted));
 }
 
-ViewBasis view_from(const ViewDirection& direction, std::span<const Ball> balls, const glm::dvec3& symmetry) {
+ViewBasis opposite_of(const ViewBasis& basis) { return {-basis.right, basis.up, -basis.forward}; }
+
+}  // namespace
+
+ViewBasis view_basis(const ViewDirection& direction, const ViewedBalls& balls) {
+  const glm::dvec3 symmetry = balls.symmetry.value_or(glm::dvec3(0.0, 0.0, 1.0));
   const double sign = direction.opposite ? -1.0 : 1.0;
   const glm::dvec3 y(0.0, 1.0, 0.0), z(0.0, 0.0, 1.0);
+  if (direction.frame == Frame::open) {
+    const ViewBasis open = open_side(balls.framed, balls.shown);
+    return direction.opposite ? opposite_of(open) : open;
+  }
   if (direction.frame == Frame::symmetry) return facing(sign * symmetry, across(symmetry));
   if (direction.frame == Frame::beside) return facing(sign * across(symmetry), symmetry);
   glm::dvec3 toward(0.0);
@@ -69,11 +80,13 @@ ViewBasis view_from(const ViewDirection& direction, std::span<const Ball> balls,
     toward[direction.axis] = sign;
     return facing(toward, direction.axis == 1 ? -sign * z : y);
   }
-  const ViewBasis broad = broad_side(balls);
+  const ViewBasis broad = broad_side(balls.shown);
   if (direction.axis == 0) return facing(sign * broad.right, broad.up);
   if (direction.axis == 1) return facing(sign * broad.up, sign * broad.forward);
   return facing(-sign * broad.forward, broad.up);
 }
+
+namespace {
 
 /// An axis and how many rotations turn about it.
 struct AxisCount {
@@ -118,11 +131,6 @@ std::vector<std::string> view_direction_words() {
     if (known.has_opposite) words.push_back("-" + std::string(known.name));
   }
   return words;
-}
-
-ViewBasis view_basis(const ViewDirection& direction, std::span<const Ball> balls,
-                     const std::optional<glm::dvec3>& symmetry) {
-  return view_from(direction, balls, symmetry.value_or(glm::dvec3(0.0, 0.0, 1.0)));
 }
 
 std::optional<glm::dvec3> symmetry_axis(std::span<const RigidMotion> motions) {
@@ -205,7 +213,7 @@ std::optional<Camera> given_camera(const ViewRequest& request) {
 ViewBasis aimed_basis(const ViewRequest& request, const std::optional<Camera>& given, const ViewedBalls& balls) {
   if (given) return turned(view_basis(*given), request.turns);
   if (!request.direction) return turned(broad_side(balls.shown), request.turns);
-  return turned(view_basis(*request.direction, balls.shown, balls.symmetry), request.turns);
+  return turned(view_basis(*request.direction, balls), request.turns);
 }
 
 Camera view_camera(const ViewRequest& request, const std::optional<Camera>& given, const ViewedBalls& balls) {

@@ -25,7 +25,8 @@ struct ViewDirection {
     file,      ///< axes of the file's coordinates: the viewer is on that side of them
     inertia,   ///< principal axes of the atoms' centres, longest first; the third is that of the default view
     symmetry,  ///< along the symmetry axis of an assembly
-    beside     ///< at a right angle to it, which is up in the picture
+    beside,    ///< at a right angle to it, which is up in the picture
+    open       ///< from where what fills the picture is hidden least (open_side)
   };
   Frame frame = Frame::inertia;
   int axis = 2;           ///< of a file's frame or of inertia: 0 to 2
@@ -34,19 +35,12 @@ struct ViewDirection {
   bool operator==(const ViewDirection&) const = default;
 };
 
-/// Understands x, y, z (file), 1, 2, 3 (inertia), symmetry, symmetry-side, each with - before it for the other side,
-/// and front (3), back (-3), top (2), bottom (-2), right (1), left (-1). Nothing for other words.
+/// Understands open, x, y, z (file), 1, 2, 3 (inertia), symmetry, symmetry-side, each with - before it for the other
+/// side, and front (3), back (-3), top (2), bottom (-2), right (1), left (-1). Nothing for other words.
 std::optional<ViewDirection> parse_view_direction(std::string_view text);
 
 /// Those words, to be proposed.
 std::vector<std::string> view_direction_words();
-
-/// Axes of the picture from that side. Up in it are: of file axes y, but z for ±y so that +x stays right of y; of
-/// inertia 1 the second axis, of 2 the one that is turned away from the default view, of 3 the second; beside the
-/// symmetry axis that axis. There must be a ball. symmetry: the axis, of length 1, which Frame::symmetry and
-/// Frame::beside need.
-ViewBasis view_basis(const ViewDirection& direction, std::span<const Ball> balls,
-                     const std::optional<glm::dvec3>& symmetry);
 
 /// The axis, of length 1, about which most of the motions' rotations relative to each other turn, towards +z of the
 /// file (then +y, +x). Of several the one nearest to z. Nothing where none of them turns: one copy, or shifted ones.
@@ -84,6 +78,11 @@ struct ViewedBalls {
   std::span<const Ball> framed;        ///< those that should fill the picture; at least one
   std::optional<glm::dvec3> symmetry;  ///< axis of an assembly, needed if the direction is along or beside it
 };
+
+/// Axes of the picture from that side. Up in it are: of file axes y, but z for ±y so that +x stays right of y; of
+/// inertia 1 the second axis, of 2 the one that is turned away from the default view, of 3 the second; beside the
+/// symmetry axis that axis; of the open side what open_side() says.
+ViewBasis view_basis(const ViewDirection& direction, const ViewedBalls& balls);
 
 /// The camera of the file, if one is named. Ask for it before anything is computed. Throws InputError.
 std::optional<Camera> given_camera(const ViewRequest& request);

@@ -88,6 +88,9 @@ ViewAim::ViewAim(const ViewRequest& request, const std::optional<Selection>& sho
   for (std::size_t n = 0; n < beside.size(); ++n)
     if (beside[n]) beside_.push_back({structure.beside[n].position, structure.beside[n].radius});
   using Axes = ViewDirection::Frame;
+  if (request.direction && request.direction->frame == Axes::open && !request.zoom_to)
+    throw RequestError(
+        fmt::format("{} open looks at the atoms of {}; add it", option_name("view"), option_name("zoom-to")));
   if (!request.direction || (request.direction->frame != Axes::symmetry && request.direction->frame != Axes::beside))
     return;
   symmetry_ = symmetry_axis(copy_motions(structure));

@@ -12,6 +12,7 @@
 #include "core/camera/view_request.h"
 #include "core/math/ball.h"
 #include "core/math/rigid_motion.h"
+#include "core/math/spiral.h"
 
 namespace meniscus {
 namespace {
@@ -32,7 +33,7 @@ void expect_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e
 }
 
 ViewBasis side(const char* name, const std::optional<glm::dvec3>& symmetry = {}) {
-  return view_basis(parse_view_direction(name).value(), kLong, symmetry);
+  return view_basis(parse_view_direction(name).value(), {kLong, kLong, symmetry});
 }
 
 TEST(ViewDirection, FacesWhatItNames) {
@@ -67,6 +68,33 @@ TEST(ViewDirection, FacesWhatItNames) {
   expect_near(side("bottom").forward, usual.up);
   expect_near(side("symmetry", glm::dvec3(0, 0, 1)).forward, {0, 0, -1});
   expect_near(side("symmetry-side", glm::dvec3(0, 0.6, 0.8)).up, {0, 0.6, 0.8});
+}
+
+// Balls on a sphere of radius 9 about one in the middle, but for a hole.
+TEST(ViewDirection, OpenLooksThroughTheHole) {
+  const std::vector<Ball> seen{{{0.5, 0, 0}, 1.7}, {{-0.5, 0, 0}, 1.7}};
+  for (const glm::dvec3& hole : {glm::dvec3(0.6, 0.0, 0.8), glm::dvec3(0, -1, 0), glm::dvec3(-0.48, 0.6, -0.64)}) {
+    std::vector<Ball> all = seen;
+    for (std::size_t n = 0; n < 400; ++n) {
+      const glm::dvec3 at = spiral_direction(n, 400);
+      if (glm::dot(at, hole) < 0.85) all.push_back({9.0 * at, 1.7});
+    }
+    const ViewBasis basis = view_basis(parse_view_direction("open").value(), {all, seen, {}});
+    EXPECT_GT(glm::dot(-basis.forward, hole), 0.95);
+    EXPECT_GT(glm::dot(view_basis(parse_view_direction("-open").value(), {all, seen, {}}).forward, hole), 0.95);
+  }
+}
+
+TEST(ViewDirection, OpenLooksThroughTheThinnestWall) {
+  const std::vector<Ball> seen{{{0, 0, 0}, 1.7}};
+  std::vector<Ball> all = seen;
+  const glm::dvec3 thin = spiral_direction(123, 300);
+  for (std::size_t n = 0; n < 300; ++n) {
+    const glm::dvec3 at = spiral_direction(n, 300);
+    for (const double radius : {6.0, 9.0, 12.0})
+      if (radius == 6.0 || glm::dot(at, thin) < 0.8) all.push_back({radius * at, 1.9});
+  }
+  EXPECT_GT(glm::dot(-view_basis(parse_view_direction("open").value(), {all, seen, {}}).forward, thin), 0.9);
 }
 
 TEST(ViewDirection, KnowsNoOtherWords) {
