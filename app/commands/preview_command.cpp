@@ -52,7 +52,8 @@ void take_preview(DeclaredPreview& declared, const std::vector<std::string>& nam
   require_probe_of_kind(scene.molecule.surface);
   const bool is_scene = !options.file().empty();
   if (!is_scene && !options.is_given("image.background")) scene.image.background = glm::vec3(1.0f);
-  state.models = !is_scene && !options.is_given("molecule.model") && !scene.frames.asked();
+  state.models =
+      !is_scene && !options.is_given("molecule.model") && !scene.frames.asked() && scene.molecule.reading.added.empty();
   state.aims = is_scene || scene.picture.direction || scene.picture.zoom_to || !scene.picture.turns.empty();
   if (is_scene || options.is_given("image.size") || options.is_given("image.width") || options.is_given("image.height"))
     state.wishes.size = scene.picture.size();

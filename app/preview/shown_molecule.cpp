@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -96,6 +97,15 @@ std::shared_ptr<const BesideSurface> beside_of(const Structure& marked, const Pr
   return beside;
 }
 
+/// The models that are shown one after another: of several files all atoms are shown together.
+std::vector<AtomGroup> models_of(const Structure& structure) {
+  if (structure.added.empty()) return group_atoms(structure, Grouping::model);
+  AtomGroup all;
+  all.atoms.resize(structure.atoms.size());
+  std::iota(all.atoms.begin(), all.atoms.end(), 0u);
+  return {all};
+}
+
 std::size_t count_of(const std::vector<bool>& shown, const PreviewFigure& figure, const ShownMolecule& molecule) {
   const auto count = static_cast<std::size_t>(std::ranges::count(shown, true));
   if (count > 0) return count;
@@ -108,7 +118,7 @@ std::size_t count_of(const std::vector<bool>& shown, const PreviewFigure& figure
 ShownMolecule::ShownMolecule(Structure structure, std::optional<TrajectoryPositions> trajectory, ReadShown read_shown,
                              const PreviewState& state)
     : structure_(std::move(structure)),
-      models_(group_atoms(structure_, Grouping::model)),
+      models_(models_of(structure_)),
       trajectory_(std::move(trajectory)),
       read_shown_(std::move(read_shown)) {
   if (state.copies_apart) require_apart(structure_, state.probe_reach());
@@ -140,7 +150,7 @@ ShownMolecule::Made ShownMolecule::made_at(const PreviewState& state) {
   const auto exchange = [&] {
     if (other) {
       std::swap(structure_, *other);
-      models_ = group_atoms(structure_, Grouping::model);
+      models_ = models_of(structure_);
     }
     for (std::size_t n = 0; n < positions.size(); ++n) std::swap(structure_.atoms[n].position, positions[n]);
     std::swap(frame_, frame);

@@ -309,7 +309,11 @@ std::vector<glm::dvec3> FrameRun::positions(std::uint64_t number) {
   Frame frame;
   frames_->read(source(number), frame);
   std::vector<glm::dvec3> positions;
-  for (const Atom& atom : structure_.atoms) positions.push_back(position_of(atom, frame.positions));
+  if (file_) {
+    for (const Atom& atom : file_->at(frame.positions).atoms) positions.push_back(atom.position);
+  } else {
+    for (const Atom& atom : structure_.atoms) positions.push_back(position_of(atom, frame.positions));
+  }
   return positions;
 }
 

@@ -100,6 +100,15 @@ class Figures(unittest.TestCase):
                                         commands=[*commands, {"command": "state"}])
             self.assertEqual(replies[-3]["drawn_by"], "cpu" if commands else "gl")
 
+    def test_several_files_are_shown_together(self):
+        models = f"{DATA}/pdb2k39_truncated.pdb"
+        added = ("--add", "/usr/share/freesasa/test-data/1ubq.pdb", "--superpose-on", "name CA and resid 1-20", "--color", "model")
+        for device in ("cpu", "software"):
+            self.same_picture(MOLECULE, "--add", "/usr/share/freesasa/test-data/1ubq.pdb", "--color", "model", device=device)
+        replies = self.same_picture(models, "--trajectory", f"{DATA}/dcd2k39_truncated.dcd", *added, "--sticks",
+                                    "model 2 and resid 6-12", commands=[{"command": "next_frame"}, {"command": "state"}])
+        self.assertGreater(replies[1]["atoms"], 700)
+
     def test_kinds_of_surface(self):
         for device in ("cpu", "software"):
             for kind in ("sas", "vdw"):
