@@ -30,9 +30,26 @@ using By = ColorScheme::By;
                                structure.file));
 }
 
+/// The only chain of polymers, or of all atoms where there are none, for numbers of residues without chains.
+std::string only_chain(const Structure& structure, const NumberFile& file) {
+  std::set<std::string> chains;
+  const bool polymers =
+      std::ranges::any_of(structure.atoms, [](const Atom& a) { return a.kind == AtomClass::polymer; });
+  for (const Atom& atom : structure.atoms)
+    if (!polymers || atom.kind == AtomClass::polymer) chains.insert(chain_of_file(atom));
+  if (chains.size() != 1)
+    throw InputError(
+        file.path, 0,
+        fmt::format("names residues without their chains, but the atoms used of {} are of {} chains, such "
+                    "as {} and {}; add a column chain",
+                    structure.file, chains.size(), in_quotes(*chains.begin()), in_quotes(*std::next(chains.begin()))));
+  return *chains.begin();
+}
+
 std::vector<double> numbers_by_name(const Structure& structure, const NumberFile& file) {
   std::vector<double> numbers(structure.atoms.size(), std::numeric_limits<double>::quiet_NaN());
   bool found = false;
+  const std::string chain = file.without_chains ? only_chain(structure, file) : std::string();
   const auto take = [&](const auto& table, const auto& key, double& number) {
     const auto entry = table.find(key);
     if (entry == table.end()) return;
@@ -43,8 +60,10 @@ std::vector<double> numbers_by_name(const Structure& structure, const NumberFile
     const Atom& atom = structure.atoms[a];
     if (!file.by_atom.empty())
       take(file.by_atom, atom.index, numbers[a]);
-    else
+    else if (!file.without_chains)
       take(file.by_residue, ResidueName{chain_of_file(atom), atom.residue_number, atom.insertion_code}, numbers[a]);
+    else if (chain_of_file(atom) == chain)
+      take(file.by_residue, ResidueName{{}, atom.residue_number, atom.insertion_code}, numbers[a]);
   }
   if (!found && !file.by_atom.empty()) no_atom_named(structure, file, "atoms", file.by_atom.size());
   if (!found) no_atom_named(structure, file, "residues", file.by_residue.size());
@@ -66,8 +85,8 @@ std::vector<double> numbers_of_file(const Structure& structure, const NumberFile
   }
   if (numbers.size() != used) {
     throw InputError(file.path, 0,
-                     fmt::format("holds {} numbers; {} holds {} atoms, of which {} are used; give as many as either",
-                                 with_thousands(given), structure.file, with_thousands(read), with_thousands(used)));
+                     fmt::format("holds {} numbers; {} holds {} atoms, of which {} are used; {}", with_thousands(given),
+                                 structure.file, with_thousands(read), with_thousands(used), kNumberLayouts));
   }
   return numbers;
 }
