@@ -58,11 +58,9 @@ constexpr ColorSchemeMetadata kSchemes[] = {
      "accessible area in Å² that is buried between chains, or the groups of --by or --interface; ylorrd, from 0",
      "B. Lee and F. M. Richards, J. Mol. Biol. 55, 379 (1971)"},
     {"lipophilicity", By::lipophilicity,
-     "lipophilicity potential of a protein at each point: log P of its atoms times exp(-d); blue-white-red, -0.3 to "
-     "0.3",
+     "potential of a protein at each point: log P of its atoms times exp(-distance); blue-white-red, -0.3 to 0.3",
      "S. A. Wildman and G. M. Crippen, J. Chem. Inf. Comput. Sci. 39, 868 (1999); J.-L. Fauchère et al., J. Mol. "
-     "Graph. "
-     "6, 203 (1988)"},
+     "Graph. 6, 203 (1988)"},
     {"rmsf", By::rmsf, "root mean square fluctuation in Å over the frames of a run; ylorrd, from 0", ""},
     {"file", By::file, "numbers of --color-by-file; viridis, smallest to largest", ""},
     {"conservation", By::conservation, "grades of --color-by-file, 1 (variable) to 9 (conserved); consurf",
