@@ -38,6 +38,8 @@ void export_atoms(const SceneCommand& asked) {
   SceneCommand command = asked;
   if (command.scene.molecule.color.by == ColorScheme::By::volume)
     throw UsageError("--color-map-file colours points of a surface, not atoms; leave it out");
+  if (command.scene.molecule.color.by == ColorScheme::By::lipophilicity)
+    throw UsageError("--color lipophilicity colours points of a surface, not atoms; choose another --color");
   std::unique_ptr<FrameRun> run;
   if (command.scene.frames.asked()) {
     settle_selections(command.scene.molecule, command.scene.frames);

@@ -108,8 +108,10 @@ void check(const PathTracerCommand& command) {
   const auto hatched = [](const FigureObjectRequest& object) { return object.cap.hatching > 0.0; };
   if (command.scene.figure.cap.hatching > 0.0 || std::ranges::any_of(command.scene.figure.objects, hatched))
     throw UsageError("--cap-hatching: caps in these scenes are plain; leave it out, or use render or export povray");
-  if (command.renderer == path_tracers::Renderer::pbrt && command.scene.molecule.color.by == ColorScheme::By::volume)
-    throw UsageError("--color-map-file: meshes of pbrt have no vertex colours; use export mitsuba");
+  if (command.renderer == path_tracers::Renderer::pbrt && command.scene.molecule.color.of_points())
+    throw UsageError(
+        "colours of points (--color-map-file, lipophilicity): meshes of pbrt have no vertex colours; use export "
+        "mitsuba");
   check_caps_of_map(command.scene, "these scenes have no values of the map on caps");
   check_saved_camera(command);
 }

@@ -106,6 +106,10 @@ std::vector<povray::SceneObject> more_objects(const Figure& figure, const Figure
 void check_povray(const SceneCommand& command) {
   if (command.scene.figure.thickens && command.scene.molecule.volume_offset != 0.0)
     throw UsageError("--map-offset: scenes for POV-Ray cannot combine it with --film-opacity; leave one of them out");
+  if (command.scene.molecule.color.by == ColorScheme::By::lipophilicity && command.scene.frames.asked())
+    throw UsageError(
+        "--color lipophilicity: scenes of a run share one map, but each frame has a potential of its own; use render "
+        "or export blender");
   check_saved_camera(command);
 }
 

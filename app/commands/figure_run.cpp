@@ -112,12 +112,14 @@ void settle_copies(std::vector<SurfaceObject>& objects) {
 }
 
 void check_caps_of_map(const Scene& scene, std::string_view reason) {
-  if (scene.molecule.color.by != ColorScheme::By::volume) return;
+  if (!scene.molecule.color.of_points()) return;
+  const char* const option =
+      scene.molecule.color.by == ColorScheme::By::volume ? "--color-map-file" : "--color lipophilicity";
   if (!scene.figure.cuts.empty() && !scene.figure.cap.color)
-    throw UsageError(fmt::format("--color-map-file with --clip needs --cap-color: {}", reason));
+    throw UsageError(fmt::format("{} with --clip needs --cap-color: {}", option, reason));
   for (const FigureObjectRequest& object : scene.figure.objects)
     if (!object.shapes && !object.color && !object.cuts.empty() && !object.cap.color)
-      throw UsageError(fmt::format("--color-map-file with a \"clip\" in --object needs its \"cap_color\": {}", reason));
+      throw UsageError(fmt::format("{} with a \"clip\" in --object needs its \"cap_color\": {}", option, reason));
 }
 
 void check_saved_camera(const SceneCommand& command) {

@@ -160,11 +160,11 @@ Json tell_choices(const CommandReader&, const Surroundings& around) {
   Json schemes = Json::array(), maps = Json::array();
   for (const ColorSchemeMetadata& scheme : color_schemes()) {
     if (!is_previewed(scheme.by) && scheme.by != first.by) continue;
-    if (scheme.by == ColorScheme::By::file && first.file.empty()) continue;
     if (scheme.by == ColorScheme::By::copy && !has_copies) continue;
     if (scheme.by == ColorScheme::By::model && !has_models) continue;
     ColorScheme color;
     color.by = scheme.by;
+    if (color.takes_file() && first.file.empty()) continue;
     schemes.push_back({{"word", scheme.word}, {"has_map", color.has_scale()}, {"description", scheme.description}});
   }
   for (const ColorMapMetadata& map : color_maps()) maps.push_back(map.name);

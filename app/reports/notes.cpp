@@ -13,6 +13,7 @@
 #include "app/options/scene_options.h"
 #include "app/reports/file_report.h"
 #include "core/base/text.h"
+#include "core/color/ordered_classes.h"
 #include "core/mesh/mesh_objects.h"
 
 namespace meniscus {
@@ -21,6 +22,8 @@ namespace {
 void tell_structure(const SceneCommand& command, const Structure& structure) {
   say(command, fmt::format("{}: {}", structure.file, structure.report.sentence()));
   for (const AddedFile& added : structure.added) say(command, added.sentence());
+  if (command.scene.molecule.color.uses(ColorScheme::By::plddt))
+    say(command, fmt::format("{}: pLDDT is that of {}", structure.file, source_of_confidence(structure)));
   say_warnings(command, structure);
   for (const std::string& rule : rules_without_atoms(structure, command.scene.molecule.color))
     say(command, fmt::format("warning: {}: {} selects none of the atoms used; chains and names are case-sensitive",

@@ -163,14 +163,14 @@ std::vector<std::string_view> fields_of(std::string_view line, std::size_t most)
   return fields;
 }
 
-std::vector<std::string> csv_cells_of(std::string_view line) {
+std::vector<std::string> csv_cells_of(std::string_view line, char separator) {
   std::vector<std::string> cells(1);
   bool quoted = false;
   for (std::size_t n = 0; n < line.size(); ++n) {
     const bool twice = quoted && line[n] == '"' && n + 1 < line.size() && line[n + 1] == '"';
     if (line[n] == '"' && !twice)
       quoted = !quoted;
-    else if (line[n] == ',' && !quoted)
+    else if (line[n] == separator && !quoted)
       cells.emplace_back();
     else
       cells.back() += line[n];

@@ -67,7 +67,7 @@ std::string_view take_field(std::string_view& rest);
 /// All fields of a line, at most `most` of them; the last one is then followed by more.
 std::vector<std::string_view> fields_of(std::string_view line, std::size_t most = 64);
 
-/// The cells of a line, without blanks at both ends; quotes around one may hold commas, two of them stand for one.
-std::vector<std::string> csv_cells_of(std::string_view line);
+/// The cells of a line, without blanks at both ends; quotes around one may hold separators, two of them stand for one.
+std::vector<std::string> csv_cells_of(std::string_view line, char separator = ',');
 
 }  // namespace meniscus

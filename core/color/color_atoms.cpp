@@ -3,6 +3,7 @@
 #include "core/color/color_atoms.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <numeric>
@@ -14,7 +15,9 @@
 #include "core/color/color_key.h"
 #include "core/color/color_maps.h"
 #include "core/color/coloring.h"
+#include "core/color/lipophilicity.h"
 #include "core/color/named_colors.h"
+#include "core/color/ordered_classes.h"
 #include "core/structure/structure.h"
 
 namespace meniscus {
@@ -36,6 +39,11 @@ std::vector<glm::vec3> colors_of(const Structure& structure, const ColorScheme& 
   if (scheme.by == By::chain) return by_chain(structure, scheme);
   std::vector<glm::vec3> colors;
   colors.reserve(structure.atoms.size());
+  if (scheme.by == By::secondary || scheme.by == By::plddt) {
+    const ClassedAtoms classed = scheme.by == By::plddt ? confidence_classes(structure) : secondary_classes(structure);
+    for (std::size_t a = 0; a < structure.atoms.size(); ++a) colors.push_back(classed.color(a));
+    return colors;
+  }
   if (scheme.has_scale()) {
     const ColorScale scale = color_scale(structure, scheme);
     for (const double number : scale.value) colors.push_back(scale.color(number));
@@ -110,9 +118,13 @@ Coloring color_object(const Structure& structure, std::span<const std::uint32_t>
     coloring.kind = kPatchKindColors;
   } else if (scheme.by == By::component) {
     coloring.atom.assign(atom.size(), categorical_color(object_number));
-  } else if (scheme.by == By::volume) {
+  } else if (scheme.of_points()) {
     coloring.atom.assign(atom.size(), scheme.volume->scale.missing_color);
     coloring.volume = scheme.volume;
+    if (scheme.by == By::lipophilicity)
+      for (const std::uint32_t a : atom)
+        coloring.own_color.push_back(
+            std::isnan(lipophilicity(structure.atoms[a].residue_name, structure.atoms[a].name)));
   } else if (scheme.by == By::fixed) {
     coloring.atom.assign(atom.size(), scheme.fixed);
   } else {

@@ -12,6 +12,7 @@
 
 #include "core/color/color_maps.h"
 #include "core/color/color_schemes.h"
+#include "core/color/ordered_classes.h"
 
 namespace meniscus {
 
@@ -19,23 +20,17 @@ namespace meniscus {
 std::vector<double> distances_from_middle(std::span<const glm::dvec3> points);
 
 /// The scale of a scheme that has one. Automatic ranges are the smallest and the largest number, of all frames where
-/// these are known; for charges symmetric about 0; for hydrophobicity the ends of its scale, -4.5 and 4.5. Default
-/// maps: charge red-white-blue (negative is red), hydrophobicity blue-white-red, others viridis. Throws as color_atoms
-/// does.
+/// these are known; for charges symmetric about 0; for hydrophobicity, rainbow and conservation the ends of their
+/// scales. Default maps: charge red-white-blue (negative is red), hydrophobicity blue-white-red, ..., others viridis.
+/// Throws as color_atoms does.
 ColorScale color_scale(const Structure& structure, const ColorScheme& scheme);
-
-/// A name and its colour.
-struct ColorClass {
-  std::string name;  ///< may come from a molecule file
-  glm::vec3 color{0.0f};
-};
 
 /// What a legend says: a scale, or classes, or both where rules are beside a scale, or neither for one fixed colour.
 struct ColorKey {
   std::string title;  ///< "chain", "element", ...; the scale has its own
   std::optional<ColorScale> scale;
-  /// Those that occur, in order of first appearance; then those of rules that paint atoms in one colour, by their
-  /// expressions.
+  /// Those that occur, in order of first appearance or in an order of their own; then those of rules that paint atoms
+  /// in one colour, by their expressions.
   std::vector<ColorClass> classes;
 };
 

@@ -17,6 +17,7 @@ nlohmann::ordered_json color_key_json(const ColorKey& key) {
     json = {{"title", scale.title}, {"unit", scale.unit},       {"map", scale.own_map ? "own" : map_name(scale.map)},
             {"range", scale.range}, {"missing", scale.missing}, {"missing_color", triple(scale.missing_color)}};
   }
+  if (key.scale && !key.scale->ends[0].empty()) json["ends"] = key.scale->ends;
   if (!key.classes.empty()) json["classes"] = Json::array();
   for (const ColorClass& entry : key.classes)
     json["classes"].push_back({{"name", escaped(entry.name)}, {"color", triple(entry.color)}});

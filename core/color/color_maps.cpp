@@ -51,6 +51,9 @@ constexpr std::array<std::uint32_t, 6> kYlOrRd{0xffeda0, 0xfed976, 0xfeb24c, 0xf
 constexpr std::array<std::uint32_t, 9> kConsurf{0x10c8d1, 0x8cffff, 0xd7ffff, 0xeaffff, 0xffffff,
                                                 0xfcedf4, 0xfac9de, 0xf07dab, 0xa02560};
 
+// Okabe and Ito's hues in the order of the spectrum.
+constexpr std::array<std::uint32_t, 6> kRainbow{0x0072b2, 0x56b4e9, 0x009e73, 0xf0e442, 0xe69f00, 0xd55e00};
+
 constexpr ColorMapMetadata kMaps[] = {
     {ColorMap::viridis, "viridis", "N. J. Smith, S. van der Walt and E. Firing, matplotlib 1.5 (2015), CC0 1.0"},
     {ColorMap::cividis, "cividis",
@@ -64,6 +67,7 @@ constexpr ColorMapMetadata kMaps[] = {
      "C. A. Brewer, ColorBrewer 2.0 (2013), Apache 2.0; light, without its palest and darkest"},
     {ColorMap::consurf, "consurf",
      "grades 1 to 9: H. Ashkenazy et al., Nucleic Acids Res. 44, W344 (2016); --color-range 1:9"},
+    {ColorMap::rainbow, "rainbow", "linear between hues of Okabe and Ito, from blue to red; for --color rainbow"},
     {ColorMap::categorical, "categorical", "M. Okabe and K. Ito, Color Universal Design (2008)"},
 };
 
@@ -109,6 +113,8 @@ glm::vec3 mapped_color(ColorMap map, double t) {
       return between(kYlOrRd, t);
     case ColorMap::consurf:
       return nearest(kConsurf, t);
+    case ColorMap::rainbow:
+      return between(kRainbow, t);
     default:
       return between(kViridis, t);
   }

@@ -46,11 +46,25 @@ constexpr ColorSchemeMetadata kSchemes[] = {
      "after the models of R. B. Corey, L. Pauling and W. L. Koltun; metals and tones are our own"},
     {"index", By::index, "place in the file, from 0; viridis", ""},
     {"radial", By::radial, "distance from the middle of all atoms in Å, for capsids; viridis", ""},
+    {"secondary", By::secondary,
+     "helix, strand or coil: as the file says, else by the hydrogen bonds of the backbone, as cartoons have it",
+     "W. Kabsch and C. Sander, Biopolymers 22, 2577 (1983); colours of Okabe and Ito"},
+    {"rainbow", By::rainbow, "place in its chain, from blue (N-terminus or 5') to red (C-terminus or 3')",
+     "colours of Okabe and Ito"},
+    {"plddt", By::plddt,
+     "confidence of a predicted model in the four classes of AlphaFold, from _ma_qa_metric_local or else B-factors",
+     "the AlphaFold database: M. Varadi et al., Nucleic Acids Res. 50, D439 (2022)"},
     {"buried", By::buried,
      "accessible area in Å² that is buried between chains, or the groups of --by or --interface; ylorrd, from 0",
      "B. Lee and F. M. Richards, J. Mol. Biol. 55, 379 (1971)"},
+    {"lipophilicity", By::lipophilicity,
+     "potential of a protein at each point: log P of its atoms times exp(-distance); blue-white-red, -0.3 to 0.3",
+     "S. A. Wildman and G. M. Crippen, J. Chem. Inf. Comput. Sci. 39, 868 (1999); J.-L. Fauchère et al., J. Mol. "
+     "Graph. 6, 203 (1988)"},
     {"rmsf", By::rmsf, "root mean square fluctuation in Å over the frames of a run; ylorrd, from 0", ""},
-    {"file", By::file, "numbers of --color-by-file; viridis, smallest to largest", ""}};
+    {"file", By::file, "numbers of --color-by-file; viridis, smallest to largest", ""},
+    {"conservation", By::conservation, "grades of --color-by-file, 1 (variable) to 9 (conserved); consurf",
+     "H. Ashkenazy et al., Nucleic Acids Res. 44, W344 (2016)"}};
 
 }  // namespace
 
@@ -74,19 +88,18 @@ bool ColorScheme::uses_scale() const {
   return has_scale() || std::ranges::any_of(rules, [](const ColorRule& rule) { return rule.paint.has_scale(); });
 }
 
-bool ColorScheme::uses_file() const {
-  return by == By::file || std::ranges::any_of(rules, [](const ColorRule& rule) { return rule.paint.by == By::file; });
+bool ColorScheme::uses(By kind) const {
+  return by == kind || std::ranges::any_of(rules, [kind](const ColorRule& rule) { return rule.paint.by == kind; });
 }
 
 bool ColorScheme::uses_frames() const {
-  return (by == By::file && file.by_frame) || std::ranges::any_of(rules, [](const ColorRule& rule) {
-           return rule.paint.by == By::file && rule.paint.file.by_frame;
+  return (takes_file() && file.by_frame) || std::ranges::any_of(rules, [](const ColorRule& rule) {
+           return rule.paint.takes_file() && rule.paint.file.by_frame;
          });
 }
 
 bool ColorScheme::changes_with_frames() const {
-  return uses_frames() || by == By::radial || by == By::buried ||
-         std::ranges::any_of(rules, [](const ColorRule& rule) { return rule.paint.by == By::radial; });
+  return uses_frames() || by == By::buried || by == By::lipophilicity || uses(By::radial) || uses(By::secondary);
 }
 
 void ColorScheme::set_numbers(const NumberFile& numbers) {
@@ -95,9 +108,9 @@ void ColorScheme::set_numbers(const NumberFile& numbers) {
         "--map categorical gives each number of a picture its own colour, which would change from frame to frame; "
         "choose another --map");
   if (by != By::rmsf) file = numbers;  // its own were measured
-  if (by == By::file) frames_range = numbers.range_of_frames();
+  if (takes_file()) frames_range = numbers.range_of_frames();
   for (ColorRule& rule : rules) {
-    if (rule.paint.by != By::file) continue;
+    if (!rule.paint.takes_file()) continue;
     rule.paint.file = numbers;
     rule.paint.frames_range = numbers.range_of_frames();
   }
@@ -145,7 +158,7 @@ ColorRule parse_color_rule(std::string_view text) {
   std::optional<ColorScheme> paint = parse_color_scheme(word);
   if (equals == std::string_view::npos || !paint)
     throw RequestError(fmt::format("{} is not one of {}", in_quotes(word), color_scheme_words()));
-  if (paint->by == By::kind || paint->by == By::component)
+  if (paint->by == By::kind || paint->by == By::component || paint->of_points())
     throw RequestError(
         fmt::format("{} cannot colour some of the atoms; it colours the whole surface", in_quotes(word)));
   return {parse_selection(text.substr(0, equals)), *std::move(paint)};

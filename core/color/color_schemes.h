@@ -44,16 +44,21 @@ struct ColorScheme {
     kind,       ///< of patch
     component,  ///< objects in turn: closed parts of the surface, chains, ...
     fixed,      ///< one colour
+    secondary,  ///< helix, strand, coil
+    plddt,      ///< confidence of a predicted model, in four classes
     bfactor,    ///< this one and those below are numbers, with a map and a range
     occupancy,
     charge,
     hydrophobicity,  ///< Kyte & Doolittle 1982
     index,           ///< place in the file
+    rainbow,         ///< place in its chain
     radial,          ///< distance from the middle of all atoms
     buried,          ///< accessible area that is buried between groups of atoms; numbers come with the surface
     rmsf,            ///< fluctuation over the frames of a run, likewise
     file,            ///< numbers of a file of the user's own
-    volume           ///< a volume map, at each point of the surface
+    conservation,    ///< grades 1 to 9 of such a file
+    volume,          ///< a volume map, at each point of the surface
+    lipophilicity    ///< the potential of the atoms, likewise
   };
   By by = By::element;
   glm::vec3 fixed{0.8f};                     ///< sRGB in [0, 1], for By::fixed
@@ -65,18 +70,24 @@ struct ColorScheme {
   /// automatic range.
   std::optional<std::array<double, 2>> frames_range;
   std::optional<glm::vec3> missing;           ///< of atoms without a number; nothing: default_missing_color
-  NumberFile file;                            ///< for By::file; for buried and rmsf the numbers of the atoms
-  std::shared_ptr<const VolumePaint> volume;  ///< for By::volume
+  NumberFile file;                            ///< for takes_file(); for buried and rmsf the numbers of the atoms
+  std::shared_ptr<const VolumePaint> volume;  ///< for of_points(); of lipophilicity it comes with the surface
   std::string title, unit;                    ///< of the scale; empty: its own
   std::vector<ColorRule> rules;               ///< over all this; of several that speak of an atom the last counts
   std::vector<OpacityRule> opacities;         ///< and so here
 
   /// True for schemes that colour by a number.
   bool has_scale() const { return by >= By::bfactor; }
-  /// The same, or that some rule colours by a number.
+  /// True for schemes that colour each point of a surface by a number of its own.
+  bool of_points() const { return by >= By::volume; }
+  /// The same as has_scale(), or that some rule colours by a number.
   bool uses_scale() const;
-  /// Whether this or a rule colours by the numbers of a file.
-  bool uses_file() const;
+  /// True for schemes that colour by the numbers of a file.
+  bool takes_file() const { return by == By::file || by == By::conservation; }
+  /// Whether this or a rule is of this kind.
+  bool uses(By kind) const;
+  /// The same of those that colour by the numbers of a file.
+  bool uses_file() const { return uses(By::file) || uses(By::conservation); }
   /// Whether these differ from frame to frame of a run.
   bool uses_frames() const;
   /// The same, or that this or a rule colours by where atoms are or what they bury.

@@ -229,8 +229,6 @@ constexpr CssColor kCssColors[] = {{"aliceblue", 0xf0f8ff},
                                    {"yellowgreen", 0x9acd32}};
 static_assert(std::size(kCssColors) == 148);
 
-}  // namespace
-
 std::optional<glm::vec3> parse_hex_color(std::string_view text) {
   if (text.empty() || text[0] != '#' || (text.size() != 4 && text.size() != 7)) return std::nullopt;
   std::uint32_t hex = 0;
@@ -239,6 +237,8 @@ std::optional<glm::vec3> parse_hex_color(std::string_view text) {
   if (text.size() == 4) hex = 0x11 * ((hex & 0xf00) << 8 | (hex & 0xf0) << 4 | (hex & 0xf));
   return color_from_hex(hex);
 }
+
+}  // namespace
 
 std::optional<glm::vec3> parse_color(std::string_view text) {
   if (text.starts_with('#')) return parse_hex_color(text);

@@ -46,11 +46,8 @@ const ResidueGroup& residue_group(const std::string& residue_name);
 inline constexpr std::array<glm::vec3, 3> kPatchKindColors{color_from_hex(0x009e73), color_from_hex(0x56b4e9),
                                                            color_from_hex(0xd55e00)};
 
-/// Reads "#rrggbb", or "#rgb" for the same with each digit twice; nothing for any other text. sRGB in [0, 1].
-std::optional<glm::vec3> parse_hex_color(std::string_view text);
-
-/// Reads these, and the 148 names in small letters of CSS Color Module Level 4 (W3C), section 6.1: "red", "slategrey",
-/// ...; nothing for any other text.
+/// Reads "#rrggbb", "#rgb" for the same with each digit twice, and the 148 names of CSS Color Module Level 4 (W3C),
+/// section 6.1, in small letters: "red", "slategrey", ...; nothing for any other text. sRGB in [0, 1].
 std::optional<glm::vec3> parse_color(std::string_view text);
 
 /// "#rrggbb" of an sRGB colour in [0, 1].

@@ -80,16 +80,20 @@ constexpr auto kTable = of_commands(
 
         text("surface.color", "--color", "SCHEME",
              "Colour: a scheme, a colour (red, #rrggbb), or EXPR=COLOR. Schemes: element, element-cpk (darker), chain, "
-             "copy (of an assembly), residue (type), kind (of patch), component; by a number: bfactor, occupancy, "
-             "charge, hydrophobicity (Kyte & Doolittle 1982), index, radial (for capsids). EXPR=COLOR colours some "
-             "atoms, as in 'ligand=orange'. Repeatable; the last one counts. meniscus colors explains the schemes")
+             "copy (of an assembly), residue (type), secondary (helix, strand, coil), plddt (AlphaFold's confidence), "
+             "kind (of patch), component; by a number: bfactor, occupancy, charge, hydrophobicity (Kyte & Doolittle "
+             "1982), lipophilicity (a potential), index, rainbow (along each chain), radial (for capsids). EXPR=COLOR "
+             "colours some atoms, as in 'ligand=orange'. Repeatable; the last one counts. meniscus colors explains the "
+             "schemes")
             .initially("element")
             .in(kColour, kSeen | live | repeatable | of_objects)
             .in_short_help()
             .of(kForColours),
         file("surface.color_by_file", "--color-by-file", "NUMBERS",
              "Colour by numbers from a file. One number per atom of FILE or per atom used; lines of chain, residue and "
-             "number; or a CSV table, such as meniscus surface --csv-residues writes. nan, ? and - mean missing")
+             "number; or a table with a header, such as meniscus surface --csv-residues writes, or resid,score for one "
+             "chain. Commas, semicolons, tabs or blanks; nan, ? and - mean missing. Grades from 1 to 9: --color "
+             "conservation")
             .in(kColour, kSeen | live)
             .in_short_help()
             .of(kForColours),
@@ -114,8 +118,8 @@ constexpr auto kTable = of_commands(
             .needs("surface.color_map_file"),
         text("surface.map", "--map", "MAP",
              "Colour map for numbers, such as viridis or blue-white-red. Others: cividis, magma, red-white-blue "
-             "(default for charge: negative is red), blues and ylorrd (light), consurf (grades 1 to 9), categorical "
-             "(each number has its own colour). blue-white-red is the default for hydrophobicity")
+             "(default for charge: negative is red), blues and ylorrd (light), consurf (grades 1 to 9), rainbow, "
+             "categorical (each number has its own colour). blue-white-red is the default for hydrophobicity")
             .initially("viridis")
             .in(kColour, kSeen | live | of_objects)
             .in_short_help()

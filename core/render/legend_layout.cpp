@@ -36,8 +36,13 @@ bool by_name(std::string_view a, std::string_view b) {
   return a.size() < b.size();
 }
 
-/// The text of a tick; at an end of a fixed range beyond which there are numbers, it says so.
+/// The text of a tick; at an end it is what that means, after the number where colours are steps. At an end of a fixed
+/// range beyond which there are numbers, it says so.
 std::string tick_text(const ColorScale& scale, double number) {
+  if (!scale.ends[0].empty() && (number == scale.range[0] || number == scale.range[1])) {
+    const std::string& word = scale.ends[number == scale.range[0] ? 0 : 1];
+    return scale.steps() > 0 ? number_text(number) + " " + word : word;
+  }
   const auto beyond = [&](auto is_beyond) { return std::ranges::any_of(scale.value, is_beyond); };
   std::string text = number_text(number);
   if (number == scale.range[0] && beyond([&](double v) { return v < number; })) return "≤ " + text;
@@ -45,11 +50,13 @@ std::string tick_text(const ColorScale& scale, double number) {
   return text;
 }
 
-/// Where a bar has ticks, the more important first: both ends, and round numbers between, at most so many.
+/// Where a bar has ticks, the more important first: both ends, and round numbers between, at most so many, unless the
+/// ends have words instead.
 std::vector<double> tick_numbers(const ColorScale& scale, int most) {
   const double low = scale.range[0], high = scale.range[1];
   if (low == high) return {low};
   std::vector<double> numbers{low, high};
+  if (!scale.ends[0].empty()) return numbers;
   const std::vector<double> round = round_numbers(low, high, most);
   numbers.insert(numbers.end(), round.begin(), round.end());
   return numbers;
@@ -146,14 +153,16 @@ void Legend::add_bar(glm::ivec2 low, glm::ivec2 high, bool upright) {
                                     : glm::ivec2(low.x + along - font_.width(text) / 2, high.y + font_.height())});
   };
   if (const auto steps = static_cast<int>(bar_->steps()); steps > 0 && width > 0.0) {
+    const auto number_of = [&](int n) { return bar_->range[0] + width * n / (steps - 1); };
+    const auto edge = [&](int n) { return n * length / steps; };
     for (int n = 0; n < steps; ++n) {
-      const int from = n * length / steps, to = (n + 1) * length / steps;
-      const double number = bar_->range[0] + width * n / (steps - 1);
+      const int from = edge(n), to = edge(n + 1);
       boxes_.push_back({upright ? glm::ivec2(low.x, high.y - to) : glm::ivec2(low.x + from, low.y),
                         upright ? glm::ivec2(high.x, high.y - from) : glm::ivec2(low.x + to, high.y),
-                        {bar_->color(number)}});
-      add_tick(number, (from + to) / 2);
+                        {bar_->color(number_of(n))}});
     }
+    add_tick(number_of(steps - 1), (edge(steps - 1) + edge(steps)) / 2);  // both ends have words, which need room
+    for (int n = 0; n < steps - 1; ++n) add_tick(number_of(n), (edge(n) + edge(n + 1)) / 2);
     return;
   }
   LegendBox box{low, high, {}};

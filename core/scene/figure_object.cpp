@@ -76,7 +76,9 @@ void ask_for(std::span<const FigureObjectRequest> objects, ReadOptions& reading)
     throw RequestError(fmt::format("--object: at most {} sets of atoms are drawn beside a surface", kMostShown));
   for (const FigureObjectRequest& object : objects) {
     reading.shown.push_back({"--object", object.atoms});
-    if (object.shapes == RepresentationRequest::Kind::backbone) reading.secondary_structure = true;
+    if (object.shapes == RepresentationRequest::Kind::backbone ||
+        (object.color && object.color->uses(ColorScheme::By::secondary)))
+      reading.secondary_structure = true;
   }
 }
 

@@ -12,6 +12,8 @@
 #include "core/base/text.h"
 #include "core/color/color_atoms.h"
 #include "core/color/color_maps.h"
+#include "core/color/lipophilicity.h"
+#include "core/color/ordered_classes.h"
 #include "core/math/box.h"
 #include "core/queries/copies.h"
 #include "core/scene/hidden_atoms.h"
@@ -92,6 +94,9 @@ Structure read_molecule(const MoleculeRequest& request) {
   refuse_trajectory(request.file);
   Structure structure = read_structure(request.file, reading_of(request));
   if (request.color.by == ColorScheme::By::volume) warn_of_unseen_charges(structure);
+  if (request.color.uses(ColorScheme::By::plddt))
+    if (std::optional<std::string> doubt = doubt_of_confidence(structure))
+      structure.report.warnings.emplace_back(*std::move(doubt));
   return structure;
 }
 
@@ -118,6 +123,9 @@ ColorKey key_of(const Molecule& molecule) {
 void require_colors_shared(const Structure& structure, const ColorScheme& color) {
   if (color.by == ColorScheme::By::copy && !structure.instances.empty())
     throw RequestError("--color copy needs copies with colours of their own; leave --instances out");
+  if (color.by == ColorScheme::By::lipophilicity && !structure.instances.empty())
+    throw RequestError(
+        "--color lipophilicity sums over all atoms, so copies must be made of atoms; leave --instances out");
 }
 
 Burial burial_of(const MoleculeRequest& request, const Structure& structure, SurfaceComputer& computer) {
@@ -149,6 +157,8 @@ Molecule MoleculeBuilder::build(Structure structure) {
   molecule.structure = std::move(structure);
   molecule.color = color_;
   if (request_.interface || color_.by == ColorScheme::By::buried) measure_burial(molecule);
+  if (color_.by == ColorScheme::By::lipophilicity)
+    molecule.color.volume = lipophilicity_paint(molecule.structure, molecule.color);
   // What the request ask for that the molecule has not is said before the surfaces are computed.
   if (color_.has_scale()) color_scale(molecule.structure, molecule.color);
   for (const ColorRule& rule : color_.rules)

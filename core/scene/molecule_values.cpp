@@ -111,7 +111,9 @@ void complete_colors(MoleculeRequest& molecule) {
     if (!color.range) throw ValueError("surface.color_map_file", "needs --color-range LO:HI, such as -5:5 for kT/e");
     color.by = By::volume;
   }
-  if (color.uses_file() && !has_numbers) throw ValueError("surface.color", "file needs --color-by-file FILE");
+  if (color.uses_file() && !has_numbers)
+    throw ValueError("surface.color", fmt::format("{} needs --color-by-file FILE",
+                                                  color.uses(By::conservation) ? "conservation" : "file"));
   if (has_numbers && !color.uses_file())
     throw ValueError("surface.color_by_file", "is itself a colour scheme; leave out the other --color");
   if (color.by == By::kind && !color.rules.empty())
@@ -123,9 +125,9 @@ void complete_colors(MoleculeRequest& molecule) {
                           : color.missing            ? "surface.missing_color"
                                                      : nullptr;
   if (key)
-    throw ValueError(
-        key,
-        "is for colours by a number: bfactor, occupancy, charge, hydrophobicity, index, radial, file, a volume map");
+    throw ValueError(key,
+                     "is for colours by a number: bfactor, occupancy, charge, hydrophobicity, index, rainbow, radial, "
+                     "lipophilicity, file, a volume map");
 }
 
 void complete_interface(Scene& scene) {
@@ -228,6 +230,7 @@ namespace meniscus {
 Scene readied(Scene scene) {
   MoleculeRequest& molecule = scene.molecule;
   scene.figure.ask_for(molecule.reading);
+  if (molecule.color.uses(ColorScheme::By::secondary)) molecule.reading.secondary_structure = true;
   if (!molecule.interface) return scene;
   if (!molecule.reading.shown.empty())
     throw ValueError("surface.interface", "moves the atoms of both sides, so nothing else can be drawn with them");

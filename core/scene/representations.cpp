@@ -61,21 +61,21 @@ Shapes shapes_of_atoms(const Structure& all, Kind kind, const std::vector<bool>&
 
 ColorScheme with_scale_of(const Structure& structure, std::size_t shown, ColorScheme scheme) {
   for (ColorRule& rule : scheme.rules) rule.paint = with_scale_of(structure, shown, std::move(rule.paint));
-  if (!scheme.has_scale() || scheme.by == By::volume) return scheme;
+  if (!scheme.has_scale() || scheme.of_points()) return scheme;
   const ColorScale scale = color_scale(structure, scheme);
   if (scale.map == ColorMap::categorical && shown > structure.atoms.size())
     throw RequestError(
         "--map categorical: atoms beside the surface may have numbers that it has no colour for; choose another --map");
   scheme.range = scale.range;
   std::vector<double>& numbers = scheme.file.numbers;  // either of each atom of the file, or of each of the surface
-  const bool of_atoms = scheme.by == By::file || scheme.by == By::buried || scheme.by == By::rmsf;
+  const bool of_atoms = scheme.takes_file() || scheme.by == By::buried || scheme.by == By::rmsf;
   if (of_atoms && numbers.size() == structure.atoms.size())
     numbers.resize(shown, std::numeric_limits<double>::quiet_NaN());
   return scheme;
 }
 
 ColorScheme scheme_beside(const Structure& structure, std::size_t shown, ColorScheme scheme) {
-  if (scheme.by == By::kind || scheme.by == By::component || scheme.by == By::volume) scheme.by = By::element;
+  if (scheme.by == By::kind || scheme.by == By::component || scheme.of_points()) scheme.by = By::element;
   scheme.opacities.clear();  // those of the surface, which is seen through to show what is in it
   return with_scale_of(structure, shown, std::move(scheme));
 }

@@ -40,7 +40,7 @@ void share_colors(ColorScheme& color, const FrameRun& frames) {
     throw RequestError(
         "--map categorical gives each number of a picture its own colour, but buried areas change from frame to frame; "
         "choose another --map");
-  if (!frames.atoms_change() || !color.has_scale() || color.by == ColorScheme::By::volume) return;
+  if (!frames.atoms_change() || !color.has_scale() || color.of_points()) return;
   if (is_categorical)
     throw RequestError(
         "--map categorical gives each number of a picture its own colour, but --select chooses other atoms in each "
@@ -48,7 +48,7 @@ void share_colors(ColorScheme& color, const FrameRun& frames) {
   if (color.range || color.by == ColorScheme::By::radial || color.by == ColorScheme::By::rmsf ||
       color.by == ColorScheme::By::buried)
     return;
-  if (color.by == ColorScheme::By::file)
+  if (color.takes_file())
     throw RequestError(
         "--color-by-file needs --color-range LO:HI or --select-once where --select chooses other atoms in each frame");
   color.frames_range = color_scale(frames.reach(), color).range;

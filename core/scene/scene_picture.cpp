@@ -26,7 +26,7 @@ PictureLayout::PictureLayout(const Scene& scene, const ColorKey& key) : size(sce
 SurfaceRequest picture_request(const Scene& scene) {
   SurfaceRequest request = scene.molecule.surface;
   // Volume maps are looked up point by point on the CPU.
-  request.cpu = request.cpu || scene.molecule.color.by == ColorScheme::By::volume;
+  request.cpu = request.cpu || scene.molecule.color.of_points();
   return request;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -25,16 +26,37 @@ constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 bool is_missing(std::string_view word) { return word == "nan" || word == "NaN" || word == "?" || word == "-"; }
 
-double parse_word(const std::string& path, std::size_t line, std::string_view word) {
-  if (is_missing(word)) return kMissing;
+/// As spreadsheets and R have them, too.
+bool is_missing_cell(std::string_view cell) {
+  return cell.empty() || cell == "NA" || cell == "N/A" || is_missing(cell);
+}
+
+bool is_number(std::string_view word) {
   double number = 0.0;
-  if (!parse_number(word, number) || std::abs(number) > kLargestNumber) {
-    throw InputError(
-        path, line,
-        fmt::format("{} is not a finite number; write one number for each atom, with nan, ? or - for a missing one",
-                    in_quotes(word)));
-  }
-  return number;
+  return is_missing(word) || parse_number(word, number);
+}
+
+/// The numbers, and what names the atoms, of a table with a header; names in small letters.
+struct Columns {
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  std::size_t value = kNone, frame = kNone, index = kNone, chain = kNone, residue = kNone, icode = kNone;
+};
+
+constexpr std::string_view kChainNames[] = {"chain", "chain_id", "chainid", "auth_asym_id"};
+// Tables of our own call a residue's type "residue" and its number "number".
+constexpr std::string_view kResidueNames[] = {"number", "resid",    "resi", "resnum", "residue_number", "res_num",
+                                              "resseq", "position", "pos",  "res_id", "auth_seq_id",    "residue"};
+constexpr std::string_view kOtherNames[] = {"frame", "index", "model",   "residue", "resname", "resn", "icode",
+                                            "name",  "atom",  "element", "class",   "radius",  "atoms"};
+
+std::string in_small_letters(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+bool is_one_of(std::span<const std::string_view> names, std::string_view name) {
+  return std::ranges::find(names, name) != names.end();
 }
 
 class NumberReader {
@@ -46,26 +68,24 @@ class NumberReader {
     std::string_view line;
     bool first = true;
     while (lines_.next(line)) {
-      const std::string_view text = trimmed(line.substr(0, line.find('#')));
+      line = line.substr(0, line.find('#'));
+      const std::string_view text = trimmed(line);
       if (text.empty()) continue;
-      if (first && begins_table(text)) {
-        read_table(csv_cells_of(text));
+      if (first) separator_ = separator_of(text);
+      const std::vector<std::string> cells = cells_of(text);
+      if (first && begins_table(cells)) {
+        read_table(cells_of(line));
         return std::move(result_);
       }
       if (!column_.empty())
-        fail(fmt::format("is not the header of a table, so --color-column {} cannot choose a column",
+        fail(fmt::format("is not the header of a table, so {} {} cannot choose a column", option_name("color-column"),
                          in_quotes(column_)));
-      const std::vector<std::string_view> fields = fields_of(text);
-      if (first && names_residues(fields)) {
-        by_residue_ = true;
-        first = false;
-        if (fields[2] == "value") continue;
-      }
-      first = false;
+      if (first) by_residue_ = names_residue(cells);
       if (by_residue_)
-        add_residue(fields);
+        add_residue(cells);
       else
         add_numbers(text);
+      first = false;
     }
     return std::move(result_);
   }
@@ -73,29 +93,41 @@ class NumberReader {
  private:
   [[noreturn]] void fail(const std::string& what) const { throw InputError(result_.path, lines_.number(), what); }
 
-  static bool is_number(std::string_view word) {
-    double number = 0.0;
-    return is_missing(word) || parse_number(word, number);
+  /// Of a table: what its first line has of tabs, semicolons and commas, in this order; else blanks.
+  static char separator_of(std::string_view text) {
+    for (const char separator : {'\t', ';', ','})
+      if (text.find(separator) != std::string_view::npos) return separator;
+    return ' ';
   }
 
-  /// Commas and no number.
-  static bool begins_table(std::string_view text) {
-    if (text.find(',') == std::string_view::npos) return false;
-    for (const std::string& cell : csv_cells_of(text))
-      if (is_number(cell)) return false;
-    return true;
+  std::vector<std::string> cells_of(std::string_view line) const {
+    if (separator_ != ' ') return csv_cells_of(line, separator_);
+    const std::vector<std::string_view> fields = fields_of(line);
+    return {fields.begin(), fields.end()};
   }
 
-  /// "A 12 0.5", or the header "chain resid value".
-  static bool names_residues(const std::vector<std::string_view>& fields) {
-    if (fields.size() != 3) return false;
+  /// Words and no number.
+  static bool begins_table(const std::vector<std::string>& cells) {
+    return cells.size() > 1 && std::ranges::none_of(cells, is_number);
+  }
+
+  /// "A 12 0.5"
+  bool names_residue(const std::vector<std::string>& cells) const {
     ResidueName residue;
-    return !is_number(fields[0]) && (fields[2] == "value" || (parse_place(fields[1], residue) && is_number(fields[2])));
+    return cells.size() == 3 && !is_number(cells[0]) && parse_place(cells[1], residue) &&
+           (is_missing_cell(cells[2]) || is_number(with_point(cells[2])));
   }
 
-  /// "12", "-3", "52A".
+  /// A comma is part of a number where it parts no columns.
+  std::string with_point(std::string cell) const {
+    if (separator_ != ',' && cell.find('.') == std::string::npos) std::ranges::replace(cell, ',', '.');
+    return cell;
+  }
+
+  /// "12", "-3", "52A", and "12.0", as programs write whole numbers beside missing ones.
   static bool parse_place(std::string_view word, ResidueName& residue) {
     residue.insertion_code = ' ';
+    if (word.ends_with(".0")) word.remove_suffix(2);
     const char last = word.empty() ? ' ' : word.back();
     if ((last >= 'A' && last <= 'Z') || (last >= 'a' && last <= 'z')) {
       residue.insertion_code = last;
@@ -107,17 +139,30 @@ class NumberReader {
     return true;
   }
 
-  void add(NumberFile& to, const ResidueName& residue, double number) {
-    if (!to.by_residue.emplace(residue, number).second)
-      fail(fmt::format("gives residue {} of chain {} a second number", residue.number, in_quotes(residue.chain)));
+  double parse_word(std::string_view word) const {
+    if (is_missing(word)) return kMissing;
+    double number = 0.0;
+    if (parse_number(word, number) && std::abs(number) <= kLargestNumber) return number;
+    if (result_.empty()) fail(fmt::format("{} is not a finite number; {}", in_quotes(word), kNumberLayouts));
+    fail(fmt::format("{} is not a finite number; write nan, ? or - for a missing one", in_quotes(word)));
   }
 
-  void add_residue(const std::vector<std::string_view>& fields) {
+  double parse_cell(const std::string& cell) const {
+    return is_missing_cell(cell) ? kMissing : parse_word(with_point(cell));
+  }
+
+  void add(NumberFile& to, const ResidueName& residue, double number) {
+    if (to.by_residue.emplace(residue, number).second) return;
+    fail(fmt::format("gives residue {}{} a second number", residue.number,
+                     result_.without_chains ? "" : " of chain " + in_quotes(residue.chain)));
+  }
+
+  void add_residue(const std::vector<std::string>& cells) {
     ResidueName residue;
-    if (fields.size() != 3 || !parse_place(fields[1], residue))
+    if (cells.size() != 3 || !parse_place(cells[1], residue))
       fail("should be a chain, the number of a residue and a value, as in A 12 0.5");
-    residue.chain = std::string(fields[0]);
-    add(result_, residue, parse_word(result_.path, lines_.number(), fields[2]));
+    residue.chain = cells[0];
+    add(result_, residue, parse_cell(cells[2]));
   }
 
   void add_numbers(std::string_view text) {
@@ -127,78 +172,118 @@ class NumberReader {
       if (first == std::string_view::npos) return;
       text.remove_prefix(first);
       const std::string_view word = text.substr(0, text.find_first_of(kBetween));
-      result_.numbers.push_back(parse_word(result_.path, lines_.number(), word));
+      result_.numbers.push_back(parse_word(word));
       text.remove_prefix(word.size());
     }
   }
 
-  /// The column of the numbers: the one asked for, or the only one that is not a name of an atom or residue.
-  std::size_t value_column(const std::vector<std::string>& header) const {
-    constexpr std::string_view kNames[] = {"frame", "index", "model", "chain",   "residue", "resname", "number",
-                                           "resid", "icode", "name",  "element", "class",   "radius",  "atoms"};
-    std::vector<std::string> others;
-    for (const std::string& cell : header)
-      if (std::ranges::find(kNames, cell) == std::end(kNames)) others.push_back(cell);
-    if (column_.empty() && others.size() == 1)
-      return static_cast<std::size_t>(std::ranges::find(header, others[0]) - header.begin());
+  /// The column of the numbers: the one asked for, or the only one of numbers that names no atom or residue. first: the
+  /// first row.
+  std::size_t value_column(const std::vector<std::string>& header, const std::vector<std::string>& first) const {
     const auto found = std::ranges::find(header, column_);
     if (!column_.empty() && found != header.end()) return static_cast<std::size_t>(found - header.begin());
+    std::vector<std::size_t> others, of_numbers;
+    for (std::size_t n = 0; n < header.size(); ++n) {
+      const std::string name = in_small_letters(header[n]);
+      if (name.empty() || is_one_of(kOtherNames, name) || is_one_of(kChainNames, name) ||
+          is_one_of(kResidueNames, name))
+        continue;
+      others.push_back(n);
+      if (n < first.size() && (is_missing_cell(first[n]) || is_number(with_point(first[n])))) of_numbers.push_back(n);
+    }
+    if (!of_numbers.empty()) others = of_numbers;
+    if (column_.empty() && others.size() == 1) return others[0];
+    if (others.empty()) fail(fmt::format("is the header of a table without a column of numbers; {}", kNumberLayouts));
     std::string list;
-    for (const std::string& name : others) list += (list.empty() ? "" : ", ") + escaped(name);
+    for (const std::size_t n : others) list += (list.empty() ? "" : ", ") + escaped(header[n]);
     fail(column_.empty() ? fmt::format("is a table; choose one of its columns by --color-column: {}", list)
                          : fmt::format("has no column {}; it has {}", in_quotes(column_), list));
   }
 
-  void read_table(const std::vector<std::string>& header) {
-    constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-    const auto place = [&](std::string_view name) {
-      const auto found = std::ranges::find(header, name);
-      return found == header.end() ? kNone : static_cast<std::size_t>(found - header.begin());
+  /// What the columns are; `first` is the first row.
+  Columns columns_of(const std::vector<std::string>& header, const std::vector<std::string>& first) const {
+    const auto place = [&](std::span<const std::string_view> names) {
+      for (const std::string_view name : names)
+        for (std::size_t n = 0; n < header.size(); ++n)
+          if (in_small_letters(header[n]) == name) return n;
+      return Columns::kNone;
     };
-    const std::size_t value = value_column(header), frame = place("frame"), index = place("index"),
-                      chain = place("chain"), icode = place("icode"),
-                      resid = place("number") == kNone ? place("resid") : place("number");
-    result_.column = header[value];
-    if (index == kNone && (chain == kNone || resid == kNone))
-      fail("is the header of a table that does not identify its atoms; add a column index, or chain and number");
-    std::map<std::uint64_t, NumberFile> frames;
+    const auto place_of = [&](std::string_view name) { return place({&name, 1}); };
+    Columns columns;
+    columns.value = value_column(header, first);
+    columns.frame = place_of("frame");
+    columns.index = place_of("index");
+    columns.chain = place(kChainNames);
+    columns.residue = place(kResidueNames);
+    columns.icode = place_of("icode");
+    if (columns.index == Columns::kNone && columns.residue == Columns::kNone)
+      fail(fmt::format("is the header of a table that does not identify its atoms; {}", kNumberLayouts));
+    return columns;
+  }
+
+  /// The next row of cells; false after the last.
+  bool next_row(std::vector<std::string>& cells) {
     std::string_view line;
     while (lines_.next(line)) {
-      if (trimmed(line).empty()) continue;
-      const std::vector<std::string> cells = csv_cells_of(line);
+      if (trimmed(line).empty() || line.starts_with('#')) continue;
+      cells = cells_of(line);
+      if (std::ranges::any_of(cells, [](const std::string& cell) { return !cell.empty(); })) return true;
+    }
+    return false;
+  }
+
+  void read_table(const std::vector<std::string>& header) {
+    LineReader begin = lines_;
+    std::vector<std::string> cells;
+    next_row(cells);
+    std::swap(lines_, begin);
+    const Columns columns = columns_of(header, cells);
+    if (header[columns.value] != "value") result_.column = header[columns.value];
+    result_.without_chains = columns.index == Columns::kNone && columns.chain == Columns::kNone;
+    std::map<std::uint64_t, NumberFile> frames;
+    while (next_row(cells)) {
       if (cells.size() != header.size()) fail(fmt::format("has {} cells, the header {}", cells.size(), header.size()));
-      const double number = parse_word(result_.path, lines_.number(), cells[value]);
-      NumberFile* to = &result_;
-      if (frame != kNone) {
-        std::int64_t place_in_run = -1;
-        if (!parse_whole_number(cells[frame], place_in_run) || place_in_run < 0)
-          fail(fmt::format("{} is not a frame number; frames count from 0", in_quotes(cells[frame])));
-        to = &frames
-                  .try_emplace(static_cast<std::uint64_t>(place_in_run),
-                               NumberFile{.path = result_.path, .column = result_.column})
-                  .first->second;
-      }
-      if (index != kNone) {
-        std::int64_t atom = -1;
-        if (!parse_whole_number(cells[index], atom) || atom != static_cast<std::uint32_t>(atom))
-          fail(fmt::format("{} is not an atom index", in_quotes(cells[index])));
-        if (!to->by_atom.emplace(static_cast<std::uint32_t>(atom), number).second)
-          fail(fmt::format("gives atom {} a second number", atom));
-        continue;
-      }
-      ResidueName residue;
-      if (!parse_place(cells[resid], residue)) fail(fmt::format("{} is not a residue number", in_quotes(cells[resid])));
-      residue.chain = cells[chain];
-      if (icode != kNone && cells[icode].size() == 1) residue.insertion_code = cells[icode][0];
-      add(*to, residue, number);
+      NumberFile& to = columns.frame == Columns::kNone ? result_ : frame_of(cells[columns.frame], frames);
+      const double number = parse_cell(cells[columns.value]);
+      if (columns.index != Columns::kNone)
+        add_atom(to, cells[columns.index], number);
+      else
+        add_row(to, cells, columns, number);
     }
     if (!frames.empty())
       result_.by_frame = std::make_shared<const std::map<std::uint64_t, NumberFile>>(std::move(frames));
   }
 
+  NumberFile& frame_of(const std::string& cell, std::map<std::uint64_t, NumberFile>& frames) const {
+    std::int64_t place_in_run = -1;
+    if (!parse_whole_number(cell, place_in_run) || place_in_run < 0)
+      fail(fmt::format("{} is not a frame number; frames count from 0", in_quotes(cell)));
+    NumberFile empty{.path = result_.path, .without_chains = result_.without_chains, .column = result_.column};
+    return frames.try_emplace(static_cast<std::uint64_t>(place_in_run), std::move(empty)).first->second;
+  }
+
+  void add_atom(NumberFile& to, const std::string& cell, double number) const {
+    std::int64_t atom = -1;
+    if (!parse_whole_number(cell, atom) || atom != static_cast<std::uint32_t>(atom))
+      fail(fmt::format("{} is not an atom index", in_quotes(cell)));
+    if (!to.by_atom.emplace(static_cast<std::uint32_t>(atom), number).second)
+      fail(fmt::format("gives atom {} a second number", atom));
+  }
+
+  void add_row(NumberFile& to, const std::vector<std::string>& cells, const Columns& columns, double number) {
+    ResidueName residue;
+    if (!parse_place(cells[columns.residue], residue))
+      fail(fmt::format("{} is not a residue number", in_quotes(cells[columns.residue])));
+    if (columns.chain != Columns::kNone) residue.chain = cells[columns.chain];
+    if (columns.icode != Columns::kNone && cells[columns.icode].size() == 1)
+      residue.insertion_code = cells[columns.icode][0];
+    add(to, residue, number);
+  }
+
   const std::string& column_;
   LineReader lines_;
   NumberFile result_;
+  char separator_ = ' ';
   bool by_residue_ = false;
 };
 
@@ -207,8 +292,7 @@ class NumberReader {
 NumberFile read_number_file(const std::string& path, const std::string& column) {
   const TextFile file = read_text_file(path);
   NumberFile result = NumberReader(file, column).read();
-  if (result.empty())
-    throw InputError(path, 0, "holds no numbers; write one for each atom, or chain, residue and number");
+  if (result.empty()) throw InputError(path, 0, fmt::format("holds no numbers; {}", kNumberLayouts));
   return result;
 }
 

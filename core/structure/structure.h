@@ -53,10 +53,12 @@ struct Atom {
   std::string name;
   std::string residue_name;
   std::string chain;
-  std::string subchain;     ///< label_asym_id of mmCIF, which assemblies name; else the chain
-  std::string segment;      ///< segment identifier of PDB (columns 73 to 76), which molecular dynamics programs write
-  std::uint32_t copy = 0;   ///< in an assembly: which copy, from 0
-  std::uint16_t shown = 0;  ///< bit n: the n-th of ReadOptions::shown selects it
+  std::string subchain;    ///< label_asym_id of mmCIF, which assemblies name; else the chain
+  std::string segment;     ///< segment identifier of PDB (columns 73 to 76), which molecular dynamics programs write
+  std::uint32_t copy = 0;  ///< in an assembly: which copy, from 0
+  /// pLDDT, 0 to 100, where the file lists it apart from B-factors; NaN: it does not.
+  float confidence = std::numeric_limits<float>::quiet_NaN();
+  std::uint16_t shown = 0;                                     ///< bit n: the n-th of ReadOptions::shown selects it
   SecondaryStructure secondary = SecondaryStructure::unknown;  ///< of its residue
 };
 
@@ -152,9 +154,10 @@ struct AddedFile {
 
 /// The atoms a surface is made of, in file order.
 struct Structure {
-  std::string file;       ///< the path as given, or "standard input"
-  std::string format;     ///< the reader's name for it: "PDB", "mmCIF", ...
-  std::string radii_set;  ///< "bondi", "united", "protor", "file", or the files of radii
+  std::string file;        ///< the path as given, or "standard input"
+  std::string format;      ///< the reader's name for it: "PDB", "mmCIF", ...
+  std::string experiment;  ///< by which the file says its atoms were found, "X-RAY DIFFRACTION"; empty: by none
+  std::string radii_set;   ///< "bondi", "united", "protor", "file", or the files of radii
   std::vector<RadiusClass> radius_classes;
   std::vector<AddedFile> added;  ///< files whose atoms come after those of `file`
   std::vector<Atom> atoms;

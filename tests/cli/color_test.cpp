@@ -241,6 +241,11 @@ TEST_F(ColorCommand, WhatCannotBeIsRefusedWithItsReason) {
       {{"--color", "kind", "--color", "chain A=red"}, 2, "kind colours patches"},
       {{"--color", "chain A=file"}, 2, "needs --color-by-file"},
       {{"--color", "#102030", "--legend"}, 2, "nothing to explain"},
+      {{"--color", "chain A=lipophilicity"}, 2, "'lipophilicity' cannot colour some of the atoms"},
+      {{"--color", "lipophilicity", "--extent", "visible"}, 2, "--color lipophilicity needs the complete surface"},
+      {{"--object", R"({"representation": "surface", "selection": "all", "color": "lipophilicity"})"},
+       2,
+       "cannot be lipophilicity"},
       {{"--opacity", "chain A=1.5"}, 2, "'1.5' is not an opacity from 0"},
       {{"--opacity", "chian A=0.5"}, 2, "--opacity: "},
   };
@@ -255,8 +260,74 @@ TEST_F(ColorCommand, WhatCannotBeIsRefusedWithItsReason) {
   EXPECT_NE(small.err.find("does not fit into 40 x 30 pixels"), std::string::npos) << small.err;
 }
 
+TEST_F(ColorCommand, NamesOfCssAreReadWhereverAColourIs) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> options{
+      {{"--background"}, "@"},
+      {{"--color"}, "@"},
+      {{"--color"}, "chain B=@"},
+      {{"--clip", "depth>0.4", "--cap-color"}, "@"},
+      {{"--color-by-file", folder_.file("gap", "10 ? 30"), "--missing-color"}, "@"},
+      {{"--color", "bfactor", "--map-file"}, "white\n@\n"},
+      {{"--object"}, R"({"representation": "spheres", "selection": "chain B", "color": "@"})"},
+  };
+  for (const auto& [words, value] : options) {
+    const auto with = [&, &words = words, &value = value](const char* color) {
+      std::vector<std::string> arguments = words;
+      const std::size_t place = value.find('@');
+      const std::string filled = value.substr(0, place) + color + value.substr(place + 1);
+      arguments.push_back(words.back() == "--map-file" ? folder_.file("ramp", filled) : filled);
+      return picture(arguments);
+    };
+    const std::string by_name = with("slategrey");
+    EXPECT_TRUE(by_name == with("#708090")) << words.back() << " " << value;
+    EXPECT_TRUE(by_name == with("slategray")) << words.back() << " " << value;
+    EXPECT_TRUE(by_name != with("gold")) << words.back() << " " << value;
+  }
+}
+
+TEST_F(ColorCommand, ConfidenceSaysWhereItIsFromAndDoubtsBFactors) {
+  const ProgramResult model = render("m.png", {"--color", "plddt", "--legend"});
+  EXPECT_EQ(model.exit_code, 0) << model.err;
+  const auto said = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"render", file_, "-o", path("s.png"), "--size", "64x48", "--force"});
+    const ProgramResult result = meniscus(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.err;
+  };
+  EXPECT_NE(said({"--color", "plddt"}).find("pLDDT is that of B-factors"), std::string::npos);
+  EXPECT_EQ(said({"--color", "plddt"}).find("warning"), std::string::npos);
+  EXPECT_EQ(said({}).find("pLDDT"), std::string::npos);
+  file_ = folder_.file("m.pdb",
+                       "EXPDTA    X-RAY DIFFRACTION\n"
+                       "ATOM      1  CA  GLY A   1       0.000   0.000   0.000  1.00 20.00           C\n"
+                       "ATOM      2  CA  GLY B   2       4.000   0.000   0.000  1.00 20.00           C\n");
+  for (const char* color : {"plddt", "chain A=plddt"}) {
+    const std::string err = said({"--color", color});
+    const std::size_t warning = err.find("warning: ");
+    ASSERT_NE(warning, std::string::npos) << err;
+    EXPECT_NE(err.find("of an experiment (X-RAY DIFFRACTION)"), std::string::npos) << err;
+    EXPECT_EQ(err.find("warning: ", warning + 1), std::string::npos) << "one line: " << err;
+  }
+}
+
+TEST_F(ColorCommand, GradesOfConservationComeFromATable) {
+  const std::string grades = folder_.file("grades.tsv", "chain\tresid\tgrade\nA\t1\t1\nB\t1\t9\nC\t1\t5\n");
+  const std::string shown = picture({"--color", "conservation", "--color-by-file", grades});
+  EXPECT_EQ(shown, picture({"--color-by-file", grades, "--map", "consurf", "--color-range", "1:9"}));
+  EXPECT_EQ(shown, picture({"--color", "grey", "--color", "all=conservation", "--color-by-file", grades}));
+  EXPECT_NE(picture({"--color", "conservation", "--color-by-file", grades, "--legend"}), shown);
+  const std::string scores = folder_.file("scores.csv", "chain;resid;score\nA;1;-0,7\nB;1;1,2\nC;1;0\n");
+  const ProgramResult refused = render("r.png", {"--color", "conservation", "--color-by-file", scores});
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_NE(refused.err.find("holds -0.7; --color conservation takes ConSurf's grades"), std::string::npos);
+  const ProgramResult without = render("r.png", {"--color", "conservation"});
+  EXPECT_EQ(without.exit_code, 2);
+  EXPECT_NE(without.err.find("conservation needs --color-by-file"), std::string::npos) << without.err;
+}
+
 TEST_F(ColorCommand, LegendsGoWithEveryScheme) {
-  for (const char* scheme : {"element", "chain", "residue", "kind", "component", "bfactor", "hydrophobicity", "index"})
+  for (const char* scheme : {"element", "chain", "residue", "kind", "component", "bfactor", "hydrophobicity", "index",
+                             "secondary", "rainbow", "plddt", "lipophilicity"})
     EXPECT_NE(picture({"--color", scheme, "--legend", "--samples", "1"}),
               picture({"--color", scheme, "--samples", "1"}));
 }

@@ -114,6 +114,29 @@ class LegendColors(unittest.TestCase):
         found = self.places(faded)
         self.assertGreater(abs(found[-1] - 1.0) + abs(found[-2] - NUMBERS[-2] / NUMBERS[-1]), 0.0)
 
+    def test_the_classes_of_confidence_have_exactly_their_colours(self):
+        """Unlit, each sphere has the colour of its class, and so has a box of the legend."""
+        wanted = [(0x00, 0x53, 0xD6), (0x65, 0xCB, 0xF3), (0xFF, 0xDB, 0x13), (0xFF, 0x7D, 0x45)]
+        line = "ATOM  %5d  CA  ALA A%4d    %8.3f   0.000   0.000  1.00%6.2f           C\n"
+        with tempfile.TemporaryDirectory() as folder:
+            molecule, picture = pathlib.Path(folder) / "model.pdb", pathlib.Path(folder) / "model.png"
+            molecule.write_text("".join(line % (n, n, 9.0 * n, number) for n, number in enumerate([95, 80, 60, 30])))
+            result = subprocess.run([PROGRAM, "render", molecule, "-o", picture, "--color", "plddt", "--legend", "--background", "white",
+                                     "--projection", "orthographic", "--view", "z", "--size", "600x200", "--preset", "flat"],
+                                    capture_output=True, text=True, timeout=100)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn("pLDDT is that of B-factors", result.stderr)
+            pixels = numpy.rint(picture_of(picture) * 255).astype(int)
+        first_box = min(x for x in range(300, 600) if (pixels[:, x] == wanted[0]).all(axis=1).any())
+        columns = [numpy.flatnonzero((pixels[:, :first_box - 1] == color).all(axis=2).any(axis=0)) for color in wanted]
+        rows = [numpy.flatnonzero((pixels[:, first_box:] == color).all(axis=2).any(axis=1)) for color in wanted]
+        for sphere, box in zip(columns, rows):
+            self.assertGreater(len(sphere), 20)
+            self.assertGreater(len(box), 5)
+        for before, behind in zip(range(3), range(1, 4)):
+            self.assertLess(columns[before].max(), columns[behind].min(), "spheres from the left")
+            self.assertLess(rows[before].max(), rows[behind].min(), "boxes from above")
+
 
 if __name__ == "__main__":
     unittest.main()

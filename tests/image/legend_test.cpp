@@ -165,6 +165,18 @@ TEST(Legend, AMapOfStepsIsABoxAClass) {
       }
     }
   }
+  // Both ends say what they mean, wherever the bar lies; where it is upright, all numbers have room.
+  key.scale->ends = {"variable", "conserved"};
+  for (const glm::ivec2 size : {glm::ivec2(800, 600), {600, 800}}) {
+    const Legend legend(key, size);
+    EXPECT_EQ(std::ranges::count(legend.texts(), "1 variable", &LegendText::text), 1);
+    EXPECT_EQ(std::ranges::count(legend.texts(), "9 conserved", &LegendText::text), 1);
+    EXPECT_EQ(std::ranges::count(legend.texts(), "8", &LegendText::text), size.x > size.y ? 1 : 0);
+  }
+  ColorKey smooth = numbers(0.0, 1.0);
+  smooth.scale->ends = {"N", "C"};
+  const Legend words(smooth, {800, 600});
+  EXPECT_EQ(words.texts().size(), 3u) << "the title and both ends";
   // A number between two classes has the colour of one of them.
   EXPECT_EQ(key.scale->color(3.4), key.scale->color(3.0));
   EXPECT_EQ(key.scale->color(3.6), key.scale->color(4.0));

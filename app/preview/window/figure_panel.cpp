@@ -124,7 +124,7 @@ void FigurePanel::objects() {
     removed(fmt::format("{}: {}", object["representation"].get<std::string>(), object["selection"].get<std::string>()),
             "objects", index);
     const std::string word = object.contains("color") && object["color"].is_string() ? object["color"] : Json("");
-    glm::vec3 color = parse_hex_color(word).value_or(glm::vec3(0.85f));
+    glm::vec3 color = parse_color(word).value_or(glm::vec3(0.85f));
     if (ImGui::ColorEdit3(fmt::format("##object{}", index).c_str(), &color.x,
                           ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel))
       change("color", hex_color(color));
@@ -194,7 +194,7 @@ void FigurePanel::caps() {
     link_.send({{"command", "cap"}, {"color", of_atoms ? "atom" : "#d8d8d0"}});
   if (!of_atoms) {
     same_line();
-    glm::vec3 color = parse_hex_color(word).value_or(glm::vec3(0.85f));
+    glm::vec3 color = parse_color(word).value_or(glm::vec3(0.85f));
     if (ImGui::ColorEdit3("##cap", &color.x, ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel))
       link_.send({{"command", "cap"}, {"color", hex_color(color)}});
   }

@@ -149,7 +149,7 @@ void Panel::look() {
                                  link_.choices()["presets"].get<std::vector<std::string>>()))
     link_.send({{"command", "preset"}, {"preset", *preset}});
   label("Background");
-  const auto hex = parse_hex_color(link_.state()["look"]["background"].get<std::string>());
+  const auto hex = parse_color(link_.state()["look"]["background"].get<std::string>());
   glm::vec3 color = hex.value_or(glm::vec3(1.0f));
   if (ImGui::ColorEdit3("##background", &color.x, ImGuiColorEditFlags_DisplayHex))
     link_.send({{"command", "look"}, {"background", hex_color(color)}});

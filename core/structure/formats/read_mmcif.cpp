@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads the atom table of mmCIF.
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -207,11 +208,46 @@ std::vector<SecondaryRange> secondary_ranges(cif::Document& document) {
   return ranges;
 }
 
+/// A residue of _ma_qa_metric_local: model, label_asym_id, label_seq_id.
+using LabelledResidue = std::array<std::string, 3>;
+
+/// pLDDT from 0 to 100 of ModelCIF, of the first metric of that type; empty where there is none.
+std::map<LabelledResidue, float> confidences_of(cif::Document& document) {
+  std::map<LabelledResidue, float> confidences;
+  for (cif::Block& block : document.blocks) {
+    std::string metric;
+    bool is_share = false;
+    for (const auto row : block.find("_ma_qa_metric.", {"id", "type", "mode"})) {
+      if (!row.str(1).starts_with("pLDDT") || row.str(2) != "local" || !metric.empty()) continue;
+      metric = row.str(0);
+      is_share = row.str(1).ends_with("in [0,1]");
+    }
+    if (metric.empty()) continue;
+    for (const auto row : block.find("_ma_qa_metric_local.",
+                                     {"metric_id", "metric_value", "label_asym_id", "label_seq_id", "?model_id"})) {
+      if (row.str(0) != metric) continue;
+      const float number = kept_number(row[1]);
+      confidences[{row.has(4) ? row.str(4) : "1", row.str(2), row.str(3)}] = is_share ? 100.0f * number : number;
+    }
+  }
+  return confidences;
+}
+
+/// As _exptl says; a predicted model is none.
+std::string experiment_of(cif::Document& document) {
+  for (cif::Block& block : document.blocks)
+    for (const auto row : block.find("_exptl.", {"method"}))
+      if (const std::string method = row.str(0); method.find("MODEL") == std::string::npos) return method;
+  return {};
+}
+
 FileContents read(const TextFile& file, const ModelChoice& choice) {
   cif::Document document = parse_cif(file);
   FileContents contents;
   cif::Table table = atom_table(file, document, contents.warnings);
   const std::map<std::string, ResidueStatement> entities = entities_of(document);
+  const std::map<LabelledResidue, float> confidences = confidences_of(document);
+  contents.experiment = experiment_of(document);
   ResidueCounter residues(contents.atoms);
   std::map<std::string, std::int32_t> models;
   std::vector<AtomHints> hints;
@@ -225,6 +261,11 @@ FileContents read(const TextFile& file, const ModelChoice& choice) {
     }
     Atom atom = read_row(file, table, row);
     atom.model = model;
+    if (!confidences.empty()) {
+      const auto confidence = confidences.find({row.has2(kModel) ? row.str(kModel) : "1", atom.subchain,
+                                                row.has(kLabelSeq) ? row.str(kLabelSeq) : std::string()});
+      if (confidence != confidences.end()) atom.confidence = confidence->second;
+    }
     residues.number(atom);
     if (atom.element == 0) without_symbol.add(label_of(atom));
     const auto statement = entities.find(row.has2(kEntityId) ? cif::as_string(row[kEntityId]) : std::string());
@@ -255,7 +296,7 @@ bool recognizes(std::string_view text) {
 const Reader kMmcifReader{
     {"mmCIF", ".cif .mmcif .mcif", "macromolecular CIF of the wwPDB", "PDBx/mmCIF dictionary; Hall, Allen & Brown 1991",
      "_atom_site (author's names where given, label_asym_id too), _entity and _entity_poly, _struct_conf and "
-     "_struct_sheet_range"},
+     "_struct_sheet_range, _exptl, pLDDT of _ma_qa_metric_local"},
     recognizes,
     read,
     read_mmcif_assemblies};

@@ -85,11 +85,19 @@ class PdbReader {
       ended_ = true;
     } else if (is_pdb_record(line, "CONECT")) {
       bonds_.add_record(line);
+    } else if (is_pdb_record(line, "EXPDTA")) {
+      take_experiment(line);
     } else if (is_pdb_record(line, "HELIX")) {
       take_range(line, SecondaryStructure::helix, 19, 31);
     } else if (is_pdb_record(line, "SHEET")) {
       take_range(line, SecondaryStructure::strand, 21, 32);
     }
+  }
+
+  /// From column 11 on; a predicted model is none.
+  void take_experiment(std::string_view line) {
+    if (line.size() <= 10 || line.find("MODEL") != std::string_view::npos || !contents_.experiment.empty()) return;
+    contents_.experiment = std::string(trimmed(line.substr(10)));
   }
 
   /// chain, number and insertion code of the first residue and of the last are in columns from these on, but for a

@@ -366,6 +366,7 @@ struct StructureFile::Parts {
     Structure structure;
     structure.file = file.path;
     structure.format = reader.metadata.name;
+    structure.experiment = contents.experiment;
     structure.report = report;
     structure.topology = topology;
     if (added) structure.added = added->place(atoms);

@@ -39,6 +39,7 @@ struct FileContents {
   std::size_t models = 0;          ///< in the whole file
   std::size_t other_model_atoms = 0;
   FileRadii radii = FileRadii::none;
+  std::string experiment;  ///< as Structure::experiment
   std::vector<Warning> warnings;
 };
 

@@ -28,8 +28,17 @@ TEST(Colors, NumbersByResidueAndOfTables) {
     return color_scale(structure, wish);
   };
   const char* const layouts[] = {
-      "A -1 1.5\nA 0B 2\nB 1 ?\nA 2 4e0\n", "chain resid value\nA -1 1.5\nA 0B 2\nA 2 4\nZ 9 9\n",
-      "chain,number,icode,sas\nA,-1,,1.5\nA,0,B,2\n\"A\",2,,4\n", "index,sas\n0,1.5\n1,2\n3,4\n2,-\n"};
+      "A -1 1.5\nA 0B 2\nB 1 ?\nA 2 4e0\n",
+      "chain resid value\nA -1 1.5\nA 0B 2\nA 2 4\nZ 9 9\n",
+      "chain,number,icode,sas\nA,-1,,1.5\nA,0,B,2\n\"A\",2,,4\n",
+      "index,sas\n0,1.5\n1,2\n3,4\n2,-\n",
+      "A,-1,1.5\nA,0B,2\nB,1,-\nA,2,4\n",
+      "A;-1;1,5\nA;0B;2\nB;1;NA\nA;2;4,0\n",
+      "A\t-1\t1.5\nA\t0B\t2\nA\t2\t4\n",
+      "Chain;Resi;Score\n\"A\";-1;1,5\nA;0B;2\nB;1;\nA;2;4\n;;\n",
+      "\tchain\tresid\tscore\n0\tA\t-1\t1.5\n1\tA\t0B\t2\n2\tA\t2\t4\n",
+      "resn\tscore\tauth_seq_id\tchain_id\nASP\t1.5\t-1\tA\nLYS\t2\t0B\tA\n\nGLY\tN/A\t1\tB\nUNX\t4\t2.0\tA\n",
+      "chain residue aa score\nA -1 D 1.5\nA 0B K 2\nA 2 X 4\n"};
   for (const char* text : layouts) {
     const std::vector<double> value = numbers(text).value;
     ASSERT_EQ(value.size(), 4u);
@@ -50,6 +59,8 @@ TEST(Colors, NumbersByResidueAndOfTables) {
       {"chain,number,x\nA,1,red\n", "", "n:2: 'red' is not a finite number"},
       {"index,x\n-1,2\n", "", "n:2: '-1' is not an atom index"},
       {"index,x\n1,2\n1,3\n", "", "n:3: gives atom 1 a second number"},
+      {"red\n1\n", "", "n:1: 'red' is not a finite number; write one number for each atom of the file"},
+      {"resn,chain,number\nALA,A,1\n", "", "n:1: is the header of a table without a column of numbers; write"},
       {"A 1 2\nA 1 3\n", "", "n:2: gives residue 1 of chain 'A' a second number"},
       {"A 1 2\nB 2\n", "", "n:2: should be a chain, the number of a residue and a value"},
       {"1 2 3\n", "x", "n:1: is not the header of a table"},
@@ -58,6 +69,34 @@ TEST(Colors, NumbersByResidueAndOfTables) {
     const std::string said = complaint([&, text = text, column = column] { numbers(text, column); });
     EXPECT_NE(said.find(reason), std::string::npos) << text << ": " << said;
   }
+}
+
+TEST(Colors, TablesOfAOneChainMoleculeNeedNoChain) {
+  const test::TemporaryFolder folder;
+  Structure structure = four_atoms();
+  for (std::size_t a = 0; a < 4; ++a) {
+    structure.atoms[a].residue_number = static_cast<std::int32_t>(a);
+    structure.atoms[a].kind = AtomClass::polymer;
+  }
+  structure.atoms[2].kind = AtomClass::ligand;  // in chain B
+  ColorScheme wish = scheme("file");
+  for (const char* text : {"resid,score\n0,1.5\n1,2\n2,9\n3,4\n", "position;score\n0;1,5\n1;2\n2;9\n3;4\n",
+                           "resi score\n0 1.5\n1 2\n2 9\n3 4\n"}) {
+    wish.file = read_number_file(folder.file("n", text));
+    const ColorScale scale = color_scale(structure, wish);
+    EXPECT_EQ(scale.title, "score");
+    EXPECT_EQ(scale.value[0], 1.5) << text;
+    EXPECT_EQ(scale.value[3], 4.0) << text;
+    EXPECT_TRUE(std::isnan(scale.value[2])) << "residue 2 is of another chain: " << text;
+  }
+  structure.atoms[2].kind = AtomClass::polymer;
+  EXPECT_NE(complaint([&] {
+              color_scale(structure, wish);
+            }).find("names residues without their chains, but the atoms used of four are of 2 chains, such as 'A' and"),
+            std::string::npos);
+  wish.file = read_number_file(folder.file("n", "0 1.5\n1 2\n2 9\n"));
+  EXPECT_NE(complaint([&] { color_scale(structure, wish); }).find("or resid,score for a molecule of one chain"),
+            std::string::npos);
 }
 
 TEST(Colors, NumbersOfFramesHaveOneScale) {
@@ -130,7 +169,7 @@ TEST(Colors, NumbersAreGivenForAllAtomsOrForThoseInUse) {
   EXPECT_EQ(color_scale(structure, wish).value, (std::vector<double>{0.0, 1.0, 2.0}));
   wish.file.numbers = {1.0, 2.0};
   EXPECT_EQ(complaint([&] { color_atoms(structure, wish); }),
-            "all: holds 2 numbers; four holds 4 atoms, of which 3 are used; give as many as either");
+            "all: holds 2 numbers; four holds 4 atoms, of which 3 are used; " + std::string(kNumberLayouts));
 }
 
 TEST(Colors, NumberFilesAreReadWithTheirGapsAndFaults) {

@@ -16,8 +16,9 @@ namespace meniscus {
 namespace {
 
 TEST(Colors, WordsAreReadStrictly) {
-  for (const char* good : {"element", "chain", "residue", "bfactor", "occupancy", "charge", "hydrophobicity", "kind",
-                           "component", "index", "atom", "file", "#00ff7F", "#0f7", "red"}) {
+  for (const char* good :
+       {"element", "chain", "residue", "bfactor", "occupancy", "charge", "hydrophobicity", "kind", "component", "index",
+        "atom", "file", "secondary", "rainbow", "plddt", "conservation", "#00ff7F", "#0f7", "red"}) {
     EXPECT_TRUE(parse_color_scheme(good)) << good;
   }
   for (const char* bad : {"", "Element", "#ff", "#-ff", "#00ff7g", "#-0ff7f", "#00ff7f0", "Red", "reddish", "#"}) {
@@ -97,7 +98,6 @@ TEST(Colors, NamesAreThoseOfCss) {
   for (const auto& [name, hex] : known) EXPECT_EQ(parse_color(name), color_from_hex(hex)) << name;
   EXPECT_EQ(parse_color("gray"), parse_color("grey"));
   EXPECT_FALSE(parse_color("transparent"));
-  EXPECT_FALSE(parse_hex_color("red"));
 }
 
 TEST(Colors, RulesPaintTheAtomsMeantAndTheLastCounts) {

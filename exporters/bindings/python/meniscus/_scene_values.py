@@ -13,10 +13,11 @@ Text = Union[str, float]
 class SurfaceValues(TypedDict, total=False):
     """Of the picture of a surface: look and size."""
     #: SCHEME: Colour: a scheme, a colour (red, #rrggbb), or EXPR=COLOR. Schemes: element, element-cpk (darker),
-    #: chain, copy (of an assembly), residue (type), kind (of patch), component; by a number: bfactor,
-    #: occupancy, charge, hydrophobicity (Kyte & Doolittle 1982), index, radial (for capsids). EXPR=COLOR
-    #: colours some atoms, as in 'ligand=orange'. Repeatable; the last one counts. meniscus colors explains the
-    #: schemes [element]
+    #: chain, copy (of an assembly), residue (type), secondary (helix, strand, coil), plddt (AlphaFold's
+    #: confidence), kind (of patch), component; by a number: bfactor, occupancy, charge, hydrophobicity (Kyte &
+    #: Doolittle 1982), lipophilicity (a potential), index, rainbow (along each chain), radial (for capsids).
+    #: EXPR=COLOR colours some atoms, as in 'ligand=orange'. Repeatable; the last one counts. meniscus colors
+    #: explains the schemes [element]
     color: Union[Text, Sequence[Text]]
     #: WORD: Look: publication, cover, flat, soft or classic. publication: shade, thin lines, colours as given;
     #: cover: studio light, highlights; flat: constant colours and lines; soft: matt, no lines; classic: studio
@@ -197,8 +198,9 @@ class SceneValues(SurfaceValues, total=False):
     #: Compute on GPU and CPU, and report every difference
     verify: bool
     #: NUMBERS: Colour by numbers from a file. One number per atom of FILE or per atom used; lines of chain,
-    #: residue and number; or a CSV table, such as meniscus surface --csv-residues writes. nan, ? and - mean
-    #: missing
+    #: residue and number; or a table with a header, such as meniscus surface --csv-residues writes, or
+    #: resid,score for one chain. Commas, semicolons, tabs or blanks; nan, ? and - mean missing. Grades from 1
+    #: to 9: --color conservation
     color_by_file: Path
     #: NAME: Column of the table of --color-by-file
     color_column: Text
@@ -209,8 +211,8 @@ class SceneValues(SurfaceValues, total=False):
     #: 1.4 [0]
     map_offset: float
     #: MAP: Colour map for numbers, such as viridis or blue-white-red. Others: cividis, magma, red-white-blue
-    #: (default for charge: negative is red), blues and ylorrd (light), consurf (grades 1 to 9), categorical
-    #: (each number has its own colour). blue-white-red is the default for hydrophobicity [viridis]
+    #: (default for charge: negative is red), blues and ylorrd (light), consurf (grades 1 to 9), rainbow,
+    #: categorical (each number has its own colour). blue-white-red is the default for hydrophobicity [viridis]
     map: Text
     #: FILE: File of a colour map: one colour per line, or a position and a colour. A JSON list of them is read,
     #: too

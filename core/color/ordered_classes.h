@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Classes of atoms with an order and colours of their own: secondary structure, and the confidence of predicted models.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace meniscus {
+
+struct Structure;
+
+/// A name and its colour.
+struct ColorClass {
+  std::string name;  ///< may come from a molecule file
+  glm::vec3 color{0.0f};
+};
+
+/// The classes in their order, and of each atom which one it is in.
+struct ClassedAtoms {
+  std::vector<ColorClass> classes;
+  std::vector<std::uint8_t> of_atom;  ///< one per Structure::atoms
+
+  const glm::vec3& color(std::size_t atom) const { return classes[of_atom[atom]].color; }
+};
+
+/// Helix, strand, coil, as secondary_structure() has them, and "other" for all that is no amino acid; those that occur.
+ClassedAtoms secondary_classes(const Structure& structure);
+
+/// The four classes of the AlphaFold database, all of them, by pLDDT above 90, 70 and 50; a number on a limit is in
+/// the class below. After them "none (12 atoms)", if some atoms have no number. Throws InputError where none has one.
+ClassedAtoms confidence_classes(const Structure& structure);
+
+/// From where these have their numbers: "_ma_qa_metric_local" if any atom has an Atom::confidence, else "B-factors".
+std::string_view source_of_confidence(const Structure& structure);
+
+/// Why they may not be pLDDT, in one sentence: B-factors outside of 0 to 100, of an experiment, or from 0 to 1.
+std::optional<std::string> doubt_of_confidence(const Structure& structure);
+
+}  // namespace meniscus
