@@ -30,6 +30,11 @@ def gro(count, *atoms, box="   5.00000   5.00000   5.00000\n"):
 CIF = "data_a\nloop_\n" + "".join(f"_atom_site.{name}\n" for name in ("id", "type_symbol", "label_atom_id", "label_comp_id", "label_asym_id",
                                                                       "Cartn_x", "Cartn_y", "Cartn_z"))
 PQR = "ATOM      1  N   ALA A   1       0.000   0.000   0.000  0.100  1.500\n"
+SDF = ("ligand\n  test    01012600003D\n\n{counts} V2000\n    0.0000    0.0000    0.0000 C   0  0\n    1.5000    0.0000    0.5000 O   0  0\n"
+       "  1  2  1  0\nM  END\n$$$$\n")
+COUNTS = "  2  1  0  0  0  0  0  0  0  0999"
+MOL2 = "@<TRIPOS>MOLECULE\nligand\n{counts}\nSMALL\nUSER_CHARGES\n@<TRIPOS>ATOM\n1 C1 0 0 0 {type} 1 LIG1 0.1\n@<TRIPOS>BOND\n"
+PDBQT = "ATOM      1  C   UNL A   1       0.000   0.000   0.000  1.00  0.00    {charge:>6} A \n"
 PAIR = (("CA", 0.0), ("CB", 0.15))
 MODEL = "MODEL        1\n{}ENDMDL\nMODEL        2\n{}ENDMDL\n"
 
@@ -84,6 +89,14 @@ FILES = [
     ("PQR negative radius", "p2.pqr", PQR + PQR.replace(" 1.500", "-1.000").replace("  0.000   0.000   0.000", "  2.000   0.000   0.000")),
     ("PQR radius 0", "p3.pqr", PQR + PQR.replace(" 1.500", " 0.000").replace("  0.000   0.000   0.000", "  2.000   0.000   0.000")),
     ("PQR radii all 1", "p4.pqr", "".join(f"ATOM {n} C ALA A {n} {2 * n} 0 0 0.1 1.0\n" for n in (1, 2, 3))),
+    ("SDF of two molecules", "l1.sdf", 2 * SDF.format(counts=COUNTS)),
+    ("SDF count too large", "l2.sdf", SDF.format(counts=COUNTS.replace("2", "3"))),
+    ("SDF bonds too many", "l3.sdf", SDF.format(counts=COUNTS.replace("  1 ", "  7 "))),
+    ("MOL2 count too large", "l4.mol2", MOL2.format(counts="3 0", type="C.3")),
+    ("MOL2 type of AMBER", "l5.mol2", MOL2.format(counts="1 0", type="CT")),
+    ("PDBQT charge not a number", "l6.pdbqt", PDBQT.format(charge="0.1") + PDBQT.format(charge="0.x")),
+    ("BinaryCIF cut short", "l7.bcif", b"\x83\xa7encoder\xa4test\xa7version\xa50.3.0\xaadataBlocks\x91"),
+    ("text named .bcif", "l8.bcif", "This is not a molecule.\n"),
     ("CRYST1 broken", "cry.pdb", "CRYST1  abc\n" + two()),
     ("nanometres in a PDB", "nm.pdb", "".join(atom(str(n), number=f"{n:>4}", x=f"{0.15 * n:.3f}") for n in range(12))),
     ("HTML as .pdb", "h.pdb", "<!DOCTYPE html>\n<html><body>404</body></html>\n"),

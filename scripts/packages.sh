@@ -22,6 +22,7 @@ test_packages=(python3-venv python3-pip libgtest-dev libbenchmark-dev glslang-to
   slurmctld slurmd slurm-client munge snakemake python3-yaml python3-jsonschema python3-prometheus-client libxml2-utils nodejs make git
   apbs pdb2pqr
   python3-biopython python3-ost jmol
+  python3-rdkit rdkit-data python3-openbabel openbabel
   admesh tetgen python3-meshio assimp-utils
   dpkg-dev lintian man-db mandoc zsh fish ruby nix-bin)
 fuzz_packages=(clang-14 libclang-rt-14-dev)

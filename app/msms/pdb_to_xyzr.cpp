@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::string_view kHelp = R"([-h] [-c] [FILE]
 
-Writes the atoms of a molecule (PDB, mmCIF, PQR, GRO, XYZ; - or nothing: standard input) as spheres, in their order:
+Writes the atoms of a molecule (PDB, mmCIF, SDF, MOL2, ...; - or nothing: standard input) as spheres, in their order:
   pdb_to_xyzr   x y z radius
   pdb_to_xyzrn  x y z radius 1 ATOM_RESIDUE_NUMBER
 

@@ -130,8 +130,8 @@ gemmi::Element element_of(gemmi::Element stated, gemmi::Element hint, const Atom
   if (is_of_organic_residues(stated)) return stated;
   const gemmi::Element given = stated == gemmi::El::X ? hint : stated;
   const gemmi::ResidueInfo residue = gemmi::find_tabulated_residue(atom.residue_name);
-  const bool standard =
-      residue.found() && residue.is_standard() && (residue.is_amino_acid() || residue.is_nucleic_acid());
+  const bool standard = residue.found() && residue.is_standard() && atom.residue_name != "UNK" &&
+                        (residue.is_amino_acid() || residue.is_nucleic_acid());
   const bool variant = stated == gemmi::El::X && !residue.found() && of_polymer && is_amino_acid_atom_name(atom.name);
   const bool doubtful = (standard || variant) && !is_of_organic_residues(given);
   return doubtful || given == gemmi::El::X ? element_by_letters(atom, of_polymer) : given;

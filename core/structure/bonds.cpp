@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -190,7 +191,8 @@ constexpr double kSlack = 0.4, kSlackBetweenStandardResidues = 0.2;
 
 class MoleculeBonds {
  public:
-  explicit MoleculeBonds(std::span<const Atom> atoms) : atoms_(atoms), standard_(atoms.size()) {
+  MoleculeBonds(std::span<const Atom> atoms, std::span<const std::int32_t> fully_bonded)
+      : atoms_(atoms), fully_bonded_(fully_bonded.begin(), fully_bonded.end()), standard_(atoms.size()) {
     positions_.reserve(atoms.size());
     for (const Atom& atom : atoms) {
       positions_.push_back(atom.position);
@@ -205,7 +207,7 @@ class MoleculeBonds {
     // Formats without residues have one of all atoms.
     if (std::ranges::all_of(atoms_, [](const Atom& atom) { return atom.residue_name.empty(); })) return;
     for (const Bond& bond : template_bonds(atoms_, positions_, std::nullopt))
-      if (add(bond[0], bond[1])) standard_[bond[0]] = standard_[bond[1]] = true;
+      if (may_have_more(atoms_[bond[0]]) && add(bond[0], bond[1])) standard_[bond[0]] = standard_[bond[1]] = true;
   }
 
   void add_listed(std::span<const Bond> listed) {
@@ -258,8 +260,10 @@ class MoleculeBonds {
  private:
   static constexpr char kSeveral = '\0';
 
-  static bool binds_by_distance(const Atom& atom) {
-    return atom.element != 0 && atom.element < 119 && atom.kind != AtomClass::ion;
+  bool may_have_more(const Atom& atom) const { return !fully_bonded_.contains(atom.model); }
+
+  bool binds_by_distance(const Atom& atom) const {
+    return atom.element != 0 && atom.element < 119 && atom.kind != AtomClass::ion && may_have_more(atom);
   }
 
   bool of_one_molecule(const Atom& a, const Atom& b) const {
@@ -276,6 +280,7 @@ class MoleculeBonds {
   }
 
   std::span<const Atom> atoms_;
+  std::set<std::int32_t> fully_bonded_;
   std::vector<glm::dvec3> positions_;
   std::vector<bool> standard_;  ///< in a bond of a template
   std::vector<char> letter_;    ///< of each residue's alternate location; blank: it has none
@@ -284,9 +289,10 @@ class MoleculeBonds {
 
 }  // namespace
 
-std::vector<Bond> molecule_bonds(std::span<const Atom> atoms, std::span<const Bond> listed) {
+std::vector<Bond> molecule_bonds(std::span<const Atom> atoms, std::span<const Bond> listed,
+                                 std::span<const std::int32_t> fully_bonded) {
   if (atoms.empty()) return {};
-  MoleculeBonds bonds(atoms);
+  MoleculeBonds bonds(atoms, fully_bonded);
   bonds.add_templates();
   bonds.add_listed(listed);
   bonds.add_near();

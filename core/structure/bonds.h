@@ -2,6 +2,7 @@
 // The bonds of a molecule: listed by its file, by the templates of standard residues, or guessed by distance.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -31,8 +32,10 @@ std::vector<Bond> guessed_bonds(std::span<const Atom> atoms, std::span<const glm
 /// between standard residues, as in disulphides and cross-links, 0.2 Å. No distance binds two hydrogens, a free ion, an
 /// atom of unknown element, or what is within 0.5 Å, which are duplicates. Never across models, copies, or
 /// alternate locations: of two atoms with different letters, not if one residue has both of them or either has several.
-/// Nothing longer than kLongestBond, which crosses a periodic box. O(n) for molecules.
-std::vector<Bond> molecule_bonds(std::span<const Atom> atoms, std::span<const Bond> listed);
+/// Nothing longer than kLongestBond, which crosses a periodic box. O(n) for molecules. fully_bonded: models
+/// (Atom::model) that have no others than those listed.
+std::vector<Bond> molecule_bonds(std::span<const Atom> atoms, std::span<const Bond> listed,
+                                 std::span<const std::int32_t> fully_bonded = {});
 
 inline constexpr double kLongestBond = 4.0;  ///< Å; those of caesium to ligands are 3.3 Å long
 

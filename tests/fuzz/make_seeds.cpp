@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes the seeds of binary trajectory formats from scratch into the folder given.
+// Writes the seeds of binary formats from scratch into the folder given.
 #include <filesystem>
 #include <fstream>
 #include <string>
 
+#include "tests/support/binary_cif.h"
 #include "tests/trajectory/samples.h"
 
 namespace {
@@ -28,5 +29,6 @@ int main(int, char** arguments) {
   write(folder / "trr/single.trr", trr({.frames = 2}));
   write(folder / "trr/double.trr", trr({.frames = 2, .doubles = true, .without_positions = 0}));
   write(folder / "netcdf/cdf2.nc", amber_netcdf({.frames = 2}));
+  write(folder / "bcif/every_encoding.bcif", binary_cif({category("_atom_site", 3, atom_columns())}));
   write(folder / "netcdf/cdf5.nc", amber_netcdf({.frames = 2, .version = 5}));
 }

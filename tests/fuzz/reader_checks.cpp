@@ -98,7 +98,7 @@ void check_reader(const Reader& reader, const ScratchFile& scratch, std::string_
   const std::string& path = scratch.write(bytes);
   TextFile file;
   try {
-    file = read_text_file(path);
+    file = read_molecule_file(path);
   } catch (const InputError& error) {
     return require_clear(error);
   }

@@ -55,7 +55,7 @@ AddedFiles::AddedFiles(const std::string& path, std::span<const std::string> fil
                        const std::optional<Selection>& superpose_on, FileContents& contents)
     : own_atoms_(contents.atoms.size()) {
   for (const std::string& name : files) {
-    const TextFile file = read_text_file(name);
+    const TextFile file = read_molecule_file(name);
     FileContents more = read(file, models, contents.radii, path);
     Part& part = parts_.emplace_back();
     const Ends ends(contents.atoms);
@@ -78,6 +78,7 @@ AddedFiles::AddedFiles(const std::string& path, std::span<const std::string> fil
       atom.model += ends.models;
     }
     for (const Bond& bond : more.bonds) contents.bonds.push_back({bond[0] + ends.atoms, bond[1] + ends.atoms});
+    for (const std::int32_t model : more.fully_bonded) contents.fully_bonded.push_back(model + ends.models);
     part.file = {file.path, more.atoms.empty() ? ends.models + 1 : more.atoms.front().model, more.atoms.size(), {}};
     contents.atoms.insert(contents.atoms.end(), std::make_move_iterator(more.atoms.begin()),
                           std::make_move_iterator(more.atoms.end()));

@@ -144,7 +144,7 @@ void PdbBonds::add_atom(std::string_view line) { serials_.push_back(serial_at(li
 
 std::vector<Bond> PdbBonds::bonds() const {
   std::vector<Bond> bonds;
-  if (records_.empty()) return bonds;
+  if (records_.empty() && pairs_.empty()) return bonds;
   std::unordered_map<std::string_view, std::uint32_t> atom_of;
   for (std::size_t n = 0; n < serials_.size(); ++n) {
     const auto [found, added] = atom_of.try_emplace(serials_[n], static_cast<std::uint32_t>(n));
@@ -155,13 +155,14 @@ std::vector<Bond> PdbBonds::bonds() const {
     if (serial.empty() || found == atom_of.end() || found->second == kSeveral) return std::nullopt;
     return found->second;
   };
-  for (const std::string_view record : records_) {
-    const auto first = find(serial_at(record, 0));
-    for (std::size_t field = 1; first && field <= kMostPartners; ++field) {
-      const auto partner = find(serial_at(record, field));
-      if (partner && *partner != *first) bonds.push_back({std::min(*first, *partner), std::max(*first, *partner)});
-    }
-  }
+  const auto join = [&](std::string_view one, std::string_view other) {
+    const auto first = find(one), partner = find(other);
+    if (first && partner && *partner != *first)
+      bonds.push_back({std::min(*first, *partner), std::max(*first, *partner)});
+  };
+  for (const std::string_view record : records_)
+    for (std::size_t field = 1; field <= kMostPartners; ++field) join(serial_at(record, 0), serial_at(record, field));
+  for (const auto& [first, second] : pairs_) join(first, second);
   std::sort(bonds.begin(), bonds.end());
   bonds.erase(std::unique(bonds.begin(), bonds.end()), bonds.end());
   return bonds;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The records of PDB files: fixed columns of atoms, which PQR shares, CONECT bonds, and assemblies of REMARK 350.
+// The records of PDB files: fixed columns of atoms, which PQR and PDBQT share, CONECT bonds, and assemblies of REMARK
+// 350.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -47,6 +49,8 @@ class PdbBonds {
   void add_atom(std::string_view line);
   /// A CONECT record.
   void add_record(std::string_view line) { records_.push_back(line); }
+  /// Two serial numbers.
+  void add_pair(std::string_view first, std::string_view second) { pairs_.push_back({first, second}); }
 
   /// Each bond once, lower atom first, ascending. Records that name no atom, or a number that several atoms bear, are
   /// passed over.
@@ -54,6 +58,7 @@ class PdbBonds {
 
  private:
   std::vector<std::string_view> serials_, records_;
+  std::vector<std::array<std::string_view, 2>> pairs_;
 };
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the atom table of mmCIF.
+// Reads the atom table of mmCIF, as text or as BinaryCIF.
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -73,7 +73,7 @@ const std::vector<std::string> kColumns{"Cartn_x",
 
 /// The line of a row of _atom_site; rows are one line each in all but hand-made files, otherwise the loop's first line.
 std::size_t line_of_row(const TextFile& file, const cif::Table& table, int row, const std::string& value) {
-  if (!table.loop_item) return 0;
+  if (!table.loop_item || table.loop_item->line_number < 0) return 0;  // BinaryCIF has no lines
   const auto loop_line = static_cast<std::size_t>(table.loop_item->line_number);
   std::size_t begin = 0;
   std::size_t line = 1;
@@ -280,6 +280,12 @@ FileContents read(const TextFile& file, const ModelChoice& choice) {
   return contents;
 }
 
+FileContents read_binary(const TextFile& file, const ModelChoice& choice) {
+  if (!is_binary_cif(file.text))
+    throw InputError(file.path, 0, "is not BinaryCIF: it does not begin with a map of encoder, version and dataBlocks");
+  return read(file, choice);
+}
+
 bool recognizes(std::string_view text) {
   std::size_t first = text.find_first_not_of(" \t\n");
   while (first != std::string_view::npos && text[first] == '#') {
@@ -299,6 +305,15 @@ const Reader kMmcifReader{
      "_struct_sheet_range, _exptl, pLDDT of _ma_qa_metric_local"},
     recognizes,
     read,
+    read_mmcif_assemblies};
+
+const Reader kBinaryCifReader{
+    {"BinaryCIF", ".bcif", "mmCIF in packed columns of numbers",
+     "Sehnal et al. 2020, PLOS Comput. Biol. 16, e1008247; github.com/molstar/BinaryCIF",
+     "what is read of mmCIF; all encodings: ByteArray, FixedPoint, IntervalQuantization, RunLength, Delta, "
+     "IntegerPacking, StringArray"},
+    is_binary_cif,
+    read_binary,
     read_mmcif_assemblies};
 
 }  // namespace meniscus

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads PDB: its columns strictly where a surface needs them, leniently elsewhere. No library does both and keeps the
 // order of the file and residues whose numbers wrap.
+#include "core/structure/formats/read_pdb.h"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -27,7 +29,7 @@
 namespace meniscus {
 namespace {
 
-constexpr std::size_t kCoordinatesEnd = 54;
+constexpr std::size_t kCoordinatesEnd = 54, kBehind = 66;  // the columns end
 
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
@@ -43,7 +45,8 @@ gemmi::Element element_by_place(std::string_view name) {
 
 class PdbReader {
  public:
-  PdbReader(const TextFile& file, const ModelChoice& models) : file_(file), choice_(models) {}
+  PdbReader(const TextFile& file, const ModelChoice& models, ColumnsBehind behind)
+      : file_(file), choice_(models), behind_(behind) {}
 
   FileContents run() {
     LineReader lines(file_.text);
@@ -87,6 +90,8 @@ class PdbReader {
       bonds_.add_record(line);
     } else if (is_pdb_record(line, "EXPDTA")) {
       take_experiment(line);
+    } else if (behind_ && is_pdb_record(line, "BRANCH")) {
+      take_branch(line);
     } else if (is_pdb_record(line, "HELIX")) {
       take_range(line, SecondaryStructure::helix, 19, 31);
     } else if (is_pdb_record(line, "SHEET")) {
@@ -153,7 +158,7 @@ class PdbReader {
       const std::size_t column = 30 + 8 * static_cast<std::size_t>(axis);
       atom.position[axis] = parse_coordinate(file_, number, "xyz"[axis], line.substr(column, 8));
     }
-    read_pdb_names(line, atom);
+    read_pdb_names(behind_ ? line.substr(0, kBehind) : line, atom);
     if (!residue_numbers_.read(line, atom)) number_.add(number, line.substr(22, 4));
     atom.occupancy = optional_number(line, 54, occupancy_, number);
     atom.b_factor = optional_number(line, 60, b_factor_, number);
@@ -178,6 +183,10 @@ class PdbReader {
     hints.heteroatom = is_pdb_record(line, "HETATM");
     if (hints.heteroatom && !atom.chain.empty() && ended_chains_.contains(atom.chain))
       hints.residue = ResidueStatement::other;
+    if (behind_) {
+      if (!behind_(file_, number, line, atom)) symbol_.add(number, line.substr(kBehind));
+      return;
+    }
     const std::string symbol(line.substr(std::min<std::size_t>(line.size(), 76), 2));
     if (std::any_of(symbol.begin(), symbol.end(), is_letter)) {
       atom.element = static_cast<std::uint8_t>(gemmi::Element(symbol).atomic_number());
@@ -188,8 +197,16 @@ class PdbReader {
     }
   }
 
+  /// Two serial numbers: a bond that turns in docking.
+  void take_branch(std::string_view line) {
+    const std::vector<std::string_view> fields = fields_of(line, 3);
+    const bool of_first = contents_.atoms.empty() || contents_.atoms.front().model == model();
+    if (wanted() && of_first && fields.size() == 3) bonds_.add_pair(fields[1], fields[2]);
+  }
+
   const TextFile& file_;
   const ModelChoice& choice_;
+  ColumnsBehind behind_;
   FileContents contents_;
   std::vector<AtomHints> hints_;
   ResidueCounter residues_{contents_.atoms};
@@ -217,7 +234,7 @@ bool recognizes(std::string_view text) {
   return false;
 }
 
-FileContents read(const TextFile& file, const ModelChoice& models) { return PdbReader(file, models).run(); }
+FileContents read(const TextFile& file, const ModelChoice& models) { return read_pdb(file, models, nullptr); }
 
 bool positions(std::string_view model, std::vector<glm::dvec3>& positions) {
   LineReader lines(model);
@@ -233,6 +250,10 @@ bool positions(std::string_view model, std::vector<glm::dvec3>& positions) {
 }
 
 }  // namespace
+
+FileContents read_pdb(const TextFile& file, const ModelChoice& models, ColumnsBehind behind) {
+  return PdbReader(file, models, behind).run();
+}
 
 const Reader kPdbReader{
     {"PDB", ".pdb .ent .pdb1 .brk", "Protein Data Bank format, in fixed columns",

@@ -22,13 +22,13 @@
 namespace meniscus {
 namespace {
 
-/// Lone pairs and the mass-less sites of water models (LP, EP, M, MW, with digits), and the dummy atoms with which the
-/// OPM database draws membranes.
+/// Lone pairs, the mass-less sites of water models (LP, EP, M, MW, with digits) and of AutoDock (G in opened rings, TZ
+/// at zinc), and the dummy atoms with which the OPM database draws membranes.
 bool is_virtual_site(const Atom& atom) {
   if (atom.residue_name == "DUM") return true;
   if (atom.element != 0) return false;
   const std::string letters = atom.name.substr(0, atom.name.find_first_of("0123456789"));
-  for (const char* name : {"LP", "EP", "M", "MW", "EPW", "VS"}) {
+  for (const char* name : {"LP", "EP", "M", "MW", "EPW", "VS", "G", "TZ"}) {
     if (letters == name) return true;
   }
   return false;
@@ -182,7 +182,7 @@ void assemble_beside(Structure& structure, const Assembly& assembly) {
 }
 
 /// The bonds of all shown atoms, which are in atoms and, after them, in beside.
-std::vector<Bond> bonds_of_shown(const Structure& structure, std::span<const Bond> listed) {
+std::vector<Bond> bonds_of_shown(const Structure& structure, const FileContents& contents) {
   const std::size_t own = structure.atoms.size();
   const auto atom = [&](std::uint32_t n) -> const Atom& {
     return n < own ? structure.atoms[n] : structure.beside[n - own];
@@ -196,7 +196,7 @@ std::vector<Bond> bonds_of_shown(const Structure& structure, std::span<const Bon
   });
   std::vector<Atom> shown;
   for (const std::uint32_t n : places) shown.push_back(atom(n));
-  std::vector<Bond> bonds = molecule_bonds(shown, listed);
+  std::vector<Bond> bonds = molecule_bonds(shown, contents.bonds, contents.fully_bonded);
   for (auto& [a, b] : bonds) {
     a = places[a];
     b = places[b];
@@ -327,7 +327,7 @@ std::vector<Bond> places_of(const Structure& structure, const std::vector<Bond>&
 struct StructureFile::Parts {
   Parts(const std::string& path, const ReadOptions& asked)
       : options(asked),
-        file(read_text_file(path)),
+        file(read_molecule_file(path)),
         reader(choose_reader(file)),
         contents(reader.read(file, asked.model)) {
     require_model(file.path, options.model, contents.models);
@@ -402,7 +402,7 @@ StructureFile::StructureFile(const std::string& path, const ReadOptions& options
     : parts_(std::make_unique<Parts>(path, options)),
       reach_(parts_->choose(parts_->contents.atoms, Meaning::anywhere)) {
   if (options.shown.empty()) return;
-  reach_.shown_bonds = std::make_shared<const std::vector<Bond>>(bonds_of_shown(reach_, parts_->contents.bonds));
+  reach_.shown_bonds = std::make_shared<const std::vector<Bond>>(bonds_of_shown(reach_, parts_->contents));
   const std::size_t own = reach_.atoms.size();
   const auto index = [&](std::uint32_t n) { return (n < own ? reach_.atoms[n] : reach_.beside[n - own]).index; };
   for (const auto& [a, b] : *reach_.shown_bonds) parts_->bonds_by_index.push_back({index(a), index(b)});
@@ -420,7 +420,7 @@ Structure StructureFile::at(std::span<const glm::dvec3> positions) const {
 }
 
 std::size_t count_atoms(const std::string& path, const std::optional<Selection>& trajectory_atoms) {
-  const TextFile file = read_text_file(path);
+  const TextFile file = read_molecule_file(path);
   FileContents contents = choose_reader(file).read(file, {});
   ReadReport unused;
   if (trajectory_atoms) keep_trajectory_atoms(contents, *trajectory_atoms, file, unused);
@@ -431,7 +431,7 @@ Structure read_structure(const std::string& path, const ReadOptions& options) {
   StructureFile::Parts parts(path, options);
   Structure structure = parts.choose(std::move(parts.contents.atoms), Meaning::here);
   if (!options.shown.empty())
-    structure.shown_bonds = std::make_shared<const std::vector<Bond>>(bonds_of_shown(structure, parts.contents.bonds));
+    structure.shown_bonds = std::make_shared<const std::vector<Bond>>(bonds_of_shown(structure, parts.contents));
   return structure;
 }
 

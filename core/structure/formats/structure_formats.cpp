@@ -9,17 +9,21 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/structure/formats/cif_document.h"
 
 namespace meniscus {
 namespace {
 
 /// A new format is a file read_<name>.cpp, its name in reader.h and an entry in both lists.
-constexpr std::array<const Reader*, 8> kReaders{&kPdbReader, &kMmcifReader, &kPqrReader, &kGroReader,
-                                                &kXyzReader, &kXyzrReader,  &kPsfReader, &kPrmtopReader};
+constexpr std::array<const Reader*, 12> kReaders{&kPdbReader,  &kMmcifReader, &kBinaryCifReader, &kSdfReader,
+                                                 &kMol2Reader, &kPdbqtReader, &kPqrReader,       &kGroReader,
+                                                 &kXyzReader,  &kXyzrReader,  &kPsfReader,       &kPrmtopReader};
 
-/// Strict tests first: PDB takes any text with one of its records in it, and what may be PQR too.
-constexpr std::array<const Reader*, 8> kOrderOfTrial{&kPsfReader, &kPrmtopReader, &kMmcifReader, &kGroReader,
-                                                     &kXyzReader, &kPdbReader,    &kPqrReader,   &kXyzrReader};
+/// Strict tests first: PDB takes any text with one of its records in it, and what may be PQR or PDBQT too.
+constexpr std::array<const Reader*, 12> kOrderOfTrial{&kBinaryCifReader, &kPsfReader, &kPrmtopReader, &kMmcifReader,
+                                                      &kMol2Reader,      &kSdfReader, &kGroReader,    &kXyzReader,
+                                                      &kPdbqtReader,     &kPdbReader, &kPqrReader,    &kXyzrReader};
 static_assert(kReaders.size() == kOrderOfTrial.size());
 
 std::string lower_case_name(const std::string& path) {
@@ -43,18 +47,12 @@ const Reader* reader_by_name(const std::string& name) {
 }
 
 /// Formats we can name but not read; better refused by name than misread as PDB.
-void refuse_known_foreign(const TextFile& file, const std::string& name) {
+void refuse_known_foreign(const TextFile& file) {
   const std::size_t first = file.text.find_first_not_of(" \t\n");
   if (file.text[first] == '<')
     throw InputError(file.path, 0, "looks like HTML or XML, not like a molecule; was the download refused?");
   if (file.text[first] == '{')
     throw InputError(file.path, 0, fmt::format("looks like JSON; {} are read", format_names()));
-  for (const char* extension : {".pdbqt", ".mol2", ".sdf"}) {
-    if (name.ends_with(extension)) {
-      throw InputError(file.path, 0,
-                       fmt::format("{} files are not read; convert it to one of {}", extension, format_names()));
-    }
-  }
 }
 
 }  // namespace
@@ -70,11 +68,24 @@ std::string format_names() {
   return names;
 }
 
+TextFile read_molecule_file(const std::string& path) {
+  std::string bytes = read_file_bytes(path);
+  const std::string name = path == "-" ? "standard input" : path;
+  return is_binary_cif(bytes) ? TextFile{name, std::move(bytes)} : text_of_bytes(name, std::move(bytes));
+}
+
+void note_other_molecules(FileContents& contents, const ModelChoice& models) {
+  if (contents.models < 2 || models.all || models.number != 1) return;
+  contents.warnings.emplace_back(
+      fmt::format("{} molecules are in the file; the first is used, {} 2 takes the next, "
+                  "{} all unites them",
+                  with_thousands(contents.models), option_name("model"), option_name("model")));
+}
+
 const Reader& choose_reader(const TextFile& file) {
-  const std::string name = lower_case_name(file.path);
-  refuse_known_foreign(file, name);
-  const Reader* by_name = reader_by_name(name);
+  const Reader* by_name = reader_by_name(lower_case_name(file.path));
   if (by_name && by_name->recognizes(file.text)) return *by_name;
+  refuse_known_foreign(file);
   for (const Reader* reader : kOrderOfTrial) {
     if (!reader->recognizes(file.text)) continue;
     if (!by_name) return *reader;

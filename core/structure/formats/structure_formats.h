@@ -33,10 +33,11 @@ struct ModelChoice {
 /// The atoms of the wanted models in the order of the file, nothing left out. Positions are finite. The other models
 /// are counted, not checked.
 struct FileContents {
-  std::vector<Atom> atoms;         ///< Atom::model says of which model
-  std::vector<Bond> bonds;         ///< those the file lists, of the first of these models
-  bool without_positions = false;  ///< a topology (PSF, prmtop): all positions are the origin
-  std::size_t models = 0;          ///< in the whole file
+  std::vector<Atom> atoms;                 ///< Atom::model says of which model
+  std::vector<Bond> bonds;                 ///< those the file lists, of the first of these models or of all
+  std::vector<std::int32_t> fully_bonded;  ///< models of which the file lists all bonds
+  bool without_positions = false;          ///< a topology (PSF, prmtop): all positions are the origin
+  std::size_t models = 0;                  ///< in the whole file
   std::size_t other_model_atoms = 0;
   FileRadii radii = FileRadii::none;
   std::string experiment;  ///< as Structure::experiment
@@ -57,6 +58,10 @@ struct Reader {
 
 extern const Reader kPdbReader;
 extern const Reader kMmcifReader;
+extern const Reader kBinaryCifReader;
+extern const Reader kSdfReader;
+extern const Reader kMol2Reader;
+extern const Reader kPdbqtReader;
 extern const Reader kPqrReader;
 extern const Reader kGroReader;
 extern const Reader kXyzReader;
@@ -67,8 +72,14 @@ extern const Reader kPrmtopReader;
 /// All formats, as people list them.
 std::span<const Reader* const> readers();
 
-/// "PDB, mmCIF, PQR, GRO, XYZ, XYZR, PSF, prmtop"
+/// "PDB, mmCIF, BinaryCIF, SDF, MOL2, PDBQT, PQR, GRO, XYZ, XYZR, PSF, prmtop"
 std::string format_names();
+
+/// read_text_file, or, where a file is BinaryCIF, its bytes.
+TextFile read_molecule_file(const std::string& path);
+
+/// Tells, where the first of several molecules is taken, how the others are.
+void note_other_molecules(FileContents& contents, const ModelChoice& models);
 
 /// The reader of a file: the format of its name if its content may be that, else the one its content is.
 /// Throws InputError where the content is clearly another format than the name says, and where it is none.

@@ -230,7 +230,7 @@ std::optional<std::int64_t> step_of_title(std::string_view frame) {
 class ModelsInMemory final : public Trajectory {
  public:
   explicit ModelsInMemory(const std::string& path) : Trajectory(path, "models") {
-    const TextFile file = read_text_file(path);
+    const TextFile file = read_molecule_file(path);
     const Reader& reader = choose_reader(file);
     format_ = fmt::format("models of {}", reader.metadata.name);
     const FileContents contents = reader.read(file, ModelChoice{1, true});
@@ -325,7 +325,7 @@ std::unique_ptr<Trajectory> open_models(const std::string& path, const Trajector
 }  // namespace
 
 const TrajectoryFormat kModelsFormat{
-    {"models", ".pdb .cif .gro .xyz", "each model of a structure file of any format is a frame",
+    {"models", ".pdb .cif .bcif .sdf .mol2 .pdbqt .gro .xyz", "each model of a structure file of any format is a frame",
      "those of the formats of structures",
      "positions; boxes of CRYST1, GRO and extended XYZ, times of GRO titles; of plain "
      "PDB, GRO and XYZ files one model is "

@@ -89,7 +89,7 @@ const TrajectoryFormat& choose_format(const std::string& path, const std::string
   }
   if (by_name) return *by_name;  // its reader says what is missing
   if (by_content) return *by_content;
-  if (!packed && start.find('\0') != std::string::npos) {
+  if (!packed && !kBinaryCifReader.recognizes(start) && start.find('\0') != std::string::npos) {
     throw InputError(path, 0,
                      fmt::format("is in none of the trajectory formats that are read ({}or models of {})",
                                  bare_format_names(), format_names()));

@@ -333,8 +333,8 @@ def read(path: Path, *, select: Optional[str] = None, assembly: Union[str, int, 
          radii: Optional[RadiiSet] = None, radii_files: Union[Path, Sequence[Path]] = (),
          radius: Union[Mapping[str, float], Iterable[str], None] = None, keep_water: bool = False,
          keep_ions: bool = False, unknown_element: UnknownElement = "halt") -> Structure:
-    """The atoms of a PDB, mmCIF, PQR, GRO, XYZ or XYZR file, plain or packed with gzip, as the program takes them:
-    polymers and ligands of the first model, of each residue the most occupied conformer, without water and free ions.
+    """The atoms of a PDB, mmCIF, BinaryCIF, SDF, MOL2, PDBQT, PQR, GRO, XYZ or XYZR file, plain or packed with gzip, as
+    the program takes them: polymers and ligands of the first model, of each residue the most occupied conformer, without water and free ions.
     What is odd in the file is a UserWarning.
 
     select: an expression, "chain A and resid 10-50". assembly: build this biological assembly. model: from 1, or "all"

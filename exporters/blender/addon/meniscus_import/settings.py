@@ -36,7 +36,7 @@ class MeniscusSettings(bpy.types.PropertyGroup):
         name="Source", default="NONE",
         items=(("NONE", "None", "The object shows no computed surface"), ("FILE", "File", "A molecule's file"),
                ("OBJECT", "Object", "The atoms of an object, as Molecular Nodes has them")))
-    file: bpy.props.StringProperty(name="File", description="A molecule: PDB, mmCIF, PQR, GRO, XYZ, ...", subtype="FILE_PATH",
+    file: bpy.props.StringProperty(name="File", description="A molecule: PDB, mmCIF, SDF, MOL2, ...", subtype="FILE_PATH",
                                    update=on_change)
     trajectory: bpy.props.StringProperty(
         name="Trajectory", description="XTC, TRR, DCD, ..., which the program meniscus reads; without one the file's models are the "

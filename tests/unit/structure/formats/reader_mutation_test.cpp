@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/structure/formats/read_structure.h"
+#include "tests/support/binary_cif.h"
 #include "tests/support/run_program.h"
 
 namespace meniscus {
@@ -130,6 +131,35 @@ TEST(Damaged, Gro) {
 TEST(Damaged, Xyz) {
   const std::string frame = "3\nProperties=species:S:1:pos:R:3\nC 0.5 -1.5 2D0\n8 1 2 3 more\nCl 4 5 6\n";
   EXPECT_GT(read_damaged_copies(frame + frame, "a.xyz", 500), 0);
+}
+
+TEST(Damaged, Sdf) {
+  const std::string molecule =
+      "acetate\n\n\n  4  3  0  0  0  0  0  0  0  0999 V2000\n    0.0000    0.0000    0.0000 C   0  0\n"
+      "    1.5000    0.0000    0.5000 C   0  0\n    2.1000    1.1000    0.5000 O   0  0\n"
+      "    2.1000   -1.1000    0.7000 O   0  5\n  1  2  1  0\n  2  3  2  0\n  2  4  1  0\nM  CHG  1   4  -1\nM  "
+      "END\n$$$$\n";
+  EXPECT_GT(read_damaged_copies(molecule + molecule, "a.sdf", 500), 0);
+}
+
+TEST(Damaged, Mol2) {
+  const std::string molecule =
+      "@<TRIPOS>MOLECULE\nm\n 2 1 1\nSMALL\nUSER_CHARGES\n@<TRIPOS>ATOM\n1 C1 0 0 0 C.3 1 MOH9 -0.125\n"
+      "2 O1 1.4 0 0 O.3 1 MOH9 0.5\n@<TRIPOS>BOND\n1 1 2 1\n@<TRIPOS>SUBSTRUCTURE\n1 MOH9 1\n";
+  EXPECT_GT(read_damaged_copies(molecule + molecule, "a.mol2", 500), 0);
+}
+
+TEST(Damaged, Pdbqt) {
+  const std::string pose =
+      "MODEL 1\nROOT\nATOM      1  C1  UNL A   1       0.000   2.000   3.000  1.00  0.00    +0.103 A \n"
+      "ENDROOT\nBRANCH   1   2\nATOM      2  N1  UNL A   1       1.400   2.000   3.000  1.00  0.00    -0.350 NA\n"
+      "ENDBRANCH   1   2\nTORSDOF 1\nENDMDL\n";
+  EXPECT_GT(read_damaged_copies(pose + pose, "a.pdbqt", 500), 0);
+}
+
+TEST(Damaged, BinaryCif) {
+  const std::string whole = test::binary_cif({test::category("_atom_site", 3, test::atom_columns())});
+  EXPECT_GT(read_damaged_copies(whole, "a.bcif", 500), 0);
 }
 
 // The checksum finds every damage, except in the few header bytes that only carry a date and a name.

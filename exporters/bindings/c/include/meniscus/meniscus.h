@@ -394,10 +394,11 @@ MENISCUS_API meniscus_status meniscus_default_read_options(meniscus_read_options
 /* The atoms of a molecule, as a surface uses them. It never changes. */
 typedef struct meniscus_structure meniscus_structure;
 
-/* Reads PDB, mmCIF, PQR, GRO, XYZ and XYZR, plain or packed with gzip, as the program does. Unless the options say
- * otherwise it uses the polymers and ligands of the first model, with the most occupied conformer of each residue, and
- * leaves out water and free ions. options: NULL for the defaults. *structure is overwritten. For an invalid selection
- * meniscus_last_error() has two more lines: the expression, and a caret below the error. */
+/* Reads PDB, mmCIF, BinaryCIF, SDF, MOL2, PDBQT, PQR, GRO, XYZ and XYZR, plain or packed with gzip, as the program
+ * does. Unless the options say otherwise it uses the polymers and ligands of the first model, with the most occupied
+ * conformer of each residue, and leaves out water and free ions. options: NULL for the defaults. *structure is
+ * overwritten. For an invalid selection meniscus_last_error() has two more lines: the expression, and a caret below the
+ * error. */
 MENISCUS_API meniscus_status meniscus_read(const char* path, const meniscus_read_options* options,
                                            meniscus_structure** structure);
 MENISCUS_API meniscus_structure* meniscus_structure_retain(meniscus_structure* structure);

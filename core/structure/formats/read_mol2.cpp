@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads MOL2 of Tripos (SYBYL): molecules with bonds, partial charges, and substructures, which are residues.
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdlib>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/parse_number.h"
+#include "core/base/text.h"
+#include "core/base/text_file.h"
+#include "core/structure/atom_classes.h"
+#include "core/structure/element_tables.h"
+#include "core/structure/formats/structure_formats.h"
+#include "core/structure/plausibility.h"
+#include "core/structure/residues.h"
+
+namespace meniscus {
+namespace {
+
+constexpr std::string_view kMolecule = "@<TRIPOS>MOLECULE", kAtoms = "@<TRIPOS>ATOM", kBonds = "@<TRIPOS>BOND",
+                           kSubstructures = "@<TRIPOS>SUBSTRUCTURE";
+
+bool is_upper(char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; }
+bool is_lower(char c) { return std::islower(static_cast<unsigned char>(c)) != 0; }
+
+/// SYBYL's types begin with the symbol: C.ar, N.am, Cl, Zn, Co.oh. Those of GAFF begin with a small letter: ca, hc, os,
+/// cl. 0: dummies (Du, LP, Any, Hal, Het, Hev), and other types of force fields (CT, HW, CA), which do not say.
+std::uint8_t element_of_type(std::string_view type) {
+  const std::string_view stem = type.substr(0, type.find('.'));
+  if (stem.empty() || stem == "Du" || stem == "LP") return 0;
+  if (is_lower(stem[0])) {
+    if (stem == "cl" || stem == "br") return element_of_symbol(stem);
+    return std::string_view("hcnopsfi").find(stem[0]) == std::string_view::npos ? std::uint8_t{0}
+                                                                                : element_of_symbol(stem.substr(0, 1));
+  }
+  return stem.size() == 1 || (stem.size() == 2 && is_lower(stem[1])) ? element_of_symbol(stem) : std::uint8_t{0};
+}
+
+struct Substructure {
+  std::string kind, chain;  ///< sub_type ("ALA") and chain
+};
+
+/// Blank fields are stars.
+std::string text_of(const std::vector<std::string_view>& fields, std::size_t n) {
+  return n < fields.size() && fields[n].find_first_not_of('*') != std::string_view::npos ? std::string(fields[n])
+                                                                                         : std::string();
+}
+
+/// "ALA12" is residue 12, an ALA, where the substructure is known as an ALA or as the twelfth, or the name has three
+/// letters of no digit; but "G39" is a ligand of this name.
+void name_residue(Atom& atom, const std::string& name, std::int64_t substructure, const std::string& kind) {
+  const std::size_t digits = name.find_last_not_of("0123456789") + 1;
+  const std::string stem = name.substr(0, digits);
+  std::int64_t number = 0;
+  const bool ends_in_number = parse_whole_number(std::string_view(name).substr(digits), number) && number < 100'000'000;
+  const bool three_letters =
+      stem.size() >= 3 && std::ranges::all_of(stem, [](unsigned char c) { return std::isalpha(c) != 0; });
+  const bool divided = ends_in_number && !stem.empty() && (stem == kind || three_letters || number == substructure);
+  atom.residue_name = divided ? stem : name;
+  // SYBYL's name for a substructure without one.
+  if (atom.residue_name.empty() || atom.residue_name.starts_with('<')) atom.residue_name = "UNL";
+  atom.residue_number = static_cast<std::int32_t>(divided ? number : substructure);
+}
+
+class Mol2Reader {
+ public:
+  Mol2Reader(const TextFile& file, const ModelChoice& models) : file_(file), choice_(models), lines_(file.text) {}
+
+  FileContents run() {
+    for (std::string_view line; lines_.next(line);) {
+      const std::string_view section = trimmed(line);
+      if (section == kMolecule) {
+        finish_molecule();
+        begin_molecule();
+      } else if (contents_.models == 0) {
+        continue;
+      } else if (section == kAtoms) {
+        read_atoms();
+      } else if (section == kBonds) {
+        read_bonds();
+      } else if (section == kSubstructures) {
+        read_substructures();
+      }
+    }
+    finish_molecule();
+    if (contents_.atoms.empty() && contents_.other_model_atoms == 0)
+      throw InputError(file_.path, 0, "has no atoms after @<TRIPOS>ATOM");
+    note_other_molecules(contents_, choice_);
+    classify_atoms(contents_.atoms, contents_.warnings, hints_of_atoms());
+    force_field_.warn(contents_.warnings, "a type that names no element; elements were guessed from the names");
+    return std::move(contents_);
+  }
+
+ private:
+  /// UNK is a molecule that nobody named, more often than an amino acid.
+  std::vector<AtomHints> hints_of_atoms() const {
+    std::vector<AtomHints> hints(contents_.atoms.size());
+    for (std::size_t n = 0; n < hints.size(); ++n)
+      if (contents_.atoms[n].residue_name == "UNK") hints[n].residue = ResidueStatement::other;
+    return hints;
+  }
+
+  /// The fields of the next line of this section; false at its end. Comments and blank lines are passed over.
+  bool next(std::vector<std::string_view>& fields) {
+    const LineReader before = lines_;
+    std::string_view line;
+    while (lines_.next(line)) {
+      if (line.starts_with('@')) break;
+      line = trimmed(line);
+      if (line.empty() || line.starts_with('#')) continue;
+      line_.clear();
+      while (line.ends_with('\\')) {
+        line_ += line.substr(0, line.size() - 1);
+        if (!lines_.next(line)) line = {};
+        line = trimmed(line);
+      }
+      line_ += line;
+      fields = fields_of(line_);
+      return true;
+    }
+    lines_ = before;
+    return false;
+  }
+
+  /// Name, counts, kind and charges, a line each.
+  void begin_molecule() {
+    std::string_view line;
+    ++contents_.models;
+    wanted_ = choice_.takes(static_cast<std::int32_t>(contents_.models));
+    first_ = contents_.atoms.size();
+    seen_ = counted_ = 0;
+    places_.clear();
+    molecule_line_ = lines_.number();
+    std::vector<std::string_view> fields;
+    if (!lines_.next(line) || !next(fields) || !parse_whole_number(fields[0], counted_) || counted_ < 0)
+      throw InputError(file_.path, lines_.number(),
+                       fmt::format("the molecule of line {} has no name and number of atoms in the two lines after it",
+                                   molecule_line_));
+    counted_bonds_ = -1;
+    if (fields.size() > 1) parse_whole_number(fields[1], counted_bonds_);
+    const bool kind = next(fields);
+    no_charges_ = kind && next(fields) && fields[0] == "NO_CHARGES";
+  }
+
+  void read_atoms() {
+    std::vector<std::string_view> fields;
+    while (next(fields)) {
+      ++seen_;
+      if (static_cast<std::int64_t>(seen_) > counted_)
+        throw InputError(file_.path, lines_.number(),
+                         fmt::format("{} is one atom more than line {} says; correct the count", in_quotes(line_),
+                                     molecule_line_ + 2));
+      if (!wanted_) {
+        ++contents_.other_model_atoms;
+      } else {
+        take_atom(fields);
+      }
+    }
+  }
+
+  /// id name x y z type [substructure its_name charge status]
+  void take_atom(const std::vector<std::string_view>& fields) {
+    std::int64_t id = 0, substructure = 1;
+    if (fields.size() < 6 || !parse_whole_number(fields[0], id))
+      throw InputError(
+          file_.path, lines_.number(),
+          fmt::format("{} is not an atom: id name x y z type [substructure its_name charge]", in_quotes(line_)));
+    if (!places_.try_emplace(id, static_cast<std::uint32_t>(contents_.atoms.size())).second)
+      throw InputError(file_.path, lines_.number(),
+                       fmt::format("atom {} is there twice; give each atom its own number", id));
+    if (fields.size() > 6 && (!parse_whole_number(fields[6], substructure) || std::abs(substructure) > 99'999'999))
+      throw InputError(
+          file_.path, lines_.number(),
+          fmt::format("substructure {} is not a number; columns may have run together", in_quotes(fields[6])));
+    Atom atom;
+    atom.model = static_cast<std::int32_t>(contents_.models);
+    atom.name = fields[1];
+    for (int axis = 0; axis < 3; ++axis)
+      atom.position[axis] =
+          parse_coordinate(file_, lines_.number(), "xyz"[axis], fields[2 + static_cast<std::size_t>(axis)]);
+    atom.element = element_of_type(fields[5]);
+    if (atom.element == 0 && fields[5].size() > 1 && is_upper(fields[5][0]) && !is_lower(fields[5][1]) &&
+        fields[5] != "LP")
+      force_field_.add(lines_.number(), fields[5]);
+    if (fields.size() > 8 && !parse_single(fields[8], atom.charge))
+      throw InputError(file_.path, lines_.number(),
+                       fmt::format("charge is {}, not a finite number", in_quotes(fields[8])));
+    contents_.atoms.push_back(std::move(atom));
+    substructures_of_atoms_.emplace_back(substructure, text_of(fields, 7));
+  }
+
+  /// id from to kind; "nc": not connected.
+  void read_bonds() {
+    std::int64_t bonds = 0;
+    for (std::vector<std::string_view> fields; next(fields); ++bonds) {
+      if (!wanted_) continue;
+      if (fields.size() < 4)
+        throw InputError(file_.path, lines_.number(),
+                         fmt::format("{} is not a bond: id, two atoms and a kind", in_quotes(line_)));
+      Bond bond{};
+      for (std::size_t end = 0; end < 2; ++end) {
+        std::int64_t id = 0;
+        const auto place = parse_whole_number(fields[1 + end], id) ? places_.find(id) : places_.end();
+        if (place == places_.end())
+          throw InputError(file_.path, lines_.number(),
+                           fmt::format("a bond names atom {}, which molecule {} has not", in_quotes(fields[1 + end]),
+                                       contents_.models));
+        bond[end] = place->second;
+      }
+      if (fields[3] != "nc") contents_.bonds.push_back({std::min(bond[0], bond[1]), std::max(bond[0], bond[1])});
+    }
+    if (wanted_ && counted_bonds_ >= 0 && bonds < counted_bonds_)
+      throw InputError(
+          file_.path, molecule_line_ + 2,
+          fmt::format("the count says {} bonds, but {} follow; is the file cut short?", counted_bonds_, bonds));
+  }
+
+  /// id name root [kind dictionary chain sub_type ...]
+  void read_substructures() {
+    for (std::vector<std::string_view> fields; next(fields);) {
+      std::int64_t id = 0;
+      if (parse_whole_number(fields[0], id)) substructures_[id] = {text_of(fields, 6), text_of(fields, 5)};
+    }
+  }
+
+  void finish_molecule() {
+    if (contents_.models == 0) return;
+    if (static_cast<std::int64_t>(seen_) < counted_)
+      throw InputError(file_.path, molecule_line_ + 2,
+                       fmt::format("the count says {} atoms, but {} follow; is the file cut short?", counted_, seen_));
+    std::vector<Atom> atoms(std::make_move_iterator(contents_.atoms.begin() + static_cast<std::ptrdiff_t>(first_)),
+                            std::make_move_iterator(contents_.atoms.end()));
+    contents_.atoms.resize(first_);
+    residues_.end_piece();
+    const bool uncharged = no_charges_ && std::ranges::all_of(atoms, [](const Atom& a) { return !(a.charge != 0.0F); });
+    for (std::size_t n = 0; n < atoms.size(); ++n) {
+      const auto& [id, name] = substructures_of_atoms_[n];
+      const Substructure& substructure = substructures_[id];
+      name_residue(atoms[n], name, id, substructure.kind);
+      atoms[n].chain = atoms[n].subchain = substructure.chain;
+      if (uncharged) atoms[n].charge = std::numeric_limits<float>::quiet_NaN();
+      residues_.number(atoms[n]);
+      contents_.atoms.push_back(std::move(atoms[n]));
+    }
+    if (!contents_.bonds.empty() && contents_.bonds.back()[0] >= first_)
+      contents_.fully_bonded.push_back(static_cast<std::int32_t>(contents_.models));
+    substructures_of_atoms_.clear();
+    substructures_.clear();
+  }
+
+  const TextFile& file_;
+  const ModelChoice& choice_;
+  LineReader lines_;
+  FileContents contents_;
+  ResidueCounter residues_{contents_.atoms};
+  std::string line_;  ///< what the fields are of
+  bool wanted_ = false, no_charges_ = false;
+  std::size_t first_ = 0, seen_ = 0,
+              molecule_line_ = 0;                  ///< atom of this molecule in the contents, its atoms, its line
+  std::int64_t counted_ = 0, counted_bonds_ = -1;  ///< what it says; -1: nothing
+  std::unordered_map<std::int64_t, std::uint32_t> places_;  ///< of its ids, in the contents
+  std::map<std::int64_t, Substructure> substructures_;
+  std::vector<std::pair<std::int64_t, std::string>> substructures_of_atoms_;
+  WarningCollector force_field_;
+};
+
+bool recognizes(std::string_view text) {
+  const std::size_t at = text.find(kMolecule);
+  return at != std::string_view::npos && (at == 0 || text[at - 1] == '\n');
+}
+
+FileContents read(const TextFile& file, const ModelChoice& models) { return Mol2Reader(file, models).run(); }
+
+}  // namespace
+
+const Reader kMol2Reader{{"MOL2", ".mol2", "molecules with bonds and partial charges, of Tripos (SYBYL)",
+                          "Tripos Mol2 File Format, SYBYL 7.1 (2005)",
+                          "MOLECULE, ATOM, BOND, SUBSTRUCTURE: positions, charges, elements by the types of SYBYL and "
+                          "GAFF, else by the names; "
+                          "substructures are residues, with their chains; each molecule is a model"},
+                         recognizes,
+                         read};
+
+}  // namespace meniscus
