@@ -210,8 +210,8 @@ run_programs() {
   cd ../drawn
   cp "${molecules[0]}" Å.pdb
   "${on_target[@]}" ../meniscus render Å.pdb -o Å.png --size 320x240 -q
-  "${on_target[@]}" ../meniscus surface Å.pdb --csv residues.csv -q > said.txt
-  "${on_target[@]}" ../meniscus export povray Å.pdb -o povray -q
+  "${on_target[@]}" ../meniscus surface Å.pdb --csv atoms.csv --csv-residues residues.csv -q > /dev/null
+  "${on_target[@]}" ../meniscus export povray Å.pdb -o povray -q > /dev/null
   cd "$root"
 }
 
