@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds libmeniscus and the drop-in programs for Linux, Windows and macOS, runs them where this machine can, and compares
-# the results of all.
+# Builds libmeniscus and the drop-in programs for Linux, Windows and macOS, and for Linux the program meniscus, without GL and
+# with PNG as its only format of pictures; runs them where this machine can, and compares the results of all.
 #
 #   scripts/targets.sh [--build-only] [TARGET...]
 #
@@ -47,11 +47,12 @@ if [[ ! -d $lists ]]; then
   sed 's/^Types: .*/Types: deb-src/' /etc/apt/sources.list.d/debian.sources > "$work/debian.sources"
 fi
 apt=(apt-get -q -o Dir::Etc::sourcelist="$work/debian.sources" -o Dir::Etc::sourceparts=- -o Dir::State::lists="$lists")
-packages=(onetbb freetype zlib libdeflate fmtlib musl)
+packages=(onetbb freetype zlib libdeflate fmtlib musl openssl)
 for package in "${packages[@]}"; do
   compgen -G "$sources/$package-*" > /dev/null && continue
   compgen -G "$lists/*Sources*" > /dev/null || "${apt[@]}" update > /dev/null
-  (cd "$sources" && "${apt[@]}" source "$package" > "$work/$package.log" 2>&1) ||
+  # What Debian's security archive had, it may have no longer.
+  (cd "$sources" && { "${apt[@]}" source "$package" || "${apt[@]}" source "$package/bookworm"; } > "$work/$package.log" 2>&1) ||
     { echo "targets.sh: Debian's source of $package cannot be had; see $work/$package.log" >&2; exit 1; }
 done
 if ! compgen -G "$sources/gemmi-*/" > /dev/null; then
@@ -112,13 +113,31 @@ build_libm() {
     "${names[@]/%/.c}" $(printf 'inner_%s.c ' "${inner[@]}")
 }
 
+# OpenSSL's library of ciphers, for checksums: without most of what else it can.
+build_openssl() {
+  local folder=$target_folder/openssl kind=linux-${target%-linux}
+  mkdir -p "$folder"
+  cd "$folder"
+  CC="$zig cc -target $triple" AR="$zig ar" RANLIB="$zig ranlib" perl "$(source_of openssl)/Configure" "$kind" --release \
+    --prefix=/usr --openssldir=/etc/ssl -fPIC -fvisibility=hidden -w \
+    no-{shared,dso,module,engine,legacy,tests,ui-console,deprecated,autoload-config,async,sock,ssl,tls,dtls,srtp,srp,ct,ocsp,cms,cmp,ts} \
+    no-{aria,bf,blake2,camellia,cast,cmac,des,dh,dsa,ec,gost,idea,md4,mdc2,ocb,poly1305,rc2,rc4,rmd160,scrypt,seed,siphash,siv,sm2,sm3,sm4,whirlpool}
+  make -j "$(nproc)" build_generated
+  # Which compiler and when: not by this machine's paths and clock.
+  SOURCE_DATE_EPOCH=0 perl "$(source_of openssl)/util/mkbuildinf.pl" "zig cc" "$kind" > crypto/buildinf.h
+  make -j "$(nproc)" libcrypto.a
+  cp libcrypto.a "$prefix/lib"
+  cp -r "$(source_of openssl)/include/openssl" include/openssl "$prefix/include"
+  cd "$root"
+}
+
 build_dependencies() {
   local zlib deflate gemmi
   zlib=$(source_of zlib) deflate=$(source_of libdeflate) gemmi=$(source_of gemmi)
   mkdir -p "$prefix/include" "$prefix/share/cmake"
-  cp -r /usr/include/{glm,nlohmann} "$gemmi/include/gemmi" "$zlib/zlib.h" "$deflate/libdeflate.h" "$prefix/include"
+  cp -r /usr/include/{glm,nlohmann,CLI} "$gemmi/include/gemmi" "$zlib/zlib.h" "$deflate/libdeflate.h" "$prefix/include"
   cp "$zlib/zconf.h.in" "$prefix/include/zconf.h"
-  cp -r /usr/share/cmake/{glm,nlohmann_json} "$prefix/share/cmake"
+  cp -r /usr/share/cmake/{glm,nlohmann_json,CLI11} "$prefix/share/cmake"
   by_hand z "$zlib" "-I$prefix/include -DHAVE_UNISTD_H -D_LARGEFILE64_SOURCE=1 -Dfdopen=fdopen" adler32.c compress.c crc32.c \
     deflate.c inflate.c inffast.c inftrees.c trees.c zutil.c uncompr.c
   by_hand deflate "$deflate" "-I$deflate" $(cd "$deflate" && ls lib/*.c lib/*/*.c)
@@ -128,15 +147,18 @@ build_dependencies() {
     -DTBB_DISABLE_HWLOC_AUTOMATIC_SEARCH=ON
   with_cmake "$(source_of fmtlib)" -DFMT_TEST=OFF -DFMT_DOC=OFF
   with_cmake "$(source_of freetype)" -DFT_REQUIRE_ZLIB=ON -DFT_DISABLE_{BZIP2,PNG,HARFBUZZ,BROTLI}=ON
+  [[ $target != *linux ]] || build_openssl
 }
 
 build_library() {
+  local parts=(-DMENISCUS_APP=OFF -DMENISCUS_DROP_INS=ON)
+  [[ $target != *linux ]] || parts=(-DMENISCUS_APP=ON -DMENISCUS_{PREVIEW,IMAGES,HDF5}=OFF)
   cmake -S "$root" -B "$target_folder/library" -G Ninja -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_TOOLCHAIN_FILE="$root/scripts/cmake/zig.cmake" -DMENISCUS_ZIG="$zig" -DMENISCUS_ZIG_TARGET="$triple" \
-    -DCMAKE_FIND_ROOT_PATH="$prefix" -DCMAKE_PREFIX_PATH="$prefix" -DMENISCUS_APP=OFF -DMENISCUS_DROP_INS=ON -DMENISCUS_TESTS=OFF \
-    -DMENISCUS_GL=OFF -DMENISCUS_LIBM="$prefix/lib/libmeniscus_libm.a" \
+    -DCMAKE_FIND_ROOT_PATH="$prefix" -DCMAKE_PREFIX_PATH="$prefix" "${parts[@]}" -DMENISCUS_{TESTS,GL}=OFF \
+    -DMENISCUS_LIBM="$prefix/lib/libmeniscus_libm.a" \
     -DMENISCUS_{GEMMI,ZLIB,JSON,DEFLATE,SCENES}=ON
-  ninja -C "$target_folder/library" meniscus_c meniscus_msms meniscus_nanoshaper meniscus_pdb_to_xyzr
+  ninja -C "$target_folder/library" meniscus_c "${programs[@]//-/_}"
 }
 
 # The library, the programs, and the one that writes the table of results, side by side in build/targets/TARGET.
@@ -148,7 +170,8 @@ collect() {
     *) library=libmeniscus.so link=$built/libmeniscus.so ;;
   esac
   cp -L "$built/$library" "$target_folder/$library"
-  cp "$target_folder/library"/meniscus-{msms,nanoshaper,pdb_to_xyzr}"$suffix" "$target_folder"
+  local program
+  for program in "${programs[@]}"; do cp "$target_folder/library/$program$suffix" "$target_folder"; done
   "$zig" c++ -target "$triple" -s -std=c++20 -O2 -Iexporters/bindings/c/include tests/targets/result_table.cpp "$link" \
     -o "$target_folder/result_table$suffix"
   [[ $target != *linux ]] || cp -L "$built/libmeniscus.so" "$target_folder/libmeniscus.so.0"
@@ -168,7 +191,8 @@ write_table() {
   cd "$root"
 }
 
-# What the programs make of a molecule whose name is not of ASCII, in build/targets/TARGET/made.
+# What the programs make of a molecule whose name is not of ASCII: the drop-ins in build/targets/TARGET/made, meniscus in
+# build/targets/TARGET/drawn.
 run_programs() {
   export LC_ALL=C.UTF-8
   rm -rf "$target_folder/made"
@@ -180,14 +204,22 @@ run_programs() {
   printf 'XYZR_FileName = Å.xyzr\nRoot_FileName = Å.\n' > Å.prm
   "${on_target[@]}" "../meniscus-nanoshaper$suffix" Å.prm >> said.txt
   sed -i '/started on\|Total Time/d' said.txt
+  [[ -f ../meniscus ]] || { cd "$root"; return; }
+  rm -rf ../drawn
+  mkdir ../drawn
+  cd ../drawn
+  cp "${molecules[0]}" Å.pdb
+  "${on_target[@]}" ../meniscus render Å.pdb -o Å.png --size 320x240 -q
+  "${on_target[@]}" ../meniscus surface Å.pdb --csv atoms.csv --csv-residues residues.csv -q > /dev/null
+  "${on_target[@]}" ../meniscus export povray Å.pdb -o povray -q > /dev/null
   cd "$root"
 }
 
 # What can be told of the library and the programs without running them.
 describe() {
   echo "$target:"
-  "$tools/bin/python" scripts/describe_library.py $(ls "$target_folder"/{libmeniscus.so,libmeniscus.dylib,meniscus.dll} 2> /dev/null) \
-    "$target_folder"/meniscus-{msms,nanoshaper,pdb_to_xyzr}"$suffix"
+  (cd "$target_folder" && "$tools/bin/python" "$root/scripts/describe_library.py" \
+    $(ls libmeniscus.so libmeniscus.dylib meniscus.dll 2> /dev/null) "${programs[@]/%/$suffix}")
 }
 
 failed=0
@@ -196,6 +228,8 @@ for target in "${chosen[@]}"; do
   triple=${triples[$target]}
   target_folder=$work/$target
   suffix=
+  programs=(meniscus-msms meniscus-nanoshaper meniscus-pdb_to_xyzr)
+  [[ $target != *linux ]] || programs+=(meniscus)
   case $target in
     x86_64-linux) on_target=(env LD_LIBRARY_PATH=.) ;;
     aarch64-linux) on_target=(qemu-aarch64-static -L /usr/aarch64-linux-gnu -E LD_LIBRARY_PATH=.) ;;
@@ -233,12 +267,15 @@ for target in "${chosen[@]}"; do
       if [[ $run && $target != x86_64-linux && -f $work/x86_64-linux/results.txt ]]; then
         compared=$(python3 tests/targets/compare_tables.py "$work/x86_64-linux/results.txt" "$target_folder/results.txt") || failed=1
         line+=$'\n'"  $compared"
-        if diff -rq "$work/x86_64-linux/made" "$target_folder/made"; then
-          line+="; programs: the same $(ls "$target_folder/made" | wc -l) files"
-        else
-          line+="; programs: other files"
-          failed=1
-        fi
+        for files in made drawn; do
+          [[ -d $target_folder/$files ]] || continue
+          if diff -rq "$work/x86_64-linux/$files" "$target_folder/$files"; then
+            line+="; $files: the same $(find "$target_folder/$files" -type f | wc -l) files"
+          else
+            line+="; $files: other files"
+            failed=1
+          fi
+        done
       fi
       ;;
   esac

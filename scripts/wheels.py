@@ -30,8 +30,9 @@ TARGETS = {"x86_64-linux": ("manylinux_2_28_x86_64", "libmeniscus.so"),
            "x86_64-windows": ("win_amd64", "meniscus.dll"),
            "aarch64-macos": ("macosx_13_0_arm64", "libmeniscus.dylib"),
            "x86_64-macos": ("macosx_13_0_x86_64", "libmeniscus.dylib")}
-#: In all of them.
-PROGRAMS = ("meniscus-msms", "meniscus-nanoshaper", "meniscus-pdb_to_xyzr")
+#: In all of them, and from which file; a wheel has no links, so two names are two copies.
+DROP_INS = {"meniscus-msms": "meniscus-msms", "meniscus-nanoshaper": "meniscus-nanoshaper",
+            "meniscus-pdb_to_xyzr": "meniscus-pdb_to_xyzr", "meniscus-pdb_to_xyzrn": "meniscus-pdb_to_xyzr"}
 #: What is linked or compiled into the library and the programs: its name, licence, and where its text is, below build/targets/sources or in
 #: the system. The first file that is there counts.
 PARTS = [("oneTBB", "Apache-2.0", "onetbb-*/LICENSE.txt"), ("FreeType", "FTL", "freetype-*/docs/FTL.TXT"),
@@ -40,6 +41,8 @@ PARTS = [("oneTBB", "Apache-2.0", "onetbb-*/LICENSE.txt"), ("FreeType", "FTL", "
          ("PEGTL", "MIT", "/usr/share/doc/tao-pegtl-dev/copyright"), ("GLM", "MIT", "/usr/share/doc/libglm-dev/copyright"),
          ("nlohmann-json", "MIT", "/usr/share/doc/nlohmann-json3-dev/copyright"),
          ("LLVM libc++", "Apache-2.0 WITH LLVM-exception", "../tools/lib/python3*/site-packages/ziglang-*.dist-info/licenses/ziglang/lib/libcxx/LICENSE.TXT")]
+#: Further ones, of the program meniscus.
+PARTS_OF_MENISCUS = [("OpenSSL", "Apache-2.0", "openssl-*/LICENSE.txt"), ("CLI11", "BSD-3-Clause", "/usr/share/doc/libcli11-dev/copyright")]
 
 
 def version():
@@ -62,15 +65,23 @@ def version_of(pattern):
     return match[1].rstrip(".") if match else None
 
 
-def third_party():
+def has_meniscus(target):
+    return target.endswith("linux")
+
+
+def parts(target):
+    return PARTS + (PARTS_OF_MENISCUS if has_meniscus(target) else [])
+
+
+def third_party(target):
     begin = "What is linked or compiled into the library and the programs of this package, beside Meniscus itself.\n"
     return begin + "".join(f"\n{'=' * 80}\n{name} ({licence})\n{'=' * 80}\n\n{text_of(name, pattern)}"
-                           for name, licence, pattern in PARTS)
+                           for name, licence, pattern in parts(target))
 
 
-def materials():
+def materials(target):
     components = [{"type": "library", "name": name, **({"version": number} if (number := version_of(pattern)) else {}),
-                   "licenses": [{"expression": licence}]} for name, licence, pattern in PARTS]
+                   "licenses": [{"expression": licence}]} for name, licence, pattern in parts(target)]
     return json.dumps({"bomFormat": "CycloneDX", "specVersion": "1.5", "version": 1,
                        "metadata": {"component": {"type": "library", "name": "meniscus", "version": version(),
                                                   "licenses": [{"expression": "BSD-3-Clause"}]}},
@@ -96,7 +107,9 @@ def read(path):
 def programs(target):
     """Names in the wheel -> paths. Installers make them executable and put them where commands are found."""
     suffix = ".exe" if "windows" in target else ""
-    return {f"{WHEEL}-{version()}.data/scripts/{name}{suffix}": os.path.join(BUILT, target, name + suffix) for name in PROGRAMS}
+    names = {**DROP_INS, **({"meniscus": "meniscus"} if has_meniscus(target) else {})}
+    return {f"{WHEEL}-{version()}.data/scripts/{name}{suffix}": os.path.join(BUILT, target, file + suffix)
+            for name, file in names.items()}
 
 
 def contents(target):
@@ -111,8 +124,8 @@ def contents(target):
     files[f"{info}/WHEEL"] = ("Wheel-Version: 1.0\nGenerator: meniscus scripts/wheels.py\nRoot-Is-Purelib: false\n"
                               f"Tag: py3-none-{tag}\n").encode()
     files[f"{info}/licenses/LICENSE"] = read(os.path.join(ROOT, "LICENSE"))
-    files[f"{info}/licenses/THIRD_PARTY.txt"] = third_party().encode()
-    files[f"{info}/sboms/meniscus.cdx.json"] = materials().encode()
+    files[f"{info}/licenses/THIRD_PARTY.txt"] = third_party(target).encode()
+    files[f"{info}/sboms/meniscus.cdx.json"] = materials(target).encode()
     record = "".join(f"{name},sha256={base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b'=').decode()},"
                      f"{len(data)}\n" for name, data in sorted(files.items()))
     files[f"{info}/RECORD"] = (record + f"{info}/RECORD,,\n").encode()

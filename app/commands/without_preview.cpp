@@ -7,10 +7,11 @@
 namespace meniscus {
 
 void add_preview(CLI::App& command) {
-  describe(command, "", "This build has neither window nor page; configure it with -DMENISCUS_PREVIEW=ON.");
+  describe(command, "", "This build has neither window nor page; those from source have (meniscus help install).");
   command.allow_extras();
   command.callback([] {
-    throw UsageError("this build has no preview; configure it with -DMENISCUS_PREVIEW=ON, or use meniscus render");
+    throw UsageError(
+        "this build has no preview; build Meniscus from source (meniscus help install), or use meniscus render");
   });
 }
 

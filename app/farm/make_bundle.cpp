@@ -87,7 +87,9 @@ void write_legend(const BundledCommand& command, const Framebuffer& legend, Exis
 
 void add_addon(const fs::path& addon, BundleInputs& inputs) {
   if (!fs::exists(addon / "render_mns.py"))
-    throw InputError(addon.string(), 0, "has no render_mns.py, Blender's driver; name its folder by --addon");
+    throw InputError(
+        addon.string(), 0,
+        "has no render_mns.py, Blender's driver; name its folder by --addon: in the sources exporters/blender/addon");
   for (const DriverFile& file : driver_files()) inputs.add_file_as("blender/" + file.path, addon / file.path);
 }
 

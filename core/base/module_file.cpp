@@ -32,7 +32,10 @@ fs::path path_of(const ModuleFile& module) {
   for (const fs::path& path :
        {program / module.name, program / "../lib/meniscus" / module.name, fs::path(module.built)})
     if (fs::exists(path, none)) return path;
-  throw Error(fmt::format("{} need {} next to the program, but it is missing", module.purpose, module.name));
+  throw RequestError(
+      fmt::format("{} need {} next to the program, but it is missing; it is in the packages for Debian and in "
+                  "builds from source (meniscus help install)",
+                  module.purpose, module.name));
 }
 
 }  // namespace

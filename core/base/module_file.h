@@ -17,7 +17,7 @@ struct ModuleFile {
   std::size_t room;
 };
 
-/// Loads the module, and gives the address of one of its functions. Throws Error where the module is missing,
+/// Loads the module, and gives the address of one of its functions. Throws RequestError where the module is missing,
 /// CapacityError where the system cannot load it.
 void* load_from_module(const ModuleFile& module, const char* function);
 

@@ -9,7 +9,8 @@ WorkProof::~WorkProof() = default;
 KernelFiles::~KernelFiles() = default;
 
 EglContext::EglContext(const DeviceChoice&) {
-  throw GpuError("this build was made without epoxy and has no GL; choose the CPU");
+  throw GpuError(
+      "this build was made without epoxy and has no GL; choose the CPU, or build Meniscus from source, with epoxy");
 }
 EglContext::~EglContext() = default;
 

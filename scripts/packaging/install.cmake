@@ -12,8 +12,12 @@ add_custom_command(
 add_custom_target(meniscus_share ALL DEPENDS ${share}/man/man1/meniscus.1.gz)
 
 install(TARGETS meniscus RUNTIME DESTINATION bin COMPONENT program)
-install(TARGETS meniscus_openimageio meniscus_hdf5 LIBRARY DESTINATION lib/meniscus COMPONENT program
-        PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
+foreach(module meniscus_openimageio meniscus_hdf5)
+  if(TARGET ${module})
+    install(TARGETS ${module} LIBRARY DESTINATION lib/meniscus COMPONENT program
+            PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
+  endif()
+endforeach()
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/exporters/blender/addon DESTINATION share/meniscus COMPONENT program
         PATTERN __pycache__ EXCLUDE)
 install(FILES ${CMAKE_SOURCE_DIR}/exporters/pymol/meniscus_plugin.py DESTINATION share/meniscus COMPONENT program)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """alone_test.py BUILD: the library without the programs. Configured without any of its parts it includes and links to
-nothing but GLM, fmt, TBB and the system; each part says why it is not built; the programs refuse to do without. Nothing is
-compiled here: scripts/packaging/try_library.sh does that in a bare system."""
+nothing but GLM, fmt, TBB and the system; each part says why it is not built; the programs refuse to do without most of
+them. Nothing is compiled here: scripts/packaging/try_library.sh does that in a bare system."""
 import json
 import pathlib
 import re
@@ -103,6 +103,29 @@ class Alone(unittest.TestCase):
         run = configure(self.folder, "-DMENISCUS_APP=OFF", "-DMENISCUS_DROP_INS=ON", "-DMENISCUS_GEMMI=OFF")
         self.assertNotEqual(run.returncode, 0)
         self.assertIn("MENISCUS_DROP_INS needs gemmi (with PEGTL), for molecule files", " ".join(run.stderr.split()))
+
+    def test_the_program_does_without_gl_and_modules(self):
+        run = configure(self.folder, "-DMENISCUS_UNITY=OFF", "-DMENISCUS_TESTS=OFF",
+                        *(f"-DMENISCUS_{part}=OFF" for part in ("PREVIEW", "GL", "IMAGES", "HDF5")))
+        self.assertEqual(run.returncode, 0, run.stderr)
+        for part in ("GL", "IMAGES", "HDF5"):
+            self.assertRegex(run.stdout, f"no: MENISCUS_{part} is OFF")
+        commands = json.loads((pathlib.Path(self.folder) / "compile_commands.json").read_text())
+        files = [command["file"] for command in commands if not command["file"].startswith(self.folder)]
+        self.assertIn(str(ROOT / "app/main.cpp"), files)
+        foreign = {name for name in closure(files)[1] if re.match("epoxy/|EGL/|GL/|GLFW/|OpenImageIO/|hdf5", name)}
+        self.assertEqual(foreign, set())
+        self.assertNotRegex(" ".join(command["command"] for command in commands), "epoxy|hdf5/|OpenImageIO")
+
+    def test_the_preview_needs_gl(self):
+        run = configure(self.folder, "-DMENISCUS_GL=OFF")
+        self.assertNotEqual(run.returncode, 0)
+        self.assertIn("MENISCUS_PREVIEW needs MENISCUS_GL", " ".join(run.stderr.split()))
+
+    def test_says_what_the_program_can_be_built_without(self):
+        run = configure(self.folder, "-DCMAKE_DISABLE_FIND_PACKAGE_OpenImageIO=ON")
+        self.assertNotEqual(run.returncode, 0)
+        self.assertIn("The program can be built without it: -DMENISCUS_IMAGES=OFF", " ".join(run.stderr.split()))
 
     def test_programs_do_not_do_without(self):
         run = configure(self.folder, "-DCMAKE_DISABLE_FIND_PACKAGE_ZLIB=ON")

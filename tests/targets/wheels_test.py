@@ -27,6 +27,7 @@ def wheels_of(folder):
     spec.loader.exec_module(wheels)
     wheels.BUILT = folder
     wheels.PARTS = [("oneTBB", "Apache-2.0", "onetbb-*/LICENSE.txt")]
+    wheels.PARTS_OF_MENISCUS = []
     licence = os.path.join(folder, "sources", "onetbb-2021.8.0", "LICENSE.txt")
     os.makedirs(os.path.dirname(licence))
     with open(licence, "w", encoding="utf-8") as file:
@@ -41,11 +42,11 @@ class Wheels(unittest.TestCase):
         self.folder = folder.name
         self.wheels = wheels_of(self.folder)
 
-    def built(self, target, suffix=""):
+    def built(self, target):
         """What stands for the files of a target: the programs of BUILD, and no library."""
         os.mkdir(os.path.join(self.folder, target))
-        for program in self.wheels.PROGRAMS:
-            shutil.copy(os.path.join(BUILD, program), os.path.join(self.folder, target, program + suffix))
+        for path in self.wheels.programs(target).values():
+            shutil.copy(os.path.join(BUILD, os.path.basename(path).removesuffix(".exe")), path)
         with open(os.path.join(self.folder, target, self.wheels.TARGETS[target][1]), "wb"):
             pass
 
@@ -58,6 +59,10 @@ class Wheels(unittest.TestCase):
         subprocess.run([os.path.join(venv, "bin", "python"), "-m", "pip", "install", "-q", "--disable-pip-version-check", "--no-deps",
                         "--no-index", wheel], check=True)
         path = {**os.environ, "PATH": os.path.join(venv, "bin")}
+        self.assertEqual(subprocess.run(["meniscus", "--version"], env=path, check=True, capture_output=True, text=True).stdout.split()[0],
+                         "meniscus")
+        names = subprocess.run(["meniscus-pdb_to_xyzrn", UBIQUITIN], env=path, check=True, capture_output=True).stdout
+        self.assertEqual(names.split()[4:6], [b"1", b"N_MET_1"])
         spheres = subprocess.run(["meniscus-pdb_to_xyzr", UBIQUITIN], env=path, check=True, capture_output=True)
         areas = subprocess.run(["meniscus-msms", "-if", "-", "-surface", "ases"], env=path, check=True, capture_output=True,
                                input=spheres.stdout)
@@ -66,7 +71,7 @@ class Wheels(unittest.TestCase):
         self.assertIn(b"NanoShaper", help_text.stdout)
 
     def test_each_file_is_in_the_record_and_programs_may_be_run(self):
-        self.built("x86_64-windows", ".exe")
+        self.built("x86_64-windows")
         path = self.wheels.pack("x86_64-windows", self.folder)
         with zipfile.ZipFile(path) as wheel:
             info = {entry.filename: entry for entry in wheel.infolist()}
@@ -74,7 +79,8 @@ class Wheels(unittest.TestCase):
         self.assertEqual(sorted(row[0] for row in csv.reader(io.StringIO(record))), sorted(info))
         scripts = f"{self.wheels.WHEEL}-{self.wheels.version()}.data/scripts/"
         names = [name for name in info if name.startswith(scripts)]
-        self.assertEqual(sorted(names), [scripts + name + ".exe" for name in sorted(self.wheels.PROGRAMS)])
+        self.assertEqual([name.removeprefix(scripts) for name in sorted(names)],
+                         ["meniscus-msms.exe", "meniscus-nanoshaper.exe", "meniscus-pdb_to_xyzr.exe", "meniscus-pdb_to_xyzrn.exe"])
         for name in names:
             self.assertEqual(info[name].external_attr >> 16, 0o100755, name)
 
