@@ -50,11 +50,12 @@ std::optional<Curve> curve_of_run(const Scene& scene, const FrameRun& run) {
 
 }  // namespace
 
-PictureSink::PictureSink(const RenderCommand& command, const PictureLayout& layout, const FrameRun* run)
+PictureSink::PictureSink(const RenderCommand& command, const PictureLayout& layout, FrameRun* run)
     : command_(command), layout_(layout), run_(run) {
   if (!run) return;
   name_files(command.scene.output);
   curve_ = curve_of_run(command.scene, *run);
+  if (command.scene.annotations.time_stamp) longest_ = run->last_time().value_or(0.0);
 }
 
 void PictureSink::name_files(const std::string& path) {
@@ -78,7 +79,7 @@ void PictureSink::name_files(const std::string& path) {
 Annotations PictureSink::annotations(const SinkPicture& picture, const Structure& structure) const {
   Annotations annotations = annotations_of(command_.scene.annotations, structure);
   if (!run_) return annotations;
-  if (command_.scene.annotations.time_stamp) annotations.time = time_text(picture.time, picture.source);
+  if (command_.scene.annotations.time_stamp) annotations.time = time_text(picture.time, picture.source, longest_);
   annotations.curve = curve_;
   if (curve_) annotations.curve->now = picture.place;
   return annotations;
@@ -93,7 +94,7 @@ FinishFrame PictureSink::to_file(const SinkPicture& picture, const Annotations& 
   std::optional<PictureProgress> progress;
   if (!run_) progress.emplace(command_, settings);
   const std::string path = numbered_ ? numbered_->at(picture.number) : command_.scene.output;
-  PictureFile file(path, {annotations, layout_.legend}, picture.camera, image_settings(command_), settings);
+  PictureFile file(path, {annotations, layout_.legend, layout_.strips}, picture.camera, image_settings(command_), settings);
   if (run_ && layout_.legend)
     settings.take_band = [this, take = settings.take_band](Framebuffer band, int first_row) {
       const std::lock_guard lock(legend_);

@@ -34,8 +34,8 @@ struct ColorClass {
 struct ColorKey {
   std::string title;  ///< "chain", "element", ...; the scale has its own
   std::optional<ColorScale> scale;
-  /// Those that occur, in order of first appearance; then those of rules that paint atoms in one colour, by their
-  /// expressions.
+  /// Those that occur, in order of first appearance; then those of rules that paint atoms in one colour, by their names
+  /// or expressions; then, where rules leave some of one colour, "other".
   std::vector<ColorClass> classes;
 };
 

@@ -38,8 +38,11 @@ PictureFile::PictureFile(const std::filesystem::path& path, const PictureMargins
       background_(image.background),
       aovs_(settings.aovs),
       molecule_size_(settings.size),
-      size_(margins.legend ? margins.legend->picture_size() : settings.size),
-      annotations_(margins.annotations, camera, settings.size, image.background),
+      size_(margins.legend ? margins.legend->picture_size()
+                           : settings.size + glm::ivec2(0, margins.strips.top + margins.strips.bottom)),
+      annotations_(margins.annotations, camera,
+                   settings.size + glm::ivec2(0, margins.strips.top + margins.strips.bottom), image.background,
+                   margins.strips),
       writer_(path, size_, settings.aovs, image) {
   settings.take_band = [this](const Framebuffer& band, int first_row) { take(band, first_row); };
 }
@@ -47,12 +50,24 @@ PictureFile::PictureFile(const std::filesystem::path& path, const PictureMargins
 void PictureFile::take(const Framebuffer& band, int first_row) {
   shows_something_ =
       shows_something_ || std::ranges::any_of(band.color, [](const glm::vec4& pixel) { return pixel.w > 0.0f; });
-  for (int row = 0; row < band.size.y; row += kSlice) {
-    Framebuffer slice = slice_of(band, row, std::min(kSlice, band.size.y - row));
-    annotations_.lay_over(slice, first_row + row);
-    const int count = slice.size.y;
-    write(std::move(slice), first_row + row, count);
+  const int top = margins_.strips.top;
+  if (first_row == 0) write_strip(0, top);
+  for (int row = 0; row < band.size.y; row += kSlice)
+    write_molecule(slice_of(band, row, std::min(kSlice, band.size.y - row)), top + first_row + row);
+}
+
+void PictureFile::write_strip(int first_row, int count) {
+  for (int row = 0; row < count; row += kSlice) {
+    Framebuffer nothing;
+    nothing.size = {molecule_size_.x, 0};
+    write_molecule(with_margin(nothing, {molecule_size_.x, std::min(kSlice, count - row)}, 0, aovs_), first_row + row);
   }
+}
+
+void PictureFile::write_molecule(Framebuffer rows, int first_row) {
+  annotations_.lay_over(rows, first_row);
+  const int count = rows.size.y;
+  write(std::move(rows), first_row, count);
 }
 
 void PictureFile::write(Framebuffer rows, int first_row, int count) {
@@ -61,12 +76,18 @@ void PictureFile::write(Framebuffer rows, int first_row, int count) {
 }
 
 void PictureFile::commit() {
-  for (int row = molecule_size_.y; row < size_.y; row += kSlice) {  // a legend below
+  const int bottom = margins_.strips.top + molecule_size_.y;
+  write_strip(bottom, margins_.strips.bottom);
+  for (int row = bottom + margins_.strips.bottom; row < size_.y; row += kSlice) {  // a legend below
     Framebuffer nothing;
     nothing.size = {molecule_size_.x, 0};
     write(std::move(nothing), row, std::min(kSlice, size_.y - row));
   }
   writer_.commit();
+}
+
+void write_legend_picture(const std::filesystem::path& path, const Legend& legend, const ImageSettings& settings) {
+  write_image(path, legend.alone(settings.background), settings);
 }
 
 }  // namespace meniscus

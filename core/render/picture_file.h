@@ -14,10 +14,11 @@ namespace meniscus {
 
 struct Camera;
 
-/// What a picture shows beside the molecule; both must stay.
+/// What a picture shows beside the molecule; the first two must stay.
 struct PictureMargins {
   const Annotations& annotations;
   const std::optional<Legend>& legend;
+  Strips strips{};
 };
 
 /// Takes the bands of a picture of the molecule (RenderSettings::take_band), so that it is never in memory as a whole.
@@ -38,6 +39,8 @@ class PictureFile {
 
  private:
   void take(const Framebuffer& band, int first_row);
+  void write_strip(int first_row, int count);
+  void write_molecule(Framebuffer rows, int first_row);
   void write(Framebuffer rows, int first_row, int count);
 
   const PictureMargins margins_;
@@ -48,5 +51,8 @@ class PictureFile {
   ImageWriter writer_;
   bool shows_something_ = false;
 };
+
+/// A legend as a file of its own. Throws as ImageWriter does.
+void write_legend_picture(const std::filesystem::path& path, const Legend& legend, const ImageSettings& settings);
 
 }  // namespace meniscus
