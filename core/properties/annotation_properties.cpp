@@ -53,15 +53,18 @@ constexpr auto kTable = of_commands(
         text("annotations.label_size", "--label-size", "SIZE", "Height of the letters of labels")
             .from(6, 1000)
             .initially("that of --letter-size")
-            .in(kLabels, kShared),
+            .in(kLabels, kShared)
+            .needs("annotations.labels"),
         text("annotations.scale_bar_size", "--scale-bar-size", "SIZE", "Height of the letters of the scale bar")
             .from(6, 1000)
             .initially("that of --letter-size")
-            .in(kLabels, kShared),
+            .in(kLabels, kShared)
+            .needs("annotations.scale_bar"),
         text("annotations.panel_size", "--panel-size", "SIZE", "Height of the letter of the panel")
             .from(6, 1000)
             .initially("1.5 times --letter-size")
-            .in(kLabels, kShared),
+            .in(kLabels, kShared)
+            .needs("annotations.panel"),
         text("annotations.letter_color", "--letter-color", "COLOR",
              "Colour of letters, lines and bars: auto, or a colour. auto: dark or light, as --background needs; dark "
              "if it is transparent")
@@ -74,7 +77,7 @@ constexpr auto kTable = of_commands(
             .in(kLabels, kShared | repeatable)
             .in_short_help(),
         flag("annotations.time_stamp", "--time-stamp",
-             "Write the time of each frame in ns, or its number if it has no time")
+             "Write the time of each frame, in a unit that suits the run, or its number if it has no time")
             .in(kLabels, kShared)
             .of(for_render),
         file("annotations.curve", "--curve", "FILE.csv",

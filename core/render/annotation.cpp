@@ -329,12 +329,8 @@ Strips strips_for(const StripContents& contents, const LetterStyle& letters, glm
   if (contents.time) strips.top = 2 * heights.usual;
   if (contents.panel) strips.top = std::max(strips.top, Writer::panel_row(heights) + 3 * heights.panel / 5);
   if (contents.curve) strips.bottom = static_cast<int>(Writer::curve_height(heights, size)) + 3 * heights.usual;
-  if (3 * (size.y - strips.top - strips.bottom) < size.y)
-    throw RequestError(fmt::format(
-        "{} x {} pixels leave no room for the molecule between what is written above and below it; make the picture "
-        "larger or its letters smaller ({})",
-        size.x, size.y, option_name("letter-size")));
-  return strips;
+  const bool is_room_left = 2 * (size.y - strips.top - strips.bottom) >= size.y;
+  return is_room_left ? strips : Strips{};
 }
 
 StripContents strip_contents(const Annotations& annotations) {

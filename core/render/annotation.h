@@ -65,7 +65,8 @@ struct StripContents {
   bool panel = false, time = false, curve = false;
 };
 
-/// For a picture of this size, without its legend. Throws RequestError if they leave too little of it.
+/// For a picture of this size, without its legend. None where they would take more than half of it: then what they are
+/// for is written over the molecule.
 Strips strips_for(const StripContents& contents, const LetterStyle& letters, glm::ivec2 size);
 StripContents strip_contents(const Annotations& annotations);
 

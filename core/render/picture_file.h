@@ -3,12 +3,14 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 
 #include "core/render/annotation.h"
 #include "core/render/picture.h"
 #include "core/render/image_output.h"
 #include "core/render/legend.h"
+#include "core/render/vector_page.h"
 
 namespace meniscus {
 
@@ -22,6 +24,7 @@ struct PictureMargins {
 };
 
 /// Takes the bands of a picture of the molecule (RenderSettings::take_band), so that it is never in memory as a whole.
+/// Of a page (is_page()) the molecule alone is in pixels.
 class PictureFile {
  public:
   /// settings: of the molecule's picture, whose bands come here from now on. Throws as ImageWriter and
@@ -48,7 +51,8 @@ class PictureFile {
   const bool aovs_;
   const glm::ivec2 molecule_size_, size_;
   AnnotationLayer annotations_;
-  ImageWriter writer_;
+  std::unique_ptr<ImageWriter> writer_;  // one of the two
+  std::unique_ptr<PageFile> page_;
   bool shows_something_ = false;
 };
 

@@ -23,7 +23,7 @@ struct PictureLayout {
   PictureLayout(const Scene& scene, const ColorKey& key);
 };
 
-/// What is kept above and below the molecule in a picture of this size, its legend aside. Throws RequestError.
+/// What is kept above and below the molecule in a picture of this size, its legend aside.
 Strips scene_strips(const Scene& scene, glm::ivec2 size);
 
 /// On what pictures are made.
