@@ -166,7 +166,8 @@ void add_render(CLI::App& command) {
   auto declared = std::make_shared<DeclaredCommand<RenderCommand>>(command, for_render);
   RenderCommand& state = declared->state;
   declared->options.describe_output(
-      "Picture to write: .png, .jpg, .webp, .tif, .exr, .svg, .pdf [FILE's name here, as .png]; for frames: frame_#####.png, or a "
+      "Picture to write: .png, .jpg, .webp, .tif, .exr, .svg, .pdf [FILE's name here, as .png]; for frames: "
+      "frame_#####.png, or a "
       "film: .mp4, .mov, .mkv, .webm, .gif",
       OutputName::optional);
   PropertyOptions options(command);

@@ -72,9 +72,10 @@ void tell_small_letters(const RenderCommand& command, const PictureLayout& layou
   look_at(!asked.panel.empty(), "the panel", heights.panel);
   look_at(asked.time_stamp && scene.frames.asked(), "the time", heights.usual);
   if (small.empty()) return;
-  say(command, fmt::format("warning: letters of {} are as small as {:.1f} pt on paper; most journals ask for {:g} pt; add "
-                           "--letter-size 6pt",
-                           fmt::join(small, ", "), least, kLeast));
+  say(command,
+      fmt::format("warning: letters of {} are as small as {:.1f} pt on paper; most journals ask for {:g} pt; add "
+                  "--letter-size 6pt",
+                  fmt::join(small, ", "), least, kLeast));
 }
 
 }  // namespace
@@ -124,7 +125,8 @@ FinishFrame PictureSink::to_file(const SinkPicture& picture, const Annotations& 
   std::optional<PictureProgress> progress;
   if (!run_) progress.emplace(command_, settings);
   const std::string path = numbered_ ? numbered_->at(picture.number) : command_.scene.output;
-  PictureFile file(path, {annotations, layout_.legend, layout_.strips}, picture.camera, image_settings(command_), settings);
+  PictureFile file(path, {annotations, layout_.legend, layout_.strips}, picture.camera, image_settings(command_),
+                   settings);
   if (run_ && layout_.legend)
     settings.take_band = [this, take = settings.take_band](Framebuffer band, int first_row) {
       const std::lock_guard lock(legend_);

@@ -181,8 +181,7 @@ void render_views(const RenderCommand& asked) {
   }
   sink.finish();
   tell_grown_radii(command, grown_by);
-  if (layout.legend_apart)
-    write_legend_picture(scene.legend.file, *layout.legend_apart, image_settings(asked));
+  if (layout.legend_apart) write_legend_picture(scene.legend.file, *layout.legend_apart, image_settings(asked));
   save_camera(command, cameras.front());
   if (viewed.run) return;
   if (command.stats) fmt::print(std::cerr, "{}", stats());

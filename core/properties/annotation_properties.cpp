@@ -77,7 +77,7 @@ constexpr auto kTable = of_commands(
             .in(kLabels, kShared | repeatable)
             .in_short_help(),
         flag("annotations.time_stamp", "--time-stamp",
-             "Write the time of each frame, in a unit that suits the run, or its number if it has no time")
+             "Write the time of each frame in ps, ns or µs, or else its number")
             .in(kLabels, kShared)
             .of(for_render),
         file("annotations.curve", "--curve", "FILE.csv",

@@ -82,7 +82,8 @@ constexpr auto kTable = of_commands(
              "Colour: a scheme, a colour (red, #rrggbb), or EXPR=COLOR. Schemes: element, element-cpk (darker), chain, "
              "copy (of an assembly), residue (type), kind (of patch), component; by a number: bfactor, occupancy, "
              "charge, hydrophobicity (Kyte & Doolittle 1982), index, radial (for capsids). EXPR=COLOR colours some "
-             "atoms, as in 'ligand=orange'; 'ligand=orange:ATP' names them in the legend. Repeatable; the last one counts. meniscus colors explains the schemes")
+             "atoms, as in 'ligand=orange'; 'ligand=orange:ATP' names them in the legend. Repeatable; the last one "
+             "counts. meniscus colors explains the schemes")
             .initially("element")
             .in(kColour, kSeen | live | repeatable | of_objects)
             .in_short_help()

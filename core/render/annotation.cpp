@@ -245,7 +245,8 @@ class Writer {
     ground.covered = CoveredGround(atoms, camera_, molecule_size_, strips_.top);
     constexpr int kSmallest = 8;  // pixels
     const bool is_chosen = style_.labels || style_.all;
-    for (int em = heights_.labels; em >= (is_chosen ? heights_.labels : kSmallest); em = std::min(em - 1, 9 * em / 10)) {
+    for (int em = heights_.labels; em >= (is_chosen ? heights_.labels : kSmallest);
+         em = std::min(em - 1, 9 * em / 10)) {
       const double width = label_line(em);
       ground.room = {{em / 2, strips_.top + em / 4}, {size_.x - em / 2, size_.y - strips_.bottom - em / 4}};
       ground.gap = 0.5 * em;
@@ -281,7 +282,8 @@ class Writer {
 
   void write(InkText text) {
     const int half = text.height / 2;
-    taken_.push_back({text.place - glm::ivec2(0, half), text.place + glm::ivec2(fonts_.of(text).width(text.text), half)});
+    taken_.push_back(
+        {text.place - glm::ivec2(0, half), text.place + glm::ivec2(fonts_.of(text).width(text.text), half)});
     strokes_.emplace_back(std::move(text));
   }
 
@@ -353,8 +355,8 @@ AnnotationLayer::AnnotationLayer(const Annotations& annotations, const Camera& c
 
 void AnnotationLayer::lay_over(Framebuffer& rows, int first_row) const {
   if (strokes_.empty()) return;
-  InkMask mask(rows.size.x, {std::max(first_row - rim_width_, 0),
-                             std::min(first_row + rows.size.y + rim_width_, height_)});
+  InkMask mask(rows.size.x,
+               {std::max(first_row - rim_width_, 0), std::min(first_row + rows.size.y + rim_width_, height_)});
   for (const InkStroke& stroke : strokes_) {
     if (const auto* const text = std::get_if<InkText>(&stroke))
       mask.text(fonts_.of(*text), text->text, text->place);

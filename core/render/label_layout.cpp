@@ -117,8 +117,8 @@ class LabelPlacer {
         const double angle = 2.0 * std::numbers::pi * n / kDirections;
         const glm::dvec2 direction(std::cos(angle), std::sin(angle));
         // From the middle of the box to its rim.
-        const double reach = std::min(half.x / std::max(std::abs(direction.x), 1e-9),
-                                      half.y / std::max(std::abs(direction.y), 1e-9));
+        const double reach =
+            std::min(half.x / std::max(std::abs(direction.x), 1e-9), half.y / std::max(std::abs(direction.y), 1e-9));
         const glm::dvec2 middle = anchor + direction * (reach + ground_.gap + ground_.dot + share * side());
         const glm::ivec2 low(glm::round(middle - half));
         if (glm::clamp(low, first, last) == low) add(low);

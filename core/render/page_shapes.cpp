@@ -31,8 +31,9 @@ std::vector<PathStep> circle_path(const glm::dvec2& middle, double radius) {
   glm::dvec2 from(1.0, 0.0);
   for (int n = 0; n < 4; ++n) {
     const glm::dvec2 to(-from.y, from.x);
-    path.push_back({Kind::curve,
-                    {middle + radius * from + handle * to, middle + radius * to + handle * from, middle + radius * to}});
+    path.push_back(
+        {Kind::curve,
+         {middle + radius * from + handle * to, middle + radius * to + handle * from, middle + radius * to}});
     from = to;
   }
   path.push_back({Kind::close});
@@ -103,8 +104,8 @@ std::vector<PageShape> shapes_of(const Legend& legend, const std::optional<glm::
     for (std::size_t n = 0; n < box.colors.size(); ++n) {
       if (n > 0 && box.colors[n] == box.colors[n - 1]) continue;
       const double along = static_cast<double>(n);
-      shapes.push_back({upright ? box_path(low, {high.x, high.y - along}) : box_path({low.x + along, low.y}, high),
-                        box.colors[n]});
+      shapes.push_back(
+          {upright ? box_path(low, {high.x, high.y - along}) : box_path({low.x + along, low.y}, high), box.colors[n]});
     }
   }
   for (const LegendText& text : legend.texts()) {

@@ -161,8 +161,7 @@ std::optional<std::string> find_font_file() {
 Font::Font(int height, Weight weight) : face_(std::make_unique<Face>()), height_(height) {
   const FontFile* const font = find_font();
   if (!font)
-    throw RequestError(
-        "no font was found for legends, labels and scale bars; install the package fonts-dejavu-core");
+    throw RequestError("no font was found for legends, labels and scale bars; install the package fonts-dejavu-core");
   const char* const file = weight == Weight::bold && exists(font->bold) ? font->bold : font->regular;
   if (FT_Init_FreeType(&face_->library) != 0 || FT_New_Face(face_->library, file, 0, &face_->face) != 0 ||
       FT_Set_Pixel_Sizes(face_->face, 0, static_cast<FT_UInt>(height)) != 0)

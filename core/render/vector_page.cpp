@@ -172,9 +172,10 @@ class PageFile::SvgEncoder : public Encoder {
     image.channels = {"R", "G", "B", "A"};
     image.channels.resize(static_cast<std::size_t>(channels()));
     image.color_space = "sRGB";
-    output_.write(fmt::format("<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" "
-                              "xlink:href=\"data:image/png;base64,",
-                              layout.picture_place.x, layout.picture_place.y, image.width, image.height));
+    output_.write(
+        fmt::format("<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" "
+                    "xlink:href=\"data:image/png;base64,",
+                    layout.picture_place.x, layout.picture_place.y, image.width, image.height));
     png_.emplace(image, [this](std::span<const std::uint8_t> bytes) {
       base64_.add(bytes, [this](std::string_view text) { output_.write(text); });
     });
@@ -234,10 +235,12 @@ class PageFile::SvgEncoder : public Encoder {
     if (path.empty()) return {};  // blanks
     const std::string opacity = shape.opacity < 1.0 ? fmt::format(" opacity=\"{}\"", number(shape.opacity)) : "";
     const std::string name = shape.text.empty() ? "" : fmt::format(" aria-label=\"{}\"", xml(shape.text));
-    if (shape.line == 0.0) return fmt::format("<path{}{} fill=\"{}\" d=\"{}\"/>\n", name, opacity, hex(shape.color), path);
-    return fmt::format("<path{} fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linecap=\"round\" "
-                       "stroke-linejoin=\"round\" d=\"{}\"/>\n",
-                       opacity, hex(shape.color), number(shape.line), path);
+    if (shape.line == 0.0)
+      return fmt::format("<path{}{} fill=\"{}\" d=\"{}\"/>\n", name, opacity, hex(shape.color), path);
+    return fmt::format(
+        "<path{} fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linecap=\"round\" "
+        "stroke-linejoin=\"round\" d=\"{}\"/>\n",
+        opacity, hex(shape.color), number(shape.line), path);
   }
 
   Base64 base64_;

@@ -24,10 +24,10 @@ bool is_page(const std::filesystem::path& path);
 /// A filled path, or its line. In pixels of the picture.
 struct PageShape {
   std::vector<PathStep> path;
-  glm::vec3 color;      ///< sRGB
+  glm::vec3 color;  ///< sRGB
   double opacity = 1.0;
-  double line = 0.0;    ///< its width, with round ends and corners; 0: filled
-  std::string text{};   ///< that it shows
+  double line = 0.0;   ///< its width, with round ends and corners; 0: filled
+  std::string text{};  ///< that it shows
 };
 
 /// What is written over a molecule in these rows of the picture. Its rim is around everything that reaches into them.

@@ -173,7 +173,8 @@ TEST(Annotations, PanelTimeAndCurveHaveStripsOfTheirOwn) {
   EXPECT_LT(strips.top + strips.bottom, 150);
   Framebuffer picture = empty_picture();
   annotate(picture, all, kOrthographic, glm::vec3(1.0f), strips);
-  EXPECT_EQ(extent(picture, {0, strips.top}, {kSize.x, kSize.y - strips.bottom}).z, 0) << "the molecule's rows are clear";
+  EXPECT_EQ(extent(picture, {0, strips.top}, {kSize.x, kSize.y - strips.bottom}).z, 0)
+      << "the molecule's rows are clear";
   EXPECT_GT(extent(picture, {0, 0}, {kSize.x, strips.top}).z, 0);
   EXPECT_GT(extent(picture, {0, kSize.y - strips.bottom}, kSize).z, 0);
   EXPECT_EQ(strips_for({}, {}, kSize).top, 0);

@@ -143,7 +143,8 @@ TEST(Colors, RulesHaveNamesAndWhatTheyLeaveIsOther) {
   wish.rules.push_back(named_color_rule("all=white"));
   EXPECT_EQ(names(), (std::vector<std::string>{"Gαs = A", "b >= 15", "all"})) << "nothing is left";
   EXPECT_NE(complaint([] { named_color_rule("chain A=red:"); }).find("no name"), std::string::npos);
-  EXPECT_NE(complaint([] { named_color_rule("chain A=crimsom:x"); }).find("'crimsom' is not one of"), std::string::npos);
+  EXPECT_NE(complaint([] { named_color_rule("chain A=crimsom:x"); }).find("'crimsom' is not one of"),
+            std::string::npos);
 }
 
 TEST(Colors, RulesByANumberTakeTheMapAndTheRange) {

@@ -485,9 +485,11 @@ TEST(SelectionLaws, SetsObeyTheirAlgebra) {
 }
 
 TEST(Selection, TextBehindItBeginsWhereItEnds) {
-  for (const auto& [text, atoms, behind] :
-       {std::tuple{"resid 17=K17=A", "resid 17", "K17=A"}, {"b>=50=red", "b>=50", "red"}, {"b==5=a", "b==5", "a"},
-        {"chain A or b <= 5 = x", "chain A or b <= 5 ", " x"}, {"name CA=", "name CA", ""}}) {
+  for (const auto& [text, atoms, behind] : {std::tuple{"resid 17=K17=A", "resid 17", "K17=A"},
+                                            {"b>=50=red", "b>=50", "red"},
+                                            {"b==5=a", "b==5", "a"},
+                                            {"chain A or b <= 5 = x", "chain A or b <= 5 ", " x"},
+                                            {"name CA=", "name CA", ""}}) {
     const auto parted = selection_and_text(text);
     ASSERT_TRUE(parted) << text;
     EXPECT_EQ(parted->atoms.text(), parse_selection(atoms).text());
