@@ -22,6 +22,7 @@
 #include "app/reports/notes.h"
 #include "core/base/text.h"
 #include "core/render/image_output.h"
+#include "core/render/picture_file.h"
 #include "core/scene/picture_device.h"
 #include "core/scene/scene_picture.h"
 
@@ -119,7 +120,8 @@ void render_figures(const RenderCommand& command) {
   PictureDevice device(picture_request(command.scene));
   draw_figures(run, sink, device);
   sink.finish();
-  if (layout.legend_alone) write_image(command.scene.legend.file, *layout.legend_alone, image_settings(command));
+  if (layout.legend_apart)
+    write_legend_picture(command.scene.legend.file, *layout.legend_apart, image_settings(command));
   save_camera(command, run.camera(0));
   if (!run.is_run()) say_times(command, device.renderer().device(), device.renderer().times());
 }
@@ -164,7 +166,8 @@ void add_render(CLI::App& command) {
   auto declared = std::make_shared<DeclaredCommand<RenderCommand>>(command, for_render);
   RenderCommand& state = declared->state;
   declared->options.describe_output(
-      "Picture to write: .png, .jpg, .webp, .tif, .exr [FILE's name here, as .png]; for frames: frame_#####.png, or a "
+      "Picture to write: .png, .jpg, .webp, .tif, .exr, .svg, .pdf [FILE's name here, as .png]; for frames: "
+      "frame_#####.png, or a "
       "film: .mp4, .mov, .mkv, .webm, .gif",
       OutputName::optional);
   PropertyOptions options(command);

@@ -6,12 +6,14 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "app/process/program_error.h"
 #include "app/reports/notes.h"
 #include "core/base/progress.h"
 #include "core/base/text.h"
 #include "core/render/picture_file.h"
+#include "core/scene/scene_lengths.h"
 
 namespace meniscus {
 namespace {
@@ -48,13 +50,43 @@ std::optional<Curve> curve_of_run(const Scene& scene, const FrameRun& run) {
   return curve_of(scene.annotations, numbers);
 }
 
+/// Of pictures whose size is one on paper.
+void tell_small_letters(const RenderCommand& command, const PictureLayout& layout) {
+  constexpr double kPointsPerInch = 72.0, kLeast = 5.0;  // what most journals ask for
+  const Scene& scene = command.scene;
+  if (!scene_values::has_lengths_of_sides(scene) || scene.picture.dots_per_inch <= 0.0) return;
+  const glm::ivec2 size = layout.size.size() + glm::ivec2(0, layout.strips.top + layout.strips.bottom);
+  const LetterHeights heights(scene.annotations.letters, size);
+  const AnnotationRequest& asked = scene.annotations;
+  double least = kLeast;
+  std::vector<std::string> small;
+  const auto look_at = [&](bool is_there, const char* what, int pixels) {
+    const double points = pixels * kPointsPerInch / scene.picture.dots_per_inch;
+    if (!is_there || points >= kLeast - 0.05) return;
+    least = std::min(least, points);
+    small.emplace_back(what);
+  };
+  if (layout.legend) look_at(true, "the legend", layout.legend->font().height());
+  look_at(!asked.labels.empty(), "labels", heights.labels);
+  look_at(asked.scale_bar, "the scale bar", heights.scale_bar);
+  look_at(!asked.panel.empty(), "the panel", heights.panel);
+  look_at(asked.time_stamp && scene.frames.asked(), "the time", heights.usual);
+  if (small.empty()) return;
+  say(command,
+      fmt::format("warning: letters of {} are as small as {:.1f} pt on paper; most journals ask for {:g} pt; add "
+                  "--letter-size 6pt",
+                  fmt::join(small, ", "), least, kLeast));
+}
+
 }  // namespace
 
-PictureSink::PictureSink(const RenderCommand& command, const PictureLayout& layout, const FrameRun* run)
+PictureSink::PictureSink(const RenderCommand& command, const PictureLayout& layout, FrameRun* run)
     : command_(command), layout_(layout), run_(run) {
+  tell_small_letters(command, layout);
   if (!run) return;
   name_files(command.scene.output);
   curve_ = curve_of_run(command.scene, *run);
+  if (command.scene.annotations.time_stamp) longest_ = run->last_time().value_or(0.0);
 }
 
 void PictureSink::name_files(const std::string& path) {
@@ -78,7 +110,7 @@ void PictureSink::name_files(const std::string& path) {
 Annotations PictureSink::annotations(const SinkPicture& picture, const Structure& structure) const {
   Annotations annotations = annotations_of(command_.scene.annotations, structure);
   if (!run_) return annotations;
-  if (command_.scene.annotations.time_stamp) annotations.time = time_text(picture.time, picture.source);
+  if (command_.scene.annotations.time_stamp) annotations.time = time_text(picture.time, picture.source, longest_);
   annotations.curve = curve_;
   if (curve_) annotations.curve->now = picture.place;
   return annotations;
@@ -93,7 +125,8 @@ FinishFrame PictureSink::to_file(const SinkPicture& picture, const Annotations& 
   std::optional<PictureProgress> progress;
   if (!run_) progress.emplace(command_, settings);
   const std::string path = numbered_ ? numbered_->at(picture.number) : command_.scene.output;
-  PictureFile file(path, {annotations, layout_.legend}, picture.camera, image_settings(command_), settings);
+  PictureFile file(path, {annotations, layout_.legend, layout_.strips}, picture.camera, image_settings(command_),
+                   settings);
   if (run_ && layout_.legend)
     settings.take_band = [this, take = settings.take_band](Framebuffer band, int first_row) {
       const std::lock_guard lock(legend_);

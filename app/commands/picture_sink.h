@@ -32,7 +32,7 @@ class PictureSink {
  public:
   /// run: whose frames they are; nullptr: there is one picture. Throws UsageError for a name that does not fit, and for
   /// a film of a part of a run. The command, the layout and the run must stay.
-  PictureSink(const RenderCommand& command, const PictureLayout& layout, const FrameRun* run);
+  PictureSink(const RenderCommand& command, const PictureLayout& layout, FrameRun* run);
 
   /// Draws the molecule as the settings say: in bands where there are some to take (RenderSettings::take_band), else as
   /// a whole.
@@ -57,6 +57,7 @@ class PictureSink {
   std::optional<NumberedPath> numbered_;
   std::unique_ptr<FilmWriter> film_;
   std::optional<Curve> curve_;  ///< the same in all pictures but for its mark
+  double longest_ = 0.0;        ///< time of the run, ps
   std::mutex legend_;           ///< its letters come from one font, which one thread uses at a time
 };
 

@@ -16,6 +16,7 @@
 #include "core/render/legend.h"
 #include "core/scene/frame_run.h"
 #include "core/scene/molecule.h"
+#include "core/scene/scene_picture.h"
 #include "core/scene/scene_values.h"
 #include "core/scene/surface_kind.h"
 #include "core/scene/view_aim.h"
@@ -55,10 +56,13 @@ Camera aimed_camera(const Scene& scene, const std::optional<Camera>& given, cons
   ViewRequest layout = scene.picture;
   if (scene.legend.within && (color.by != ColorScheme::By::fixed || !color.rules.empty())) {
     const std::string names[] = {"surface"};
-    const Legend legend(color_key(structure, color, names), layout.size(), scene.legend.style);
+    const Legend legend(color_key(structure, color, names), layout.size(),
+                        legend_style(scene.legend.style, scene.annotations.letters));
     layout.width = legend.molecule_size().x;
     layout.height = legend.molecule_size().y;
   }
+  const Strips strips = scene_strips(scene, layout.size());
+  layout.height -= strips.top + strips.bottom;
   // Framing needs atoms and their copies alone.
   const SurfaceRequest& surface = scene.molecule.surface;
   const std::vector<Ball> balls = grown(balls_of(structure), growth_of(surface.kind, surface.probe_radius));

@@ -25,6 +25,7 @@
 #include "core/color/color_atoms.h"
 #include "core/gpu/egl_context.h"
 #include "core/render/picture.h"
+#include "core/render/picture_file.h"
 #include "core/render/renderer.h"
 #include "core/scene/hidden_atoms.h"
 #include "core/scene/molecule.h"
@@ -181,7 +182,7 @@ void render_views(const RenderCommand& asked) {
   }
   sink.finish();
   tell_grown_radii(command, grown_by);
-  if (layout.legend_alone) write_image(scene.legend.file, *layout.legend_alone, image_settings(asked));
+  if (layout.legend_apart) write_legend_picture(scene.legend.file, *layout.legend_apart, image_settings(asked));
   save_camera(command, cameras.front());
   if (viewed.run) return;
   if (command.stats) fmt::print(std::cerr, "{}", stats());

@@ -20,6 +20,7 @@
 #include "app/reports/surface_report.h"
 #include "core/base/output_file.h"
 #include "core/queries/cavity_tracks.h"
+#include "core/base/time_unit.h"
 #include "core/scene/context_areas.h"
 #include "core/scene/gradient_columns.h"
 #include "core/scene/molecule.h"
@@ -153,8 +154,10 @@ class SurfaceTables {
   SeriesPlot plot() const {
     const bool has_times = std::ranges::all_of(plotted_, [](const FrameNote& note) { return note.time.has_value(); });
     SeriesPlot plot;
-    plot.x_title = has_times ? "time, ps" : "frame";
-    for (const FrameNote& note : plotted_) plot.x.push_back(has_times ? *note.time : static_cast<double>(note.frame));
+    const TimeUnit unit = time_unit(has_times ? *plotted_.back().time : 0.0);
+    plot.x_title = has_times ? fmt::format("time, {}", unit.name) : "frame";
+    for (const FrameNote& note : plotted_)
+      plot.x.push_back(has_times ? *note.time / unit.picoseconds : static_cast<double>(note.frame));
     plot.panels = panels_;
     return plot;
   }

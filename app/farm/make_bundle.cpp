@@ -33,6 +33,7 @@
 #include "core/color/color_key.h"
 #include "core/render/image_output.h"
 #include "core/render/legend.h"
+#include "core/render/picture_file.h"
 #include "core/scene/annotations.h"
 #include "core/scene/frame_run.h"
 #include "core/scene/run_cameras.h"
@@ -56,7 +57,10 @@ std::vector<Step> steps_with_arguments(const BundledCommand& command) {
 /// has its own, or frames the molecule beside a legend.
 std::optional<Camera> default_camera(const Scene& scene, const GivenCameras& given, ShownFrames& frames) {
   if (given.any() || scene.legend.within) return {};
-  return run_cameras(scene.picture, scene.run_camera, given, frames).front();
+  ViewRequest molecule = scene.picture;
+  const Strips strips = scene_strips(scene, molecule.size());
+  molecule.height -= strips.top + strips.bottom;
+  return run_cameras(molecule, scene.run_camera, given, frames).front();
 }
 
 /// Measures colours where that spares each worker to do it: buried areas need the surfaces of all frames. Returns their
@@ -70,19 +74,19 @@ std::optional<std::array<double, 2>> measured_range(Scene& scene, ShownFrames& f
 }
 
 /// That of --legend-file, which is the same for all frames.
-std::optional<Framebuffer> legend_of(const Scene& scene, const FrameRun& frames) {
+std::optional<Legend> legend_of(const Scene& scene, const FrameRun& frames) {
   if (scene.legend.file.empty()) return {};
   const ColorKey key = color_key(frames.reach(), color_of(scene.molecule), {});
-  return Legend(key, scene.picture.size(), scene.legend.style).alone(scene.image.background);
+  return Legend(key, scene.picture.size(), legend_style(scene.legend.style, scene.annotations.letters));
 }
 
-void write_legend(const BundledCommand& command, const Framebuffer& legend, Existing existing) {
+void write_legend(const BundledCommand& command, const Legend& legend, Existing existing) {
   const Scene& scene = command.command.scene;
   ImageSettings settings{scene.image.background, existing, scene.look.has_linear_alpha(), scene.picture.dots_per_inch};
   const auto is_given = [&](const char* option) { return std::ranges::count(command.further, option) > 0; };
   settings.names_program = !is_given("--no-provenance");
   if (is_given("--provenance")) settings.command = command_line();
-  write_image(scene.legend.file, legend, settings);
+  write_legend_picture(scene.legend.file, legend, settings);
 }
 
 void add_addon(const fs::path& addon, BundleInputs& inputs) {
@@ -225,7 +229,7 @@ std::optional<std::uint64_t> threads_of(const std::vector<std::string>& device) 
 }
 
 Bundle described(const BundleOptions& options, const BundledCommand& asked, BundleInputs& inputs,
-                 std::optional<Framebuffer>& legend, std::vector<std::string>& notes) {
+                 std::optional<Legend>& legend, std::vector<std::string>& notes) {
   SceneCommand command = asked.command;
   command.scene = readied(command.scene);
   Scene& scene = command.scene;
@@ -284,7 +288,7 @@ MadeBundle make_bundle(const BundleOptions& given, const BundledCommand& command
   require_printable_path("--farm-path", options.farm_path);
   MadeBundle made;
   BundleInputs inputs;
-  std::optional<Framebuffer> legend;
+  std::optional<Legend> legend;
   made.bundle = described(options, command, inputs, legend, made.notes);
   if (const std::optional<Bundle> there = same_bundle_at(options, made.bundle)) {
     made.bundle = *there;

@@ -10,6 +10,7 @@
 #include "app/preview/look_json.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/color/color_rule.h"
 #include "core/color/named_colors.h"
 #include "core/properties/properties.h"
 
@@ -28,7 +29,7 @@ std::vector<ColorRule> rules_of(const CommandReader& command) {
   for (const nlohmann::json& text : texts) {
     if (!text.is_string()) throw RequestError("color: each of \"rules\" is a text such as \"ligand=red\"");
     try {
-      rules.push_back(parse_color_rule(text.get<std::string>()));
+      rules.push_back(named_color_rule(text.get<std::string>()));
     } catch (const RequestError& error) {
       throw RequestError(std::string("color: ") + error.what());
     }
@@ -115,7 +116,7 @@ Outcome paint(const CommandReader& command, PreviewState state, const Surroundin
   if (color.rules.size() == kMostRules)
     throw RequestError(fmt::format("paint: at most {} selections have colours of their own; remove one", kMostRules));
   const std::string rule = selection.text() + "=" + command.text("color");
-  color.rules.push_back(command.naming([&] { return parse_color_rule(rule); }));
+  color.rules.push_back(command.naming([&] { return named_color_rule(rule); }));
   require_previewed(color);
   if (color.uses_file()) {
     const NumberFile& numbers = numbers_at_first(around.first.color);

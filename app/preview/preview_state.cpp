@@ -122,6 +122,7 @@ Scene rendered_scene(const Scene& begun, const RenderedView& view) {
   scene.look = figure.look;
   scene.legend.within = figure.legend;
   scene.legend.style = figure.legend_style;
+  scene.annotations.letters = figure.letters;
   return scene;
 }
 
@@ -137,6 +138,7 @@ PreviewFigure figure_of(const Scene& scene, const ColorScheme& color) {
   if (scene.image.background) figure.background = *scene.image.background;
   figure.legend = scene.legend.within;
   figure.legend_style = scene.legend.style;
+  figure.letters = scene.annotations.letters;
   return figure;
 }
 

@@ -39,6 +39,7 @@ struct PreviewFigure {
   glm::vec3 background{1.0f};  ///< sRGB
   bool legend = false;
   LegendStyle legend_style;
+  LetterStyle letters;
 
   /// What the colours are by, kinds of patch too.
   ColorScheme told_scheme() const;

@@ -13,6 +13,7 @@
 #include "core/base/text.h"
 #include "core/camera/camera_json.h"
 #include "core/color/color_maps.h"
+#include "core/color/color_rule.h"
 #include "core/color/named_colors.h"
 #include "core/properties/properties.h"
 #include "core/scene/copied_atoms.h"
@@ -42,7 +43,7 @@ Json atom_json(const Atom& atom) {
 }
 
 /// Rules as --color has them: expressions of a user, not of a file.
-Json rule_json(const ColorRule& rule) { return escaped(rule.atoms.text()) + "=" + scheme_word(rule.paint); }
+Json rule_json(const ColorRule& rule) { return escaped(color_rule_text(rule)); }
 
 const char* word_of(RepresentationRequest::Kind kind) { return option_word(kind) + 2; }  // without the dashes
 

@@ -17,6 +17,7 @@
 #include "core/color/color_key.h"
 #include "core/color/named_colors.h"
 #include "core/image/color_space.h"
+#include "core/scene/annotations.h"
 #include "core/scene/copied_atoms.h"
 #include "core/scene/hidden_atoms.h"
 #include "core/scene/molecule.h"
@@ -220,8 +221,8 @@ void ShownMolecule::lay_out_legend(const PreviewState& state) {
   if (!state.legend || (color.by == ColorScheme::By::fixed && color.rules.empty())) return;
   const std::string names[] = {"surface"};
   try {
-    legend_ = std::make_shared<const LegendStrip>(color_key(structure_, color, names), state.size, state.legend_style,
-                                                  state.background);
+    legend_ = std::make_shared<const LegendStrip>(color_key(structure_, color, names), state.size,
+                                                  legend_style(state.legend_style, state.letters), state.background);
   } catch (const RequestError& error) {  // no room for it in this size
     legend_fault_ = error.what();
   }

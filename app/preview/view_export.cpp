@@ -22,6 +22,7 @@
 #include "core/render/image_output.h"
 #include "core/render/legend.h"
 #include "core/render/picture_file.h"
+#include "core/scene/annotations.h"
 #include "core/scene/copied_atoms.h"
 #include "core/scene/figure.h"
 #include "core/scene/molecule.h"
@@ -180,12 +181,14 @@ void export_picture(const ExportedView& view, const MakePictureDevice& make_devi
   if (view.transparent) background.reset();
   std::optional<Legend> legend;
   if (figure.legend && (view.color.by != ColorScheme::By::fixed || !view.color.rules.empty()))
-    legend.emplace(colors_of(view), view.size, figure.legend_style);
+    legend.emplace(colors_of(view), view.size, legend_style(figure.legend_style, figure.letters));
   Figure whole;
   whole.molecule.objects = complete_surfaces(view, watch).first;
   if (view.beside) whole.beside = *view.beside;
   RenderSettings settings;
   settings.size = legend ? legend->molecule_size() : view.size;
+  const Strips strips = strips_for(strip_contents(view.annotations), view.annotations.letters, settings.size);
+  settings.size.y -= strips.top + strips.bottom;
   settings.samples = view.samples;
   settings.look = look_of(figure.look, view.size, background, figure.hues());
   settings.progress = [&watch](double share) { watch("picture", share); };
@@ -195,7 +198,7 @@ void export_picture(const ExportedView& view, const MakePictureDevice& make_devi
   ImageSettings settings_of_file{background, target.existing, figure.look.has_linear_alpha()};
   settings_of_file.scene = view.scene;
   settings_of_file.dots_per_inch = view.dots_per_inch;
-  PictureFile picture(target.path, {view.annotations, legend}, figure.camera, settings_of_file, settings);
+  PictureFile picture(target.path, {view.annotations, legend, strips}, figure.camera, settings_of_file, settings);
   draw(device->renderer(), std::move(whole), figure.figure, figure.camera, settings);
   watch("writing", 0.0);
   picture.commit();

@@ -297,6 +297,16 @@ class ClassList {
   std::size_t others_ = 0;
 };
 
+/// Whether some atom has no rule.
+bool leaves_some(const Structure& structure, std::span<const ColorRule> rules) {
+  std::vector<bool> named(structure.atoms.size(), false);
+  for (const ColorRule& rule : rules) {
+    const std::vector<bool> meant = rule.atoms.evaluate(structure.atoms);
+    for (std::size_t a = 0; a < named.size(); ++a) named[a] = named[a] || meant[a];
+  }
+  return std::ranges::find(named, false) != named.end();
+}
+
 }  // namespace
 
 std::vector<double> distances_from_middle(std::span<const glm::dvec3> points) {
@@ -372,7 +382,10 @@ ColorKey color_key(const Structure& structure, const ColorScheme& scheme, std::s
     }
   }
   for (const ColorRule& rule : scheme.rules)
-    if (rule.paint.by == By::fixed) key.classes.push_back({rule.atoms.text(), rule.paint.fixed});
+    if (rule.paint.by == By::fixed)
+      key.classes.push_back({rule.name.empty() ? rule.atoms.text() : rule.name, rule.paint.fixed});
+  if (scheme.by == By::fixed && !key.classes.empty() && leaves_some(structure, scheme.rules))
+    key.classes.push_back({"other", scheme.fixed});
   return key;
 }
 

@@ -30,7 +30,7 @@ struct ColorKey {
   std::string title;  ///< "chain", "element", ...; the scale has its own
   std::optional<ColorScale> scale;
   /// Those that occur, in order of first appearance or in an order of their own; then those of rules that paint atoms
-  /// in one colour, by their expressions.
+  /// in one colour, by their names or expressions; then, where rules leave some of one colour, "other".
   std::vector<ColorClass> classes;
 };
 

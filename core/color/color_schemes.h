@@ -103,6 +103,7 @@ struct ColorScheme {
 struct ColorRule {
   Selection atoms;
   ColorScheme paint;
+  std::string name{};  ///< in legends; empty: the expression
 };
 
 /// What a scheme is, in words users can look up.

@@ -24,8 +24,11 @@ constexpr auto kTable = of_commands(
             .in(kLegend, kShared | live),
         text("legend.size", "--legend-size", "SIZE", "Height of the letters: pixels, 8pt or 3mm")
             .from(6, 1000)
-            .initially("a thirtieth of the shorter side")
+            .initially("that of --letter-size, or a thirtieth of the shorter side")
             .in(kLegend, kShared | live),
+        text("legend.names", "--legend-name", "ENTRY=TEXT",
+             "Write TEXT instead of an entry of the legend, as in 'A=Alpha' for chain A. Repeatable")
+            .in(kLegend, kShared | repeatable),
         word("legend.place", "--legend-place", "WORD", "Place of the legend: auto, right or below")
             .one_of("auto|right|below")
             .initially("auto")
@@ -41,12 +44,40 @@ constexpr auto kTable = of_commands(
             .initially("auto")
             .in(kLabels, kShared | value_optional)
             .in_short_help(),
+        text("annotations.letter_size", "--letter-size", "SIZE",
+             "Height of all letters that have no size of their own: pixels, 8pt or 3mm")
+            .from(6, 1000)
+            .initially("by the size of the picture")
+            .in(kLabels, kShared)
+            .in_short_help(),
+        text("annotations.label_size", "--label-size", "SIZE", "Height of the letters of labels")
+            .from(6, 1000)
+            .initially("that of --letter-size")
+            .in(kLabels, kShared)
+            .needs("annotations.labels"),
+        text("annotations.scale_bar_size", "--scale-bar-size", "SIZE", "Height of the letters of the scale bar")
+            .from(6, 1000)
+            .initially("that of --letter-size")
+            .in(kLabels, kShared)
+            .needs("annotations.scale_bar"),
+        text("annotations.panel_size", "--panel-size", "SIZE", "Height of the letter of the panel")
+            .from(6, 1000)
+            .initially("1.5 times --letter-size")
+            .in(kLabels, kShared)
+            .needs("annotations.panel"),
+        text("annotations.letter_color", "--letter-color", "COLOR",
+             "Colour of letters, lines and bars: auto, or a colour. auto: dark or light, as --background needs; dark "
+             "if it is transparent")
+            .proposes("auto|white|black")
+            .initially("auto")
+            .in(kLabels, kShared)
+            .in_short_help(),
         text("annotations.labels", "--label", "EXPR=TEXT",
              "Write TEXT at these atoms, with a line to their centre. Repeatable")
             .in(kLabels, kShared | repeatable)
             .in_short_help(),
         flag("annotations.time_stamp", "--time-stamp",
-             "Write the time of each frame in ns, or its number if it has no time")
+             "Write the time of each frame in ps, ns or µs, or else its number")
             .in(kLabels, kShared)
             .of(for_render),
         file("annotations.curve", "--curve", "FILE.csv",

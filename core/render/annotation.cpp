@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <utility>
 
@@ -13,7 +12,9 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/image/color_space.h"
+#include "core/render/label_layout.h"
 #include "core/render/text_raster.h"
 #include "core/camera/camera.h"
 
@@ -106,74 +107,101 @@ class InkMask {
   std::vector<float> shares_;
 };
 
-using Stroke = std::function<void(InkMask& mask)>;
-
-/// A text's box in the picture.
-struct TextBox {
-  glm::ivec2 low{0}, high{0};
-
-  bool meets(const TextBox& other) const {
-    return low.x < other.high.x && other.low.x < high.x && low.y < other.high.y && other.low.y < high.y;
+/// Where the molecule is in the picture, roughly: in cells.
+class CoveredGround {
+ public:
+  CoveredGround(const std::vector<glm::vec4>& atoms, const Camera& camera, glm::ivec2 molecule_size, int top)
+      : cell_(std::max(2, std::min(molecule_size.x, molecule_size.y) / 120)),
+        size_((molecule_size + glm::ivec2(cell_ - 1)) / cell_),
+        top_(top),
+        cells_(static_cast<std::size_t>(size_.x) * size_.y, false) {
+    const glm::dvec3 right = view_basis(camera).right;
+    for (const glm::vec4& atom : atoms) {
+      const glm::dvec3 center(atom);
+      const auto middle = place_in_picture(camera, molecule_size, center);
+      const auto rim = place_in_picture(camera, molecule_size, center + static_cast<double>(atom.w) * right);
+      if (middle && rim) cover(*middle / static_cast<double>(cell_), glm::distance(*middle, *rim) / cell_);
+    }
   }
+
+  /// The share of a box.
+  double operator()(const PixelBox& box) const {
+    int covered = 0, all = 0;
+    for (int y = (box.low.y - top_) / cell_; y <= (box.high.y - top_) / cell_; ++y)
+      for (int x = box.low.x / cell_; x <= box.high.x / cell_; ++x) {
+        ++all;
+        covered += x >= 0 && y >= 0 && x < size_.x && y < size_.y && cells_[index(x, y)];
+      }
+    return static_cast<double>(covered) / all;
+  }
+
+ private:
+  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * size_.x + x; }
+
+  void cover(const glm::dvec2& middle, double radius) {
+    const glm::dvec2 first = glm::max(middle - radius, glm::dvec2(0.0));
+    const glm::dvec2 last = glm::min(middle + radius, glm::dvec2(size_) - 1.0);
+    for (int y = static_cast<int>(first.y); y <= static_cast<int>(std::floor(last.y)); ++y)
+      for (int x = static_cast<int>(first.x); x <= static_cast<int>(std::floor(last.x)); ++x)
+        if (glm::distance(glm::dvec2(x, y) + 0.5, middle) <= radius + 0.5) cells_[index(x, y)] = true;
+  }
+
+  int cell_;  // pixels
+  glm::ivec2 size_;
+  int top_;
+  std::vector<bool> cells_;
 };
 
-}  // namespace
-
 /// Puts things into the corners and beside the places they name.
-class AnnotationLayer::Writer {
+class Writer {
  public:
-  Writer(const glm::ivec2& size, const Camera& camera)
+  Writer(const glm::ivec2& size, const Strips& strips, const LetterStyle& style, const Camera& camera, FontShelf& fonts)
       : camera_(camera),
         size_(size),
-        side_(std::min(size_.x, size_.y)),
-        font_(std::max(9, side_ / 25)),
-        large_(std::max(12, side_ / 16)),
-        small_(std::max(8, side_ / 36)) {}
+        strips_(strips),
+        molecule_size_(size - glm::ivec2(0, strips.top + strips.bottom)),
+        style_(style),
+        heights_(style, size),
+        fonts_(fonts) {}
 
-  /// What lies in these rows.
-  InkMask mask(const RowRange& rows) const {
-    InkMask mask(size_.x, rows);
-    for (const Stroke& stroke : strokes_) stroke(mask);
-    return mask;
-  }
-  int height() const { return size_.y; }
-  int rim_width() const { return std::max(1, font_.height() / 9); }
+  const LetterHeights& heights() const { return heights_; }
+  std::vector<InkStroke> strokes() { return std::move(strokes_); }
 
   void panel(const std::string& text) {
-    const int half = large_.height() / 2;
-    write(large_, text, {half, 2 * half}, 2 * half);
+    const int height = heights_.panel;
+    write({text, {height / 2, panel_row(heights_)}, height, Weight::bold});
   }
 
   void time(const std::string& text) {
-    const int em = font_.height();
-    write(font_, text, {size_.x - em - font_.width(text), em}, em);
+    const int em = heights_.usual;
+    write({text, {size_.x - em - fonts_.at(em).width(text), em}, em});
   }
 
   void scale_bar(const std::optional<double>& asked) {
-    const double unit = angstroms_per_pixel(camera_, size_);
+    const double unit = angstroms_per_pixel(camera_, molecule_size_);
     const double length = asked.value_or(round_length(0.25 * size_.x * unit));
-    const int em = font_.height(), thickness = std::max(2, em / 5),
+    const int em = heights_.scale_bar, thickness = std::max(2, em / 5),
               pixels = static_cast<int>(std::lround(length / unit));
     if (pixels < 1 || pixels > size_.x - 2 * em)
       throw RequestError(
           fmt::format("--scale-bar: {:g} Å are {} pixels of {}; give another length", length, pixels, size_.x));
-    const glm::ivec2 low(em, size_.y - em - thickness), high(em + pixels, size_.y - em);
-    strokes_.emplace_back([=](InkMask& mask) { mask.box(low, high); });
+    const PixelBox bar{{em, size_.y - em - thickness}, {em + pixels, size_.y - em}};
+    strokes_.emplace_back(bar);
     const std::string text = fmt::format("{:g} Å", length);
-    const int left = std::max(em, em + (pixels - font_.width(text)) / 2);
-    write(font_, text, {left, low.y - em}, em);
-    taken_.push_back({low, high});
+    const int left = std::max(em, em + (pixels - fonts_.at(em).width(text)) / 2);
+    write({text, {left, bar.low.y - em}, em});
+    taken_.push_back(bar);
   }
 
   /// From the least of its numbers to the greatest, which are at its left; the present one is above.
   void curve(const Curve& curve) {
     const auto ends = std::ranges::minmax(curve.values);
     const double least = ends.min, greatest = ends.max;
-    const double range = greatest - least, em = font_.height(), line = std::max(1.0, em / 12.0);
+    const double range = greatest - least, em = heights_.usual, line = std::max(1.0, em / 12.0);
     const int decimals = range > 0.0 ? std::clamp(static_cast<int>(std::ceil(2.0 - std::log10(range))), 0, 9) : 3;
     const auto number = [&](double value) { return fmt::format("{:.{}f}", value, decimals); };
     const glm::dvec2 high(size_.x - em, size_.y - em),
-        low(high.x - 0.3 * size_.x, high.y - std::max(3.0 * em, 0.1 * size_.y));
+        low(high.x - 0.3 * size_.x, high.y - curve_height(heights_, size_));
     const auto place = [&](std::size_t n) {
       const double across =
           curve.values.size() > 1 ? static_cast<double>(n) / static_cast<double>(curve.values.size() - 1) : 0.5;
@@ -185,74 +213,92 @@ class AnnotationLayer::Writer {
     for (std::size_t n = 1; n < curve.values.size(); ++n)
       draw_line(place(n - 1), place(n), n <= curve.now ? 1.8 * line : line, n <= curve.now ? 1.0 : 0.45);
     draw_line(place(curve.now), place(curve.now), 0.5 * em);
-    const int row = static_cast<int>(em), left = static_cast<int>(low.x), right = static_cast<int>(high.x),
+    const Font &font = fonts_.at(heights_.usual), &small = fonts_.at(heights_.small);
+    const int row = heights_.usual, left = static_cast<int>(low.x), right = static_cast<int>(high.x),
               above = static_cast<int>(low.y - em);
-    const auto width = [&](double value) { return font_.width(number(value)); };
+    const auto width = [&](double value) { return font.width(number(value)); };
     // The title stays where it is while the number changes.
     const int widest = std::max({width(least), width(greatest), width(curve.values[curve.now])});
-    write(font_, curve.title, {right - widest - row / 2 - font_.width(curve.title), above}, row);
-    write(font_, number(curve.values[curve.now]), {right - width(curve.values[curve.now]), above}, row);
+    write({curve.title, {right - widest - row / 2 - font.width(curve.title), above}, row});
+    write({number(curve.values[curve.now]), {right - width(curve.values[curve.now]), above}, row});
     for (const double end : {least, greatest}) {
       const std::string text = number(end);
       const double y = end == greatest ? low.y : high.y;
-      write(small_, text, {left - small_.height() / 2 - small_.width(text), static_cast<int>(y)}, small_.height());
+      write({text, {left - small.height() / 2 - small.width(text), static_cast<int>(y)}, small.height()});
     }
     taken_.push_back({glm::ivec2(low), glm::ivec2(high)});
   }
 
-  void label(const PlaceLabel& label) {
-    const std::optional<glm::dvec2> seen = place_in_picture(camera_, size_, label.position);
-    if (!seen || seen->x < 0.0 || seen->y < 0.0 || seen->x > size_.x || seen->y > size_.y) return;
-    // Away from the middle, where there is room.
-    const glm::dvec2 middle = 0.5 * glm::dvec2(size_), out = *seen - middle;
-    const double distance = glm::length(out);
-    const glm::dvec2 direction = distance > 1.0 ? out / distance : glm::normalize(glm::dvec2(1.0, -1.0));
-    const TextBox box = free_box(label.text, *seen + direction * (0.14 * side_));
-    taken_.push_back(box);
-    draw_text(font_, label.text, {box.low.x, (box.low.y + box.high.y) / 2});
-    const double gap = 0.25 * font_.height(), width = std::max(1.0, font_.height() / 14.0);
-    const glm::dvec2 near = glm::clamp(*seen, glm::dvec2(box.low) - gap, glm::dvec2(box.high) + gap);
-    draw_line(near, *seen, width);
-    draw_line(*seen, *seen, 4.0 * width);
+  /// Those whose places the picture shows. Letters become smaller where there is no room, if nobody chose their size.
+  void labels(const std::vector<PlaceLabel>& labels, const std::vector<glm::vec4>& atoms) {
+    std::vector<const PlaceLabel*> shown;
+    std::vector<UnplacedLabel> unplaced;
+    for (const PlaceLabel& label : labels) {
+      const std::optional<glm::dvec2> seen = place_in_picture(camera_, molecule_size_, label.position);
+      if (!seen || seen->x < 0.0 || seen->y < 0.0 || seen->x > molecule_size_.x || seen->y > molecule_size_.y) continue;
+      shown.push_back(&label);
+      unplaced.push_back({*seen + glm::dvec2(0.0, strips_.top), {}});
+    }
+    if (shown.empty()) return;
+    LabelGround ground;
+    ground.taken = taken_;
+    ground.covered = CoveredGround(atoms, camera_, molecule_size_, strips_.top);
+    constexpr int kSmallest = 8;  // pixels
+    const bool is_chosen = style_.labels || style_.all;
+    for (int em = heights_.labels; em >= (is_chosen ? heights_.labels : kSmallest);
+         em = std::min(em - 1, 9 * em / 10)) {
+      const double width = label_line(em);
+      ground.room = {{em / 2, strips_.top + em / 4}, {size_.x - em / 2, size_.y - strips_.bottom - em / 4}};
+      ground.gap = 0.5 * em;
+      ground.dot = 2.0 * width;
+      for (std::size_t n = 0; n < shown.size(); ++n)
+        unplaced[n].extent = {fonts_.at(em).width(shown[n]->text), em + em / 4};
+      const std::optional<std::vector<PixelBox>> boxes = place_labels(unplaced, ground);
+      if (!boxes) continue;
+      for (std::size_t n = 0; n < shown.size(); ++n) {
+        const PixelBox& box = (*boxes)[n];
+        draw_line(leader_start(box, unplaced[n], ground), unplaced[n].anchor, width);
+        draw_line(unplaced[n].anchor, unplaced[n].anchor, 4.0 * width);
+        write({shown[n]->text, {box.low.x, (box.low.y + box.high.y) / 2}, em});
+      }
+      return;
+    }
+    throw RequestError(fmt::format(
+        "{}: {} labels find no places in {} x {} pixels where they do not meet; make them shorter, their letters "
+        "smaller ({}), or the picture larger",
+        option_name("label"), shown.size(), size_.x, size_.y, option_name("label-size")));
   }
+
+  static int panel_row(const LetterHeights& heights) { return heights.panel; }
+  static double curve_height(const LetterHeights& heights, glm::ivec2 size) {
+    return std::max(3.0 * heights.usual, 0.1 * size.y);
+  }
+  static double label_line(int em) { return std::max(1.0, em / 14.0); }
 
  private:
   void draw_line(const glm::dvec2& from, const glm::dvec2& to, double width, double share = 1.0) {
-    strokes_.emplace_back([=](InkMask& mask) { mask.line(from, to, width, share); });
+    strokes_.emplace_back(InkLine{from, to, width, share});
   }
 
-  void draw_text(const Font& font, const std::string& text, glm::ivec2 place) {
-    strokes_.emplace_back([&font, text, place](InkMask& mask) { mask.text(font, text, place); });
-  }
-
-  void write(const Font& font, const std::string& text, glm::ivec2 place, int height) {
-    draw_text(font, text, place);
-    taken_.push_back({{place.x, place.y - height / 2}, {place.x + font.width(text), place.y + height / 2}});
-  }
-
-  /// A box for the text as close to `wanted` as the picture and the boxes there allow, in steps up and down.
-  TextBox free_box(const std::string& text, const glm::dvec2& wanted) const {
-    const int em = font_.height();
-    const glm::ivec2 extent(font_.width(text), em + em / 4);
-    const glm::ivec2 margin(em / 2), last = glm::max(size_ - extent - margin, margin);
-    TextBox first;
-    for (int n = 0; n < 2 * size_.y / extent.y; ++n) {
-      const int step = (n + 1) / 2 * extent.y * (n % 2 ? 1 : -1);
-      const glm::ivec2 low = glm::clamp(glm::ivec2(wanted) - extent / 2 + glm::ivec2(0, step), margin, last);
-      const TextBox box{low, low + extent};
-      if (n == 0) first = box;
-      if (std::ranges::none_of(taken_, [&](const TextBox& other) { return other.meets(box); })) return box;
-    }
-    return first;
+  void write(InkText text) {
+    const int half = text.height / 2;
+    taken_.push_back(
+        {text.place - glm::ivec2(0, half), text.place + glm::ivec2(fonts_.of(text).width(text.text), half)});
+    strokes_.emplace_back(std::move(text));
   }
 
   const Camera& camera_;
-  glm::ivec2 size_;
-  int side_;
-  Font font_, large_, small_;
-  std::vector<Stroke> strokes_;
-  std::vector<TextBox> taken_;
+  const glm::ivec2 size_;
+  const Strips strips_;
+  const glm::ivec2 molecule_size_;
+  const LetterStyle& style_;
+  const LetterHeights heights_;
+  FontShelf& fonts_;
+  std::vector<InkStroke> strokes_;
+  std::vector<PixelBox> taken_;
 };
+
+}  // namespace
 
 double angstroms_per_pixel(const Camera& camera, glm::ivec2 size) {
   if (camera.projection == Projection::orthographic) return camera.height / size.y;
@@ -279,31 +325,52 @@ double round_length(double most) {
   return power;
 }
 
-AnnotationLayer::AnnotationLayer(const Annotations& annotations, const Camera& camera, glm::ivec2 picture_size,
-                                 const std::optional<glm::vec3>& background)
-    : ink_(linear_from_srgb(ink_on(background))), rim_(linear_from_srgb(rim_on(background))) {
-  if (!annotations.any()) return;
-  auto writer = std::make_unique<Writer>(picture_size, camera);
-  if (!annotations.panel.empty()) writer->panel(annotations.panel);
-  if (!annotations.time.empty()) writer->time(annotations.time);
-  if (annotations.curve) writer->curve(*annotations.curve);
-  if (annotations.scale_bar) writer->scale_bar(annotations.bar_length);
-  for (const PlaceLabel& label : annotations.labels) writer->label(label);
-  writer_ = std::move(writer);
+Strips strips_for(const StripContents& contents, const LetterStyle& letters, glm::ivec2 size) {
+  const LetterHeights heights(letters, size);
+  Strips strips;
+  if (contents.time) strips.top = 2 * heights.usual;
+  if (contents.panel) strips.top = std::max(strips.top, Writer::panel_row(heights) + 3 * heights.panel / 5);
+  if (contents.curve) strips.bottom = static_cast<int>(Writer::curve_height(heights, size)) + 3 * heights.usual;
+  const bool is_room_left = 2 * (size.y - strips.top - strips.bottom) >= size.y;
+  return is_room_left ? strips : Strips{};
 }
 
-AnnotationLayer::~AnnotationLayer() = default;
+StripContents strip_contents(const Annotations& annotations) {
+  return {!annotations.panel.empty(), !annotations.time.empty(), annotations.curve.has_value()};
+}
+
+AnnotationLayer::AnnotationLayer(const Annotations& annotations, const Camera& camera, glm::ivec2 picture_size,
+                                 const std::optional<glm::vec3>& background, const Strips& strips)
+    : inks_(inks_on(background, annotations.letters.color)), height_(picture_size.y) {
+  if (!annotations.any()) return;
+  Writer writer(picture_size, strips, annotations.letters, camera, fonts_);
+  if (!annotations.panel.empty()) writer.panel(annotations.panel);
+  if (!annotations.time.empty()) writer.time(annotations.time);
+  if (annotations.curve) writer.curve(*annotations.curve);
+  if (annotations.scale_bar) writer.scale_bar(annotations.bar_length);
+  writer.labels(annotations.labels, annotations.atoms);
+  strokes_ = writer.strokes();
+  rim_width_ = std::max(1, writer.heights().usual / 9);
+}
 
 void AnnotationLayer::lay_over(Framebuffer& rows, int first_row) const {
-  if (!writer_) return;
-  const int rim = writer_->rim_width();
-  const RowRange around{std::max(first_row - rim, 0), std::min(first_row + rows.size.y + rim, writer_->height())};
-  writer_->mask(around).lay_over(rows, first_row, ink_, rim_, rim);
+  if (strokes_.empty()) return;
+  InkMask mask(rows.size.x,
+               {std::max(first_row - rim_width_, 0), std::min(first_row + rows.size.y + rim_width_, height_)});
+  for (const InkStroke& stroke : strokes_) {
+    if (const auto* const text = std::get_if<InkText>(&stroke))
+      mask.text(fonts_.of(*text), text->text, text->place);
+    else if (const auto* const line = std::get_if<InkLine>(&stroke))
+      mask.line(line->from, line->to, line->width, line->share);
+    else if (const auto* const box = std::get_if<PixelBox>(&stroke))
+      mask.box(box->low, box->high);
+  }
+  mask.lay_over(rows, first_row, linear_from_srgb(inks_.ink), linear_from_srgb(inks_.rim), rim_width_);
 }
 
 void annotate(Framebuffer& picture, const Annotations& annotations, const Camera& camera,
-              const std::optional<glm::vec3>& background) {
-  AnnotationLayer(annotations, camera, picture.size, background).lay_over(picture, 0);
+              const std::optional<glm::vec3>& background, const Strips& strips) {
+  AnnotationLayer(annotations, camera, picture.size, background, strips).lay_over(picture, 0);
 }
 
 }  // namespace meniscus

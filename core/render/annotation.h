@@ -2,14 +2,16 @@
 // Annotations of a finished picture: the panel's letter, a scale bar, labels, the time of a frame.
 #pragma once
 
-#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "core/render/ink_strokes.h"
+#include "core/render/letters.h"
 #include "core/render/picture.h"
 
 namespace meniscus {
@@ -38,6 +40,8 @@ struct Annotations {
   std::vector<PlaceLabel> labels;
   std::optional<Curve>
       curve;  ///< at the bottom right, a third of the picture wide: faint from now on, with a mark at now
+  std::vector<glm::vec4> atoms;  ///< their centres and radii, Å; labels keep clear of them where they can
+  LetterStyle letters;
 
   bool any() const { return !panel.empty() || !time.empty() || scale_bar || !labels.empty() || curve; }
 };
@@ -51,27 +55,48 @@ std::optional<glm::dvec2> place_in_picture(const Camera& camera, glm::ivec2 size
 /// The largest of 1, 2 and 5 times a power of ten that is not above `most`, > 0.
 double round_length(double most);
 
-/// What is to be written into a picture of the molecule alone, which `camera` made; letters are a twenty-fifth of its
-/// shorter side high, that of the panel more. They are dark or light as the background needs, dark where there is none,
-/// and have a rim where the molecule is behind them.
+/// Rows above and below the molecule that are kept for what is written there.
+struct Strips {
+  int top = 0, bottom = 0;
+};
+
+/// What needs such rows: the letter of a panel and the time above the molecule, a curve below it.
+struct StripContents {
+  bool panel = false, time = false, curve = false;
+};
+
+/// For a picture of this size, without its legend. None where they would take more than half of it: then what they are
+/// for is written over the molecule.
+Strips strips_for(const StripContents& contents, const LetterStyle& letters, glm::ivec2 size);
+StripContents strip_contents(const Annotations& annotations);
+
+/// What is to be written into a picture of the molecule, which `camera` made, and into the strips around it. Unless
+/// the style says otherwise letters are a twenty-fifth of its shorter side high, that of the panel more. They are dark
+/// or light as the background needs, dark where there is none, and have a rim where the molecule is behind them.
 class AnnotationLayer {
  public:
-  /// Throws RequestError when there is no font, or the bar is longer than the picture.
+  /// picture_size: with the strips. Throws RequestError when there is no font, the bar is longer than the picture, or
+  /// labels have no room in which they neither overlap nor cross.
   AnnotationLayer(const Annotations& annotations, const Camera& camera, glm::ivec2 picture_size,
-                  const std::optional<glm::vec3>& background);
-  ~AnnotationLayer();
+                  const std::optional<glm::vec3>& background, const Strips& strips = {});
 
   /// Writes into some whole rows of the picture, of which `first_row` is the first: as into the whole picture.
   void lay_over(Framebuffer& rows, int first_row) const;
 
+  /// All of it, in pixels of the picture; its colours, sRGB; and how far the rim reaches.
+  std::span<const InkStroke> strokes() const { return strokes_; }
+  const Inks& inks() const { return inks_; }
+  int rim_width() const { return rim_width_; }
+
  private:
-  class Writer;
-  std::unique_ptr<const Writer> writer_;  // nullptr: nothing is to be written
-  glm::vec3 ink_, rim_;                   // linear
+  std::vector<InkStroke> strokes_;
+  Inks inks_;
+  int height_, rim_width_ = 1;
+  mutable FontShelf fonts_;
 };
 
 /// Writes into a whole picture.
 void annotate(Framebuffer& picture, const Annotations& annotations, const Camera& camera,
-              const std::optional<glm::vec3>& background);
+              const std::optional<glm::vec3>& background, const Strips& strips = {});
 
 }  // namespace meniscus

@@ -319,10 +319,14 @@ std::vector<std::uint8_t> srgb_pixels(const Framebuffer& picture, const std::opt
 }
 
 void check_image_path(const std::filesystem::path& path) {
-  constexpr std::array<std::string_view, 7> kExtensions{".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".exr"};
-  if (std::ranges::find(kExtensions, extension_of(path)) == kExtensions.end())
-    throw OutputError(text_of_path(path), "a picture's name must end in .png, .jpg, .webp, .tif, .tiff or .exr");
-  if (extension_of(path) != ".png") image_codec();  // what is missing is missed before anything is computed
+  constexpr std::array<std::string_view, 6> kByOpenImageIO{".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".exr"};
+  constexpr std::array<std::string_view, 3> kOwn{".png", ".svg", ".pdf"};
+  const std::string extension = extension_of(path);
+  if (std::ranges::find(kOwn, extension) != kOwn.end()) return;
+  if (std::ranges::find(kByOpenImageIO, extension) == kByOpenImageIO.end())
+    throw OutputError(text_of_path(path),
+                      "a picture's name must end in .png, .jpg, .webp, .tif, .tiff, .exr, .svg or .pdf");
+  image_codec();  // what is missing is missed before anything is computed
 }
 
 ImageWriter::ImageWriter(const std::filesystem::path& path, glm::ivec2 size, bool aovs, const ImageSettings& settings) {

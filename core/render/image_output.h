@@ -38,8 +38,8 @@ bool is_encoded_in_memory(const std::filesystem::path& path);
 std::vector<std::uint8_t> srgb_pixels(const Framebuffer& picture, const std::optional<glm::vec3>& background,
                                       int bytes = 1);
 
-/// Throws OutputError unless the extension is .png, .jpg, .jpeg, .webp, .tif, .tiff or .exr, Error if this installation
-/// writes no pictures.
+/// Throws OutputError unless the extension is .png, .jpg, .jpeg, .webp, .tif, .tiff, .exr, .svg or .pdf, Error if this
+/// installation writes no pictures.
 void check_image_path(const std::filesystem::path& path);
 
 /// A picture that is written as its rows come, so that files of any size need little memory: all but .webp and .exr,

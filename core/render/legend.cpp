@@ -17,27 +17,6 @@
 namespace meniscus {
 namespace {
 
-/// `part` at the top left of a picture of `size`, nothing around it.
-Framebuffer with_margin(const Framebuffer& part, glm::ivec2 size, bool aovs) {
-  Framebuffer whole;
-  whole.size = size;
-  const auto widen = [&](auto& to, const auto& from, auto empty) {
-    to.assign(static_cast<std::size_t>(size.x) * size.y, empty);
-    for (int y = 0; y < part.size.y; ++y)
-      std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(y) * part.size.x, part.size.x,
-                  to.begin() + static_cast<std::ptrdiff_t>(y) * size.x);
-  };
-  widen(whole.color, part.color, glm::vec4(0.0f));
-  if (!aovs) return whole;
-  widen(whole.z, part.z, std::numeric_limits<float>::infinity());
-  widen(whole.normal, part.normal, glm::vec3(0.0f));
-  widen(whole.position, part.position, glm::vec3(0.0f));
-  widen(whole.atom, part.atom, kNone);
-  widen(whole.kind, part.kind, kNone);
-  widen(whole.component, part.component, kNone);
-  return whole;
-}
-
 /// Lays a colour over a premultiplied pixel.
 void cover(glm::vec4& pixel, const glm::vec3& linear, float share) {
   pixel = glm::vec4(linear * share, share) + (1.0f - share) * pixel;
@@ -64,6 +43,26 @@ void draw_box(Framebuffer& rows, int first, const LegendBox& box, const glm::vec
 
 }  // namespace
 
+Framebuffer with_margin(const Framebuffer& part, glm::ivec2 size, int top, bool aovs) {
+  Framebuffer whole;
+  whole.size = size;
+  const auto widen = [&](auto& to, const auto& from, auto empty) {
+    to.assign(static_cast<std::size_t>(size.x) * size.y, empty);
+    for (int y = 0; y < part.size.y; ++y)
+      std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(y) * part.size.x, part.size.x,
+                  to.begin() + static_cast<std::ptrdiff_t>(top + y) * size.x);
+  };
+  widen(whole.color, part.color, glm::vec4(0.0f));
+  if (!aovs) return whole;
+  widen(whole.z, part.z, std::numeric_limits<float>::infinity());
+  widen(whole.normal, part.normal, glm::vec3(0.0f));
+  widen(whole.position, part.position, glm::vec3(0.0f));
+  widen(whole.atom, part.atom, kNone);
+  widen(whole.kind, part.kind, kNone);
+  widen(whole.component, part.component, kNone);
+  return whole;
+}
+
 Framebuffer Legend::add_to(const Framebuffer& molecule, const std::optional<glm::vec3>& background) const {
   assert(molecule.size == molecule_size_);
   return rows(molecule, 0, picture_size_.y, !molecule.z.empty(), background);
@@ -72,9 +71,9 @@ Framebuffer Legend::add_to(const Framebuffer& molecule, const std::optional<glm:
 Framebuffer Legend::rows(const Framebuffer& molecule, int first, int count, bool aovs,
                          const std::optional<glm::vec3>& background) const {
   assert(molecule.size.y == std::clamp(molecule_size_.y - first, 0, count));
-  Framebuffer picture = with_margin(molecule, {picture_size_.x, count}, aovs);
-  const glm::vec3 ink = linear_from_srgb(ink_on(background));
-  for (const LegendBox& box : boxes_) draw_box(picture, first, box, ink, std::max(1, font_.height() / 16));
+  Framebuffer picture = with_margin(molecule, {picture_size_.x, count}, 0, aovs);
+  const glm::vec3 ink = linear_from_srgb(inks(background).ink);
+  for (const LegendBox& box : boxes_) draw_box(picture, first, box, ink, frame_width());
 
   const bool at_right = molecule_size_.x < picture_size_.x;
   const glm::ivec2 corner(at_right ? molecule_size_.x : 0, std::max(at_right ? 0 : molecule_size_.y, first));

@@ -2,6 +2,7 @@
 // A legend beside the molecule: a bar with numbers, or named swatches, that explain its colours.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/color/color_key.h"
+#include "core/render/letters.h"
 #include "core/render/picture.h"
 #include "core/render/text_raster.h"
 
@@ -33,13 +35,18 @@ struct LegendStyle {
   std::optional<std::string> title;  ///< instead of the key's title and unit; may be empty
   std::optional<int> letters;        ///< their height, pixels
   Place place = Place::automatic;    ///< automatic: below in pictures higher than wide
+  std::vector<std::string> names;    ///< "A=Alpha": the entry A is called Alpha
+  std::optional<glm::vec3> color;    ///< LetterStyle::color
 };
 
 /// The legend takes a strip at the right of a picture or at its bottom; the molecule is framed in the rest, so nothing
-/// of it is covered. Letters are a thirtieth of the picture's shorter side, at least 9 pixels, unless set otherwise.
+/// of it is covered. Letters are a thirtieth of the picture's shorter side, at least 9 pixels, unless set otherwise;
+/// smaller, down to 6 pixels, where not all would fit. Entries stand in as many columns as they need; what has no room
+/// even so is counted ("+5 more").
 class Legend {
  public:
-  /// Throws RequestError when the picture is too small for it, or when there is no font.
+  /// Throws RequestError when the picture is too small for it, for a name of an entry that is not there, or when there
+  /// is no font.
   Legend(const ColorKey& key, glm::ivec2 picture_size, const LegendStyle& style = {});
 
   /// Pixels left for the molecule, at the top left.
@@ -49,6 +56,9 @@ class Legend {
   /// What is drawn, and where in the picture.
   const std::vector<LegendText>& texts() const { return texts_; }
   const std::vector<LegendBox>& boxes() const { return boxes_; }
+  const Font& font() const { return font_; }
+  int frame_width() const { return std::max(1, font_.height() / 16); }  ///< around boxes
+  Inks inks(const std::optional<glm::vec3>& background) const { return inks_on(background, color_); }
 
   /// The whole picture: `molecule`, of molecule_size(), and the legend. On a background letters are dark or light,
   /// whichever it needs; on none (transparent) they are dark, as for paper. AOVs of the strip are those of a miss.
@@ -70,21 +80,30 @@ class Legend {
   };
 
   int line() const { return (3 * font_.height() + 1) / 2; }
-  void lay_out_right(const std::string& title);
-  void lay_out_bottom(const std::string& title);
+  void rename_entries(const std::vector<std::string>& names);
+  bool lay_out(bool at_right, int letters, bool may_drop);
+  bool lay_out_right(bool may_drop);
+  bool lay_out_bottom(bool may_drop);
   void add_entry(const Entry& entry, glm::ivec2 place);
   void add_bar(glm::ivec2 low, glm::ivec2 high, bool upright);
   int entry_width(const Entry& entry) const;
-  void keep_entries(std::size_t most);
+  bool keep_entries(std::size_t most, bool may_drop);
+  void shorten_entries(int most_pixels);
   void shift_to(glm::ivec2 place);
 
+  std::string title_;
   std::optional<ColorScale> bar_;  ///< unless colours are of classes
-  std::vector<Entry> entries_;
+  std::vector<Entry> all_;
+  std::vector<Entry> entries_;  ///< those that have room
+  std::optional<glm::vec3> color_;
   Font font_;
   glm::ivec2 picture_size_, molecule_size_;
   std::vector<LegendText> texts_;
   std::vector<LegendBox> boxes_;
 };
+
+/// `part` at the left of a picture of `size`, from row `top` on; nothing around it. AOVs there are those of a miss.
+Framebuffer with_margin(const Framebuffer& part, glm::ivec2 size, int top, bool aovs);
 
 /// At most so many multiples of 1, 2 or 5 times a power of ten between two numbers, without these, ascending.
 std::vector<double> round_numbers(double low, double high, int most);

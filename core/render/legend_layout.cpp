@@ -12,10 +12,18 @@
 namespace meniscus {
 namespace {
 
-constexpr int kSmallestLetters = 9;  // pixels; below that they cannot be read
-constexpr std::size_t kMostEntries = 24;
+constexpr int kReadableLetters = 9, kSmallestLetters = 6;  // pixels
+constexpr int kMostCharacters = 40;                        // of a name
 
-int letter_height(glm::ivec2 size) { return std::max(kSmallestLetters, std::min(size.x, size.y) / 30); }
+int letter_height(glm::ivec2 size) { return std::max(kReadableLetters, std::min(size.x, size.y) / 30); }
+
+/// Some names for a message.
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 12;
+  std::string text;
+  for (std::size_t n = 0; n < std::min(names.size(), kMost); ++n) text += (n > 0 ? ", " : "") + in_quotes(names[n]);
+  return text + (names.size() > kMost ? ", …" : "");
+}
 
 std::string number_text(double number) { return fmt::format("{:.4g}", number == 0.0 ? 0.0 : number); }
 
@@ -78,11 +86,6 @@ std::vector<std::string> wrapped(const std::string& text, const Font& font, int 
   return lines;
 }
 
-[[noreturn]] void too_small(glm::ivec2 size) {
-  throw RequestError(fmt::format(
-      "--legend does not fit into {} x {} pixels beside the molecule; make the picture larger", size.x, size.y));
-}
-
 }  // namespace
 
 std::vector<double> round_numbers(double low, double high, int most) {
@@ -99,28 +102,64 @@ std::vector<double> round_numbers(double low, double high, int most) {
 }
 
 Legend::Legend(const ColorKey& key, glm::ivec2 picture_size, const LegendStyle& style)
-    : font_(style.letters.value_or(letter_height(picture_size))),
+    : title_(key.title),
+      color_(style.color),
+      font_(style.letters.value_or(letter_height(picture_size))),
       picture_size_(picture_size),
       molecule_size_(picture_size) {
-  std::string title = key.title;
-  for (const ColorClass& entry : key.classes) entries_.push_back({drawable(entry.name), entry.color});
+  for (const ColorClass& entry : key.classes) all_.push_back({entry.name, entry.color});
   if (key.title == "chain")
-    std::ranges::stable_sort(entries_, [](const Entry& a, const Entry& b) { return by_name(a.name, b.name); });
+    std::ranges::stable_sort(all_, [](const Entry& a, const Entry& b) { return by_name(a.name, b.name); });
   if (key.scale) {
-    title = key.scale->title + (key.scale->unit.empty() ? "" : " (" + key.scale->unit + ")");
-    for (const double number : key.scale->classes) entries_.push_back({number_text(number), key.scale->color(number)});
+    title_ = key.scale->title + (key.scale->unit.empty() ? "" : " (" + key.scale->unit + ")");
+    for (const double number : key.scale->classes) all_.push_back({number_text(number), key.scale->color(number)});
     if (key.scale->classes.empty()) bar_ = key.scale;
     if (key.scale->missing > 0)
-      entries_.push_back(
-          {fmt::format("none ({} atoms)", with_thousands(key.scale->missing)), key.scale->missing_color});
+      all_.push_back({fmt::format("none ({} atoms)", with_thousands(key.scale->missing)), key.scale->missing_color});
   }
-  if (entries_.empty() && !bar_) return;  // one colour for all needs no words
-  if (style.title) title = *style.title;
+  if (all_.empty() && !bar_) return;  // one colour for all needs no words
+  rename_entries(style.names);
+  for (Entry& entry : all_) entry.name = drawable(entry.name, kMostCharacters);
+  if (style.title) title_ = *style.title;
   const bool is_high = picture_size.y > picture_size.x;
-  if (style.place == LegendStyle::Place::below || (style.place == LegendStyle::Place::automatic && is_high))
-    lay_out_bottom(title);
-  else
-    lay_out_right(title);
+  const bool at_right =
+      style.place != LegendStyle::Place::below && (style.place == LegendStyle::Place::right || !is_high);
+  const int usual = font_.height();
+  for (const bool may_drop : {false, true})
+    for (int letters = usual; letters >= kSmallestLetters; letters = std::min(letters - 1, 9 * letters / 10)) {
+      // Letters half as high hold more; dropping entries is better than smaller ones.
+      if (letters < usual && (style.letters || (!may_drop && letters < std::max(kReadableLetters, usual / 2)))) break;
+      if (lay_out(at_right, letters, may_drop)) return;
+    }
+  throw RequestError(fmt::format(
+      "{} does not fit into {} x {} pixels beside the molecule; make the picture larger{}, or write it apart by {}",
+      option_name("legend"), picture_size.x, picture_size.y, style.letters ? ", its letters smaller" : "",
+      option_name("legend-file")));
+}
+
+void Legend::rename_entries(const std::vector<std::string>& names) {
+  std::vector<std::string> given;
+  for (const Entry& entry : all_) given.push_back(entry.name);
+  for (const std::string& text : names) {
+    bool is_known = false;
+    for (std::size_t n = 0; n < given.size(); ++n) {
+      if (!text.starts_with(given[n] + "=")) continue;
+      is_known = true;
+      all_[n].name = text.substr(given[n].size() + 1);
+    }
+    if (!is_known)
+      throw RequestError(fmt::format("{} {}: the legend has no such entry; it has {}", option_name("legend-name"),
+                                     in_quotes(text), given.empty() ? "none" : listed(given)));
+  }
+}
+
+bool Legend::lay_out(bool at_right, int letters, bool may_drop) {
+  if (letters != font_.height()) font_ = Font(letters);
+  entries_ = all_;
+  texts_.clear();
+  boxes_.clear();
+  molecule_size_ = picture_size_;
+  return at_right ? lay_out_right(may_drop) : lay_out_bottom(may_drop);
 }
 
 int Legend::entry_width(const Entry& entry) const { return (3 * font_.height()) / 2 + font_.width(entry.name); }
@@ -132,11 +171,25 @@ void Legend::add_entry(const Entry& entry, glm::ivec2 place) {
   texts_.push_back({entry.name, {place.x + edge + edge / 2, place.y}});
 }
 
-void Legend::keep_entries(std::size_t most) {
-  if (entries_.size() <= most) return;
+bool Legend::keep_entries(std::size_t most, bool may_drop) {
+  if (entries_.size() <= most) return true;
+  if (!may_drop || most == 0) return false;
   const std::size_t more = entries_.size() - most + 1;
   entries_.resize(most - 1);
   entries_.push_back({fmt::format("+{} more", with_thousands(more)), glm::vec3(-1.0f)});
+  return true;
+}
+
+void Legend::shorten_entries(int most_pixels) {
+  for (Entry& entry : entries_) {
+    std::string name = entry.name;
+    while (name.size() > 1 && entry_width(entry) > most_pixels) {
+      do name.pop_back();
+      while (name.size() > 1 && (static_cast<unsigned char>(name.back()) >> 6) == 2);  // whole characters
+      if ((static_cast<unsigned char>(name.back()) >> 6) == 3) name.pop_back();
+      entry.name = name + "…";
+    }
+  }
 }
 
 void Legend::add_bar(glm::ivec2 low, glm::ivec2 high, bool upright) {
@@ -180,14 +233,21 @@ void Legend::shift_to(glm::ivec2 place) {
   }
 }
 
-void Legend::lay_out_right(const std::string& title) {
+bool Legend::lay_out_right(bool may_drop) {
   const int em = font_.height(), room = picture_size_.y - 2 * em;
-  std::vector<std::string> lines = wrapped(title, font_, picture_size_.x / 4);
-  if (title.empty()) lines.clear();
+  std::vector<std::string> lines = wrapped(title_, font_, picture_size_.x / 4);
+  if (title_.empty()) lines.clear();
   const int title_height = static_cast<int>(lines.size()) * line() + em / 2;
   const int least_bar = bar_ ? 5 * line() : 0;
-  if (room < title_height + least_bar + line()) too_small(picture_size_);
-  keep_entries(std::min<std::size_t>(kMostEntries, (room - title_height - least_bar) / line()));
+  const int rows = (room - title_height - least_bar) / line();
+  if (rows < 1) return false;
+  shorten_entries(picture_size_.x / 3);
+  int column = 1;
+  for (const Entry& entry : entries_) column = std::max(column, entry_width(entry) + em);
+  const int most_columns = std::max(1, picture_size_.x / 2 / column);
+  if (!keep_entries(static_cast<std::size_t>(most_columns) * rows, may_drop)) return false;
+  const int count = static_cast<int>(entries_.size());
+  const int columns = std::max(1, (count + rows - 1) / rows), per_column = (count + columns - 1) / columns;
   int y = line() / 2;
   for (const std::string& text : lines) {
     texts_.push_back({text, {0, y}});
@@ -195,41 +255,44 @@ void Legend::lay_out_right(const std::string& title) {
   }
   y += em / 2;
   if (bar_) {
-    const int height = std::min(18 * em, room - title_height - static_cast<int>(entries_.size()) * line() - line());
+    const int height = std::min(18 * em, room - title_height - per_column * line() - line());
     add_bar({0, y}, {em + em / 2, y + height}, true);
     y += height + line();
   }
-  for (const Entry& entry : entries_) {
-    add_entry(entry, {0, y});
-    y += line();
-  }
+  for (int n = 0; n < count; ++n)
+    add_entry(entries_[static_cast<std::size_t>(n)], {n / per_column * column, y + n % per_column * line()});
+  y += per_column * line();
   int width = 0;
   for (const LegendText& text : texts_) width = std::max(width, text.place.x + font_.width(text.text));
   molecule_size_.x = picture_size_.x - width - 2 * em;
-  if (molecule_size_.x < picture_size_.x / 3) too_small(picture_size_);
+  if (molecule_size_.x < picture_size_.x / 3) return false;
   shift_to({molecule_size_.x + em, (picture_size_.y - (y - line() / 2)) / 2});
+  return true;
 }
 
-void Legend::lay_out_bottom(const std::string& title) {
+bool Legend::lay_out_bottom(bool may_drop) {
   const int em = font_.height(), room = picture_size_.x - 2 * em;
   int y = line() / 2;
-  if (title.empty()) y = 0;
-  for (const std::string& text : wrapped(title, font_, room)) {
-    if (title.empty()) break;
+  if (title_.empty()) y = 0;
+  for (const std::string& text : wrapped(title_, font_, room)) {
+    if (title_.empty()) break;
     texts_.push_back({text, {0, y}});
     y += line();
   }
   if (bar_) {
     int end = 2 * em;  // half a number reaches past each end of the bar
     for (const double number : bar_->range) end = std::max(end, (font_.width(tick_text(*bar_, number)) + em) / 2);
-    if (room < 14 * em || room < 4 * end) too_small(picture_size_);
+    if (room < 14 * em || room < 4 * end) return false;
     add_bar({end, y}, {std::min(room - end, 30 * em), y + em + em / 2}, false);
     y += 3 * em + em / 2;
   }
+  shorten_entries(room);
   int column = 1;
   for (const Entry& entry : entries_) column = std::max(column, entry_width(entry) + em);
   const int columns = std::max(1, (room + em) / column);
-  keep_entries(std::min<std::size_t>(kMostEntries, static_cast<std::size_t>(columns) * 6));
+  const int rows = (picture_size_.y / 2 - y - em - line() / 2) / line();
+  if (!keep_entries(static_cast<std::size_t>(columns) * std::max(rows, entries_.empty() ? 0 : 1), may_drop))
+    return false;
   for (std::size_t n = 0; n < entries_.size(); ++n)
     add_entry(entries_[n],
               {static_cast<int>(n) % columns * column, y + line() / 2 + static_cast<int>(n) / columns * line()});
@@ -237,8 +300,9 @@ void Legend::lay_out_bottom(const std::string& title) {
   int width = 0;
   for (const LegendText& text : texts_) width = std::max(width, text.place.x + font_.width(text.text));
   molecule_size_.y = picture_size_.y - y - em;
-  if (width > room + em || molecule_size_.y < picture_size_.y / 3) too_small(picture_size_);
+  if (width > room + em || molecule_size_.y < picture_size_.y / 3) return false;
   shift_to({em, molecule_size_.y + em / 2});
+  return true;
 }
 
 }  // namespace meniscus

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
+
+#include <glm/common.hpp>
 
 namespace meniscus {
 namespace {
@@ -38,35 +41,80 @@ PictureFile::PictureFile(const std::filesystem::path& path, const PictureMargins
       background_(image.background),
       aovs_(settings.aovs),
       molecule_size_(settings.size),
-      size_(margins.legend ? margins.legend->picture_size() : settings.size),
-      annotations_(margins.annotations, camera, settings.size, image.background),
-      writer_(path, size_, settings.aovs, image) {
+      size_(margins.legend ? margins.legend->picture_size()
+                           : settings.size + glm::ivec2(0, margins.strips.top + margins.strips.bottom)),
+      annotations_(margins.annotations, camera,
+                   settings.size + glm::ivec2(0, margins.strips.top + margins.strips.bottom), image.background,
+                   margins.strips) {
+  check_image_path(path);
+  if (is_page(path))
+    page_ = std::make_unique<PageFile>(path, PageLayout{{}, size_, {0, margins.strips.top}, molecule_size_}, image);
+  else
+    writer_ = std::make_unique<ImageWriter>(path, size_, settings.aovs, image);
   settings.take_band = [this](const Framebuffer& band, int first_row) { take(band, first_row); };
 }
 
 void PictureFile::take(const Framebuffer& band, int first_row) {
   shows_something_ =
       shows_something_ || std::ranges::any_of(band.color, [](const glm::vec4& pixel) { return pixel.w > 0.0f; });
-  for (int row = 0; row < band.size.y; row += kSlice) {
-    Framebuffer slice = slice_of(band, row, std::min(kSlice, band.size.y - row));
-    annotations_.lay_over(slice, first_row + row);
-    const int count = slice.size.y;
-    write(std::move(slice), first_row + row, count);
+  if (page_) return page_->add(band);
+  const int top = margins_.strips.top;
+  if (first_row == 0) write_strip(0, top);
+  for (int row = 0; row < band.size.y; row += kSlice)
+    write_molecule(slice_of(band, row, std::min(kSlice, band.size.y - row)), top + first_row + row);
+}
+
+void PictureFile::write_strip(int first_row, int count) {
+  for (int row = 0; row < count; row += kSlice) {
+    Framebuffer nothing;
+    nothing.size = {molecule_size_.x, 0};
+    write_molecule(with_margin(nothing, {molecule_size_.x, std::min(kSlice, count - row)}, 0, aovs_), first_row + row);
   }
+}
+
+void PictureFile::write_molecule(Framebuffer rows, int first_row) {
+  annotations_.lay_over(rows, first_row);
+  const int count = rows.size.y;
+  write(std::move(rows), first_row, count);
 }
 
 void PictureFile::write(Framebuffer rows, int first_row, int count) {
   if (margins_.legend) rows = margins_.legend->rows(rows, first_row, count, aovs_, background_);
-  writer_.add(rows);
+  writer_->add(rows);
 }
 
 void PictureFile::commit() {
-  for (int row = molecule_size_.y; row < size_.y; row += kSlice) {  // a legend below
+  const int bottom = margins_.strips.top + molecule_size_.y;
+  if (page_) {
+    std::vector<PageShape> shapes = shapes_of(annotations_, margins_.strips.top, bottom);
+    if (margins_.legend) {
+      const std::vector<PageShape> more = shapes_of(*margins_.legend, background_);
+      shapes.insert(shapes.end(), more.begin(), more.end());
+    }
+    return page_->commit(shapes);
+  }
+  write_strip(bottom, margins_.strips.bottom);
+  for (int row = bottom + margins_.strips.bottom; row < size_.y; row += kSlice) {  // a legend below
     Framebuffer nothing;
     nothing.size = {molecule_size_.x, 0};
     write(std::move(nothing), row, std::min(kSlice, size_.y - row));
   }
-  writer_.commit();
+  writer_->commit();
+}
+
+void write_legend_picture(const std::filesystem::path& path, const Legend& legend, const ImageSettings& settings) {
+  if (!is_page(path)) return write_image(path, legend.alone(settings.background), settings);
+  check_image_path(path);
+  PixelBox drawn{legend.picture_size(), {0, 0}};
+  const auto add = [&](const glm::ivec2& low, const glm::ivec2& high) {
+    drawn = {glm::min(drawn.low, low), glm::max(drawn.high, high)};
+  };
+  const int half = (legend.font().height() + 1) / 2;
+  for (const LegendText& text : legend.texts())
+    add(text.place - glm::ivec2(0, half), text.place + glm::ivec2(legend.font().width(text.text), half));
+  for (const LegendBox& box : legend.boxes()) add(box.low - legend.frame_width(), box.high + legend.frame_width());
+  drawn = drawn.grown(std::max(1, legend.font().height() / 2));
+  PageFile(path, {drawn.low, drawn.high}, settings).commit(shapes_of(legend, settings.background));
 }
 
 }  // namespace meniscus

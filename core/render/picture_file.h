@@ -3,24 +3,28 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 
 #include "core/render/annotation.h"
 #include "core/render/picture.h"
 #include "core/render/image_output.h"
 #include "core/render/legend.h"
+#include "core/render/vector_page.h"
 
 namespace meniscus {
 
 struct Camera;
 
-/// What a picture shows beside the molecule; both must stay.
+/// What a picture shows beside the molecule; the first two must stay.
 struct PictureMargins {
   const Annotations& annotations;
   const std::optional<Legend>& legend;
+  Strips strips{};
 };
 
 /// Takes the bands of a picture of the molecule (RenderSettings::take_band), so that it is never in memory as a whole.
+/// Of a page (is_page()) the molecule alone is in pixels.
 class PictureFile {
  public:
   /// settings: of the molecule's picture, whose bands come here from now on. Throws as ImageWriter and
@@ -38,6 +42,8 @@ class PictureFile {
 
  private:
   void take(const Framebuffer& band, int first_row);
+  void write_strip(int first_row, int count);
+  void write_molecule(Framebuffer rows, int first_row);
   void write(Framebuffer rows, int first_row, int count);
 
   const PictureMargins margins_;
@@ -45,8 +51,12 @@ class PictureFile {
   const bool aovs_;
   const glm::ivec2 molecule_size_, size_;
   AnnotationLayer annotations_;
-  ImageWriter writer_;
+  std::unique_ptr<ImageWriter> writer_;  // one of the two
+  std::unique_ptr<PageFile> page_;
   bool shows_something_ = false;
 };
+
+/// A legend as a file of its own. Throws as ImageWriter does.
+void write_legend_picture(const std::filesystem::path& path, const Legend& legend, const ImageSettings& settings);
 
 }  // namespace meniscus

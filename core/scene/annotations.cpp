@@ -10,6 +10,8 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/time_unit.h"
+#include "core/structure/selection/selection_and_text.h"
 #include "core/trajectory/series_table.h"
 
 namespace meniscus {
@@ -56,10 +58,12 @@ void parse_scale_bar(const std::string& text, AnnotationRequest& request) {
 }
 
 LabelRequest parse_label(std::string_view text) {
-  const std::size_t sign = text.rfind('=');
-  if (sign == std::string::npos || sign == 0 || sign + 1 == text.size())
-    throw RequestError(in_quotes(text) + " is not EXPR=TEXT, such as 'resid 48=Ser 48'");
-  return {parse_selection(text.substr(0, sign)), std::string(text.substr(sign + 1))};
+  if (const auto parted = selection_and_text(text); parted && !parted->text.empty())
+    return {parted->atoms, std::string(parted->text)};
+  const std::size_t sign = text.find('=');
+  if (sign != std::string::npos && sign > 0 && sign + 1 < text.size())
+    parse_selection(text.substr(0, sign));  // it says what is wrong
+  throw RequestError(in_quotes(text) + " is not EXPR=TEXT, such as 'resid 48=Ser 48'");
 }
 
 std::optional<Curve> curve_of(const AnnotationRequest& request, std::span<const std::uint64_t> frames) {
@@ -70,18 +74,35 @@ std::optional<Curve> curve_of(const AnnotationRequest& request, std::span<const 
   return curve;
 }
 
+LegendStyle legend_style(const LegendStyle& asked, const LetterStyle& letters) {
+  LegendStyle style = asked;
+  if (!style.letters) style.letters = letters.all;
+  style.color = letters.color;
+  return style;
+}
+
+StripContents strip_contents(const AnnotationRequest& request, bool is_run) {
+  return {!request.panel.empty(), is_run && request.time_stamp, is_run && !request.curve.empty()};
+}
+
 Annotations annotations_of(const AnnotationRequest& request, const Structure& structure) {
   Annotations annotations;
   annotations.panel = request.panel;
   annotations.scale_bar = request.scale_bar;
   annotations.bar_length = request.bar_length;
+  annotations.letters = request.letters;
+  if (!request.labels.empty())
+    for (const Atom& atom : structure.atoms)
+      annotations.atoms.emplace_back(atom.position.x, atom.position.y, atom.position.z, atom.radius);
   for (const LabelRequest& label : request.labels)
     annotations.labels.push_back({label.text, middle_of(label.atoms, structure)});
   return annotations;
 }
 
-std::string time_text(const std::optional<double>& picoseconds, std::uint64_t frame) {
-  return picoseconds ? fmt::format("{:.3f} ns", 1e-3 * *picoseconds) : fmt::format("frame {}", frame);
+std::string time_text(const std::optional<double>& picoseconds, std::uint64_t frame, double longest) {
+  if (!picoseconds) return fmt::format("frame {}", frame);
+  const TimeUnit unit = time_unit(longest);
+  return fmt::format("{:.{}f} {}", *picoseconds / unit.picoseconds, unit.picoseconds == 1.0 ? 1 : 3, unit.name);
 }
 
 }  // namespace meniscus

@@ -317,6 +317,16 @@ std::vector<glm::dvec3> FrameRun::positions(std::uint64_t number) {
   return positions;
 }
 
+std::optional<double> FrameRun::last_time() {
+  Frame frame;
+  try {
+    trajectory_->read(source(run_.back()), frame);
+  } catch (const InputError&) {
+    return std::nullopt;  // the code that makes this frame reports the fault
+  }
+  return frame.time;
+}
+
 Structure FrameRun::at(std::uint64_t number) {
   Frame frame;
   frames_->read(source(number), frame);

@@ -90,6 +90,8 @@ class FrameRun {
   /// The number in the trajectory of one of them.
   std::uint64_t source(std::uint64_t number) const { return number / repeat_; }
   const Trajectory& trajectory() const { return *trajectory_; }
+  /// Of the last frame of the run, ps; nothing if it has none or cannot be read. Not together with next().
+  std::optional<double> last_time();
 
   /// Reads every frame of the run, without its surface, before any is made: place in the run, and the structure. What a
   /// camera for all of them needs. A frame that cannot be read is passed over here.

@@ -143,19 +143,37 @@ constexpr SceneValue line_width(std::string_view key, Member) {
       [](const Property& property, const Scene& scene) { return written_line(scene, property.key, Member{}(scene)); }};
 }
 
-void read_letters(const Property& property, Texts texts, Scene& scene) {
-  scene.legend.style.letters = static_cast<int>(
-      std::round(pixels_in_range(property, texts.back(), scene.picture.dots_per_inch, "letters have")));
-  keep_length(scene, property.key, texts.back());
+template <typename Member>
+constexpr SceneValue letter_height(std::string_view key, Member) {
+  return {key,
+          [](const Property& property, Texts texts, Scene& scene) {
+            Member{}(scene) = static_cast<int>(
+                std::round(pixels_in_range(property, texts.back(), scene.picture.dots_per_inch, "letters have")));
+            keep_length(scene, property.key, texts.back());
+          },
+          [](const Property& property, const Scene& scene) -> Written {
+            const std::optional<int>& height = Member{}(scene);
+            if (!height) return {};
+            const auto length = scene.lengths.find(property.key);
+            if (length != scene.lengths.end() &&
+                std::round(parse_length(length->second).pixels(scene.picture.dots_per_inch)) == *height)
+              return {length->second};
+            return {fmt::format("{}", *height)};
+          }};
 }
 
-Written write_letters(const Property& property, const Scene& scene) {
-  if (!scene.legend.style.letters) return {};
-  const auto length = scene.lengths.find(property.key);
-  if (length != scene.lengths.end() &&
-      std::round(parse_length(length->second).pixels(scene.picture.dots_per_inch)) == *scene.legend.style.letters)
-    return {length->second};
-  return {fmt::format("{}", *scene.legend.style.letters)};
+void read_letter_color(const Property&, Texts texts, Scene& scene) {
+  std::optional<glm::vec3>& color = scene.annotations.letters.color;
+  color = parse_color(texts.back());
+  if (!color && texts.back() != "auto")
+    throw RequestError(in_quotes(texts.back()) +
+                       " is not a colour of letters: give auto, a colour's name such as white, or #rrggbb");
+}
+
+Written write_letter_color(const Property&, const Scene& scene) {
+  const std::optional<glm::vec3>& color = scene.annotations.letters.color;
+  if (!color) return {};
+  return {hex_color(*color)};
 }
 
 void read_scale_bar(const Property&, Texts texts, Scene& scene) { parse_scale_bar(texts.back(), scene.annotations); }
@@ -247,9 +265,21 @@ constexpr auto kPictureRows = std::to_array<SceneValue>({
         "legend.file", [](auto& s) -> auto& { return s.legend.file; }),
     plain(
         "legend.title", [](auto& s) -> auto& { return s.legend.style.title; }),
-    {"legend.size", read_letters, write_letters},
+    letter_height(
+        "legend.size", [](auto& s) -> auto& { return s.legend.style.letters; }),
     worded<LegendStyle::Place::automatic, LegendStyle::Place::right, LegendStyle::Place::below>(
         "legend.place", [](auto& s) -> auto& { return s.legend.style.place; }),
+    plain(
+        "legend.names", [](auto& s) -> auto& { return s.legend.style.names; }),
+    letter_height(
+        "annotations.letter_size", [](auto& s) -> auto& { return s.annotations.letters.all; }),
+    letter_height(
+        "annotations.label_size", [](auto& s) -> auto& { return s.annotations.letters.labels; }),
+    letter_height(
+        "annotations.scale_bar_size", [](auto& s) -> auto& { return s.annotations.letters.scale_bar; }),
+    letter_height(
+        "annotations.panel_size", [](auto& s) -> auto& { return s.annotations.letters.panel; }),
+    {"annotations.letter_color", read_letter_color, write_letter_color},
     plain(
         "annotations.panel", [](auto& s) -> auto& { return s.annotations.panel; }),
     {"annotations.scale_bar", read_scale_bar, write_scale_bar},

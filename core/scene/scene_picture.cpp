@@ -15,12 +15,17 @@
 namespace meniscus {
 
 PictureLayout::PictureLayout(const Scene& scene, const ColorKey& key) : size(scene.picture) {
-  const LegendRequest& asked = scene.legend;
-  if (!asked.file.empty()) legend_alone = Legend(key, size.size(), asked.style).alone(scene.image.background);
-  if (!asked.within) return;
-  legend.emplace(key, size.size(), asked.style);
-  size.width = legend->molecule_size().x;
-  size.height = legend->molecule_size().y;
+  const LegendStyle style = legend_style(scene.legend.style, scene.annotations.letters);
+  if (!scene.legend.file.empty()) legend_apart.emplace(key, size.size(), style);
+  if (scene.legend.within) legend.emplace(key, size.size(), style);
+  if (legend) size.width = legend->molecule_size().x;
+  if (legend) size.height = legend->molecule_size().y;
+  strips = scene_strips(scene, size.size());
+  size.height -= strips.top + strips.bottom;
+}
+
+Strips scene_strips(const Scene& scene, glm::ivec2 size) {
+  return strips_for(strip_contents(scene.annotations, scene.frames.asked()), scene.annotations.letters, size);
 }
 
 SurfaceRequest picture_request(const Scene& scene) {
@@ -48,7 +53,11 @@ void check_legend(const Scene& scene) {
 
 Framebuffer finished_picture(Framebuffer molecule, const Annotations& annotations, const PictureLayout& layout,
                              const Camera& camera, const std::optional<glm::vec3>& background) {
-  annotate(molecule, annotations, camera, background);
+  const Strips& strips = layout.strips;
+  if (strips.top + strips.bottom > 0)
+    molecule = with_margin(molecule, molecule.size + glm::ivec2(0, strips.top + strips.bottom), strips.top,
+                           !molecule.z.empty());
+  annotate(molecule, annotations, camera, background, strips);
   return layout.legend ? layout.legend->add_to(molecule, background) : molecule;
 }
 

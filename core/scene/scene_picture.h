@@ -13,14 +13,18 @@
 
 namespace meniscus {
 
-/// The picture's size, from which the molecule has what the legend leaves.
+/// The picture's size, from which the molecule has what the legend and the strips above and below leave.
 struct PictureLayout {
   ViewRequest size;
+  Strips strips;
   std::optional<Legend> legend;
-  std::optional<Framebuffer> legend_alone;  ///< of LegendRequest::file
+  std::optional<Legend> legend_apart;  ///< of LegendRequest::file
 
   PictureLayout(const Scene& scene, const ColorKey& key);
 };
+
+/// What is kept above and below the molecule in a picture of this size, its legend aside.
+Strips scene_strips(const Scene& scene, glm::ivec2 size);
 
 /// On what pictures are made.
 SurfaceRequest picture_request(const Scene& scene);

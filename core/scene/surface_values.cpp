@@ -11,6 +11,7 @@
 #include "core/base/parse_number.h"
 #include "core/base/text.h"
 #include "core/color/color_maps.h"
+#include "core/color/color_rule.h"
 #include "core/color/named_colors.h"
 #include "core/scene/object_json.h"
 #include "core/scene/scene_value.h"
@@ -101,7 +102,7 @@ void read_color(const Property&, Texts texts, Scene& scene) {
   ColorScheme& color = scene.molecule.color;
   for (const std::string& text : texts) {
     if (text.find('=') != std::string::npos) {
-      color.rules.push_back(parse_color_rule(text));
+      color.rules.push_back(named_color_rule(text));
       continue;
     }
     const std::optional<ColorScheme> scheme = parse_color_scheme(text);
@@ -116,7 +117,7 @@ Written write_color(const Property&, const Scene& scene) {
   const ColorScheme& color = scene.molecule.color;
   Written texts;
   if (scene.molecule.color_named) texts.push_back(scheme_word(color));
-  for (const ColorRule& rule : color.rules) texts.push_back(rule.atoms.text() + "=" + scheme_word(rule.paint));
+  for (const ColorRule& rule : color.rules) texts.push_back(color_rule_text(rule));
   return texts;
 }
 

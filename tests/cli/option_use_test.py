@@ -123,6 +123,8 @@ CONTEXTS = {
     "range": ["{one.pdb}", "--color-range", "-2:2"],
     "volume": ["{one.pdb}", "--color-map-file", "{map.dx}", "--color-range", "-2:2"],
     "legend": ["{one.pdb}", "--color", "bfactor", "--legend"],
+    "named legend": ["{one.pdb}", "--color", "chain", "--legend"], "label": ["{one.pdb}", "--label", "resid 9=x"],
+    "bar": ["{one.pdb}", "--scale-bar", "5"], "panel": ["{one.pdb}", "--panel", "a"],
     "shiny": ["{one.pdb}", "--specular", "0.9", "--ambient", "0.1"],
     "flat": ["{one.pdb}", "--preset", "flat"],
     "shade": ["{one.pdb}", "--ambient-occlusion", "1"], "length": ["{one.pdb}", "--width", "10mm"],
@@ -164,6 +166,8 @@ ROWS = {
     "--outer-lines": ("3", "plain"), "--inner-lines": ("3", "plain"), "--part-lines": ("3", "plain"),
     "--depth-cue": ("1", "plain"), "--linear-alpha": (None, "plain"), "--samples": ("3", "plain"),
     "--background": ("white", "plain"), "--legend": (None, "number"), "--legend-file": ("legend.png", "number"),
+    "--legend-name": ("A=Alpha", "named legend"), "--letter-size": ("7", "legend"), "--letter-color": ("red", "legend"),
+    "--label-size": ("7", "label"), "--scale-bar-size": ("7", "bar"), "--panel-size": ("8", "panel"),
     "--legend-title": ("Heat", "legend"), "--legend-size": ("7", "legend"), "--legend-place": ("below", "legend"),
     "--panel": ("B", "plain"), "--scale-bar": ("5", "plain"), "--label": ("resid 9=Here", "plain"),
     "--time-stamp": (None, "frames"), "--curve": ("{curve.csv}", "frames"), "--curve-column": ("volume", "curve"),
@@ -288,7 +292,7 @@ class OptionUse(unittest.TestCase):
         own = list(SMALL.get(command, []))
         if command in MESHES and "--tolerance-pixels" not in CONTEXTS[context]:
             own += ["--tolerance", "0.5"]
-        if command in SMALL and {"--legend", "--legend-file"} & {*CONTEXTS[context], option}:
+        if command in SMALL and {"--legend", "--legend-file", "--label"} & {*CONTEXTS[context], option}:
             own[1] = "200x150"
         excluded = {EXCLUDES.get(word) for word in (option, *CONTEXTS[context])}
         for name in excluded & set(own):

@@ -3,6 +3,7 @@
 #include "core/render/annotation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -160,6 +161,59 @@ TEST(Annotations, ACurveHasItsMarkWhereThePictureIs) {
   EXPECT_GT(share(1, {328, 270}), 0.9f);
   run.curve = Curve{"one", {7}, 0};
   EXPECT_GT(share(0, {328, 270}), 0.9f);
+}
+
+TEST(Annotations, PanelTimeAndCurveHaveStripsOfTheirOwn) {
+  Annotations all;
+  all.panel = "a";
+  all.time = "1.250 ns";
+  all.curve = Curve{"volume", {10, 20, 30}, 1};
+  const Strips strips = strips_for(strip_contents(all), {}, kSize);
+  EXPECT_GT(strips.top, 12);
+  EXPECT_LT(strips.top + strips.bottom, 150);
+  Framebuffer picture = empty_picture();
+  annotate(picture, all, kOrthographic, glm::vec3(1.0f), strips);
+  EXPECT_EQ(extent(picture, {0, strips.top}, {kSize.x, kSize.y - strips.bottom}).z, 0)
+      << "the molecule's rows are clear";
+  EXPECT_GT(extent(picture, {0, 0}, {kSize.x, strips.top}).z, 0);
+  EXPECT_GT(extent(picture, {0, kSize.y - strips.bottom}, kSize).z, 0);
+  EXPECT_EQ(strips_for({}, {}, kSize).top, 0);
+  LetterStyle large;
+  large.all = 90;
+  EXPECT_EQ(strips_for(strip_contents(all), large, kSize).top, 0) << "the molecule would have less than half";
+}
+
+TEST(Annotations, EachKindOfLettersHasItsSize) {
+  Annotations texts;
+  texts.panel = "H";
+  texts.scale_bar = true;
+  const auto heights = [&] {
+    const Framebuffer picture = written(texts);
+    const glm::ivec4 panel = extent(picture, {0, 0}, {200, 150}), bar = extent(picture, {0, 150}, kSize);
+    return glm::ivec2(panel.w - panel.y, bar.w - bar.y);
+  };
+  const glm::ivec2 usual = heights();
+  texts.letters.panel = 40;
+  EXPECT_GT(heights().x, usual.x + 8);
+  EXPECT_EQ(heights().y, usual.y);
+  texts.letters.scale_bar = 24;
+  EXPECT_GT(heights().y, usual.y + 8);
+  texts.letters = {};
+  texts.letters.all = 30;
+  EXPECT_GT(heights().x, usual.x);
+  EXPECT_GT(heights().y, usual.y);
+  const LetterHeights own(LetterStyle{{}, 10, 12, 14, 16}, kSize);
+  EXPECT_EQ((std::array{own.usual, own.labels, own.scale_bar, own.panel}), (std::array{10, 12, 14, 16}));
+}
+
+TEST(Annotations, InkIsAsAskedAndElseSuitsThePaper) {
+  const glm::vec3 white(1.0f), black(0.0f), blue(0.0f, 0.0f, 1.0f);
+  EXPECT_GT(inks_on(black, {}).ink.x, 0.9f);
+  EXPECT_LT(inks_on(white, {}).ink.x, 0.1f);
+  EXPECT_LT(inks_on({}, {}).ink.x, 0.1f);
+  EXPECT_EQ(inks_on({}, white).ink, white);
+  EXPECT_EQ(inks_on({}, white).rim, black);
+  EXPECT_EQ(inks_on(black, blue).rim, white);
 }
 
 TEST(Annotations, LettersHaveARimBeforeTheMoleculeOnly) {

@@ -310,6 +310,58 @@ TEST(Legend, ChainsStandByName) {
   EXPECT_GE(row_of(blue), 0);
 }
 
+bool has_entry(const Legend& legend, const std::string& text) {
+  return std::ranges::find(legend.texts(), text, &LegendText::text) != legend.texts().end();
+}
+
+TEST(Legend, ManyEntriesStandInColumnsBeforeAnyIsDropped) {
+  for (const glm::ivec2 size : {glm::ivec2(1280, 960), {800, 600}, {472, 354}, {600, 800}, {2400, 1800}}) {
+    const Legend legend(classes(21), size);
+    for (int n = 0; n < 21; ++n) EXPECT_TRUE(has_entry(legend, fmt::format("chain {}", n))) << size.x << " " << n;
+    EXPECT_EQ(legend.boxes().size(), 21u);
+    EXPECT_GE(2 * legend.molecule_size().x * legend.molecule_size().y, size.x * size.y);
+    for (const LegendText& a : legend.texts())
+      for (const LegendText& b : legend.texts())
+        if (&a != &b && std::abs(a.place.y - b.place.y) < legend.font().height())
+          EXPECT_TRUE(a.place.x + legend.font().width(a.text) < b.place.x ||
+                      b.place.x + legend.font().width(b.text) < a.place.x)
+              << a.text << " " << b.text;
+  }
+  EXPECT_TRUE(has_entry(Legend(classes(3), {800, 600}), "chain 2"));
+}
+
+TEST(Legend, TinyPicturesHaveSmallLetters) {
+  for (const glm::ivec2 size : {glm::ivec2(160, 120), {120, 160}, {100, 100}})
+    for (const ColorKey& key : {numbers(-1.5, 97.25, 12), classes(5)}) {
+      const Legend legend(key, size);
+      EXPECT_LE(legend.font().height(), 9);
+      EXPECT_GE(3 * legend.molecule_size().x * legend.molecule_size().y, size.x * size.y);
+    }
+  try {
+    Legend(classes(3), {40, 30});
+    FAIL();
+  } catch (const RequestError& error) {
+    EXPECT_NE(std::string(error.what()).find("legend-file"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Legend, EntriesAreCalledAsAUserSays) {
+  LegendStyle style;
+  style.names = {"chain 1=Gαs", "chain 2=x=y"};
+  const Legend legend(classes(3), {800, 600}, style);
+  for (const char* text : {"chain 0", "Gαs", "x=y"}) EXPECT_TRUE(has_entry(legend, text)) << text;
+  EXPECT_FALSE(has_entry(legend, "chain 1"));
+  style.names = {"chain 7=no"};
+  EXPECT_THROW(Legend(classes(3), {800, 600}, style), RequestError);
+}
+
+TEST(Legend, LettersHaveTheColourAskedFor) {
+  LegendStyle style;
+  style.color = glm::vec3(1.0f);
+  const Legend legend(classes(3), {800, 600}, style);
+  EXPECT_GT(count(legend.add_to(molecule(legend.molecule_size(), false), std::nullopt), glm::vec4(1.0f)), 200u);
+}
+
 TEST(Legend, NumbersBeyondAnEndAreSaidThere) {
   const auto ticks = [](double low, double high, std::vector<double> values) {
     ColorKey key = numbers(low, high);

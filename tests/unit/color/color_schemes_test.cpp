@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/color/color_key.h"
+#include "core/color/color_rule.h"
 #include "core/color/named_colors.h"
 #include "core/structure/element_tables.h"
 #include "tests/support/run_program.h"
@@ -123,6 +124,27 @@ TEST(Colors, RulesPaintTheAtomsMeantAndTheLastCounts) {
   with_sticks.beside.push_back(with_sticks.atoms.front());
   with_sticks.beside.front().chain = "Z";
   EXPECT_TRUE(rules_without_atoms(with_sticks, wish).empty());
+}
+
+TEST(Colors, RulesHaveNamesAndWhatTheyLeaveIsOther) {
+  ColorScheme wish = scheme("grey");
+  for (const char* text : {"chain A=red:Gαs = A", "b >= 15=#0000ff"}) {
+    wish.rules.push_back(named_color_rule(text));
+    EXPECT_EQ(named_color_rule(color_rule_text(wish.rules.back())).name, wish.rules.back().name);
+  }
+  EXPECT_EQ(color_rule_text(wish.rules.front()), "chain A=#ff0000:Gαs = A");
+  const auto names = [&] {
+    std::vector<std::string> found;
+    for (const ColorClass& entry : color_key(four_atoms(), wish, {}).classes) found.push_back(entry.name);
+    return found;
+  };
+  EXPECT_EQ(names(), (std::vector<std::string>{"Gαs = A", "b >= 15", "other"}));
+  EXPECT_EQ(color_key(four_atoms(), wish, {}).classes.back().color, color_from_hex(0x808080));
+  wish.rules.push_back(named_color_rule("all=white"));
+  EXPECT_EQ(names(), (std::vector<std::string>{"Gαs = A", "b >= 15", "all"})) << "nothing is left";
+  EXPECT_NE(complaint([] { named_color_rule("chain A=red:"); }).find("no name"), std::string::npos);
+  EXPECT_NE(complaint([] { named_color_rule("chain A=crimsom:x"); }).find("'crimsom' is not one of"),
+            std::string::npos);
 }
 
 TEST(Colors, RulesByANumberTakeTheMapAndTheRange) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,6 +12,7 @@
 #include "core/base/text.h"
 #include "core/structure/point_tree.h"
 #include "core/structure/selection/selection.h"
+#include "core/structure/selection/selection_and_text.h"
 #include "core/structure/selection/selection_steps.h"
 #include "core/structure/selection/selection_words.h"
 #include "core/structure/structure.h"
@@ -480,6 +482,20 @@ TEST(SelectionLaws, SetsObeyTheirAlgebra) {
     EXPECT_TRUE(subset(value("within 1 of (" + a + ")"), value("within 4 of (" + a + ")")));
     EXPECT_EQ(value("(exwithin 2 of (" + a + ")) or " + a), value("within 2 of (" + a + ")"));
   }
+}
+
+TEST(Selection, TextBehindItBeginsWhereItEnds) {
+  for (const auto& [text, atoms, behind] : {std::tuple{"resid 17=K17=A", "resid 17", "K17=A"},
+                                            {"b>=50=red", "b>=50", "red"},
+                                            {"b==5=a", "b==5", "a"},
+                                            {"chain A or b <= 5 = x", "chain A or b <= 5 ", " x"},
+                                            {"name CA=", "name CA", ""}}) {
+    const auto parted = selection_and_text(text);
+    ASSERT_TRUE(parted) << text;
+    EXPECT_EQ(parted->atoms.text(), parse_selection(atoms).text());
+    EXPECT_EQ(parted->text, behind);
+  }
+  for (const char* text : {"", "=", "resid 17", "chian A=x", "b>=50"}) EXPECT_FALSE(selection_and_text(text)) << text;
 }
 
 }  // namespace
