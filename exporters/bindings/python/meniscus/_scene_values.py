@@ -16,8 +16,8 @@ class SurfaceValues(TypedDict, total=False):
     #: chain, copy (of an assembly), residue (type), secondary (helix, strand, coil), plddt (AlphaFold's
     #: confidence), kind (of patch), component; by a number: bfactor, occupancy, charge, hydrophobicity (Kyte &
     #: Doolittle 1982), lipophilicity (a potential), index, rainbow (along each chain), radial (for capsids).
-    #: EXPR=COLOR colours some atoms, as in 'ligand=orange'. Repeatable; the last one counts. meniscus colors
-    #: explains the schemes [element]
+    #: EXPR=COLOR colours some atoms, as in 'ligand=orange'; 'ligand=orange:ATP' names them in the legend.
+    #: Repeatable; the last one counts. meniscus colors explains the schemes [element]
     color: Union[Text, Sequence[Text]]
     #: WORD: Look: publication, cover, flat, soft or classic. publication: shade, thin lines, colours as given;
     #: cover: studio light, highlights; flat: constant colours and lines; soft: matt, no lines; classic: studio
@@ -280,8 +280,11 @@ class SceneValues(SurfaceValues, total=False):
     legend_file: Path
     #: TEXT: Title of the legend; '' for none [by the colours]
     legend_title: Text
-    #: SIZE: Height of the letters: pixels, 8pt or 3mm [a thirtieth of the shorter side]
+    #: SIZE: Height of the letters: pixels, 8pt or 3mm [that of --letter-size, or a thirtieth of the shorter
+    #: side]
     legend_size: Text
+    #: ENTRY=TEXT: Write TEXT instead of an entry of the legend, as in 'A=Alpha' for chain A. Repeatable
+    legend_name: Union[Text, Sequence[Text]]
     #: WORD: Place of the legend: auto, right or below [auto]
     legend_place: Literal["auto", "right", "below"]
     #: TEXT: Letter of the panel, such as a, at the top left
@@ -289,9 +292,21 @@ class SceneValues(SurfaceValues, total=False):
     #: Å: Draw a scale bar of this length, or of a round one (auto). With a perspective camera it is true at the
     #: camera's target [auto]
     scale_bar: Text
+    #: SIZE: Height of all letters that have no size of their own: pixels, 8pt or 3mm [by the size of the
+    #: picture]
+    letter_size: Text
+    #: SIZE: Height of the letters of labels [that of --letter-size]
+    label_size: Text
+    #: SIZE: Height of the letters of the scale bar [that of --letter-size]
+    scale_bar_size: Text
+    #: SIZE: Height of the letter of the panel [1.5 times --letter-size]
+    panel_size: Text
+    #: COLOR: Colour of letters, lines and bars: auto, or a colour. auto: dark or light, as --background needs;
+    #: dark if it is transparent [auto]
+    letter_color: Text
     #: EXPR=TEXT: Write TEXT at these atoms, with a line to their centre. Repeatable
     label: Union[Text, Sequence[Text]]
-    #: Write the time of each frame in ns, or its number if it has no time
+    #: Write the time of each frame in ps, ns or µs, or else its number
     time_stamp: bool
     #: FILE.csv: Draw a curve of the run from a CSV table, with a mark at each frame. meniscus surface --csv-
     #: series writes such tables
