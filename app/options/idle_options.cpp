@@ -137,7 +137,15 @@ const std::vector<Need>& needs() {
       {{"--tube-radius"},
        [](const Asked& asked) { return asked.given("--tube"); },
        "there is no tube; add --tube EXPR"},
-      {{"--legend-title", "--legend-size", "--legend-place"}, has_legend, "there is no legend; add --legend"},
+      {{"--legend-title", "--legend-size", "--legend-place", "--legend-name"},
+       has_legend,
+       "there is no legend; add --legend"},
+      {{"--letter-size", "--letter-color"},
+       [](const Asked& asked) {
+         return has_legend(asked) || asked.name() == "preview" ||
+                asked.any({"--label", "--scale-bar", "--panel", "--time-stamp", "--curve"});
+       },
+       "there are no letters in the picture; add --legend, --label, --scale-bar or --panel"},
       {{"--color-title", "--color-unit"},
        [](const Asked& asked) { return has_legend(asked) || asked.name() == "preview"; },
        "they name the scale of a legend, and there is none"},

@@ -35,8 +35,8 @@ struct LegendStyle {
   std::optional<std::string> title;  ///< instead of the key's title and unit; may be empty
   std::optional<int> letters;        ///< their height, pixels
   Place place = Place::automatic;    ///< automatic: below in pictures higher than wide
-  std::vector<std::string> names;    ///< "A=Alpha": the entry A is called Alpha
-  std::optional<glm::vec3> color;    ///< LetterStyle::color
+  std::vector<std::string> names{};  ///< "A=Alpha": the entry A is called Alpha
+  std::optional<glm::vec3> color{};  ///< LetterStyle::color
 };
 
 /// The legend takes a strip at the right of a picture or at its bottom; the molecule is framed in the rest, so nothing

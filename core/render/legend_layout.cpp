@@ -241,7 +241,7 @@ bool Legend::lay_out_right(bool may_drop) {
   const int least_bar = bar_ ? 5 * line() : 0;
   const int rows = (room - title_height - least_bar) / line();
   if (rows < 1) return false;
-  shorten_entries(picture_size_.x / 3);
+  shorten_entries(picture_size_.x / 2 - 2 * em);  // half of the picture is left
   int column = 1;
   for (const Entry& entry : entries_) column = std::max(column, entry_width(entry) + em);
   const int most_columns = std::max(1, picture_size_.x / 2 / column);

@@ -69,7 +69,7 @@ TEST_P(PreviewSessionTest, BadCommandsAreAnsweredAndChangeNothing) {
            R"({"command":"probe","radius":101})",
            R"({"command":"probe","radius":1e-9})",
            R"({"command":"probe","radius":null})",
-           R"({"command":"color","scheme":"rainbow"})",
+           R"({"command":"color","scheme":"rainbows"})",
            R"({"command":"color","scheme":"component"})",
            R"({"command":"color","scheme":"file"})",
            R"({"command":"color","scheme":"charge"})",
