@@ -156,6 +156,10 @@ Molecule MoleculeBuilder::build(Structure structure) {
   Molecule molecule;
   molecule.structure = std::move(structure);
   molecule.color = color_;
+  if (color_.by == ColorScheme::By::lipophilicity && division_.groups == Grouping::model)
+    throw RequestError(
+        "--color lipophilicity sums over the atoms of all models, but --by model gives each a surface of "
+        "its own; select one model");
   if (request_.interface || color_.by == ColorScheme::By::buried) measure_burial(molecule);
   if (color_.by == ColorScheme::By::lipophilicity)
     molecule.color.volume = lipophilicity_paint(molecule.structure, molecule.color);

@@ -285,11 +285,21 @@ void mark_secondary_structure(std::vector<Atom>& atoms, std::span<const Secondar
 }
 
 std::vector<SecondaryStructure> secondary_structure(std::span<const Atom> atoms) {
-  const bool known = std::any_of(atoms.begin(), atoms.end(),
-                                 [](const Atom& atom) { return atom.secondary != SecondaryStructure::unknown; });
-  if (!known) return HydrogenBondPatterns(atoms).per_atom();
   std::vector<SecondaryStructure> result;
-  for (const Atom& atom : atoms) result.push_back(atom.secondary);
+  std::map<std::int32_t, std::vector<std::uint32_t>> unknown;  // atoms of the models that do not say
+  for (std::uint32_t n = 0; n < atoms.size(); ++n) unknown[atoms[n].model].push_back(n);
+  for (const Atom& atom : atoms) {
+    result.push_back(atom.secondary);
+    if (atom.secondary != SecondaryStructure::unknown) unknown.erase(atom.model);
+  }
+  if (unknown.size() == 1 && unknown.begin()->second.size() == atoms.size())
+    return HydrogenBondPatterns(atoms).per_atom();
+  for (const auto& [model, places] : unknown) {
+    std::vector<Atom> own;
+    for (const std::uint32_t place : places) own.push_back(atoms[place]);
+    const std::vector<SecondaryStructure> found = HydrogenBondPatterns(own).per_atom();
+    for (std::size_t n = 0; n < places.size(); ++n) result[places[n]] = found[n];
+  }
   return result;
 }
 

@@ -25,10 +25,11 @@ struct SecondaryRange {
 /// an atom.
 void mark_secondary_structure(std::vector<Atom>& atoms, std::span<const SecondaryRange> ranges);
 
-/// Per atom what its residue belongs to. If any atom has an Atom::secondary, that of all of them; else by W. Kabsch and
-/// C. Sander, Biopolymers 22, 2577 (1983): helices of three kinds (alpha, 3-10, pi) and ladders of at least two
-/// bridges, from N, CA, C and O of each residue. Residues without all four, and lone bridges, are coil. Atoms of a
-/// residue are together, residues in the order of their chains. O(n) for molecules.
+/// Per atom what its residue belongs to, model by model as if each were alone. If any atom of a model has an
+/// Atom::secondary, that of all of them; else by W. Kabsch and C. Sander, Biopolymers 22, 2577 (1983): helices of three
+/// kinds (alpha, 3-10, pi) and ladders of at least two bridges, from N, CA, C and O of each residue. Residues without
+/// all four, and lone bridges, are coil. Atoms of a residue are together, residues in the order of their chains. O(n)
+/// for molecules.
 std::vector<SecondaryStructure> secondary_structure(std::span<const Atom> atoms);
 
 /// Sets Atom::secondary to that.

@@ -102,6 +102,28 @@ TEST_F(AddedFiles, AreInEveryDoorOfAScene) {
   EXPECT_EQ(pixels.substr(pixels.find("IDAT")), read_bytes(path("b.png")).substr(pixels.find("IDAT")));
 }
 
+TEST_F(AddedFiles, OfMoleculesSayThatTheFirstIsAdded) {
+  const std::string one =
+      "lig\n  test    01012600003D\n\n  1  0  0  0  0  0  0  0  0  0999 V2000\n    0.0000    0.0000    0.0000 C   0  "
+      "0\n"
+      "M  END\n$$$$\n";
+  const ProgramResult result = meniscus({"surface", kUbiquitin, "--add", folder_.file("two.sdf", one + one)});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("two.sdf: 2 molecules are in the file, and the first is added"), std::string::npos)
+      << result.err;
+  EXPECT_EQ(result.err.find("--model 2"), std::string::npos) << result.err;
+}
+
+TEST_F(AddedFiles, HaveNoPotentialInCommonWithSurfacesOfTheirOwn) {
+  const std::vector<std::string> both{"render",         kUbiquitin, "--add",   moved_,
+                                      "--superpose-on", "name CA",  "--color", "lipophilicity",
+                                      "--by",           "model",    "-o",      path("a.png")};
+  const ProgramResult result = meniscus(both);
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("--color lipophilicity sums over the atoms of all models"), std::string::npos)
+      << result.err;
+}
+
 TEST_F(AddedFiles, FollowTheFramesOfARun) {
   const std::string walking = folder_.file("walk.pdb", walk(4));
   const std::string still = folder_.file("still.pdb", walk(1));
@@ -132,6 +154,7 @@ TEST_F(AddedFiles, WhatCannotBeIsRefused) {
   refused({"--add", kToxin, "--superpose-on", "name CA"}, 3, "1tii.pdb: has no chain that corresponds");
   refused({"--add", moved_, "--superpose-on", "radius > 1.5"}, 3, "has no radii yet");
   refused({"--add", folder_.file("own.xyzr", "0 0 0 1.5\n"), "--select", "all"}, 3, "has radii of its own");
+  refused({"--add", folder_.file("own.pqr", "ATOM 1 C LIG 1 0 0 0 0.1 1.7\n")}, 3, "has radii of its own");
   refused({"--add", moved_, "--assembly", "1"}, 2, "--add and --assembly cannot be combined");
   refused({"--add", moved_, "--frames", "all", "--select-once", "--select", "x > 0"}, 2, "--select-once and --add");
 }

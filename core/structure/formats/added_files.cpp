@@ -52,17 +52,18 @@ std::vector<bool> selected(const Selection& selection, std::span<const Atom> ato
 }  // namespace
 
 AddedFiles::AddedFiles(const std::string& path, std::span<const std::string> files, const ModelChoice& models,
-                       const std::optional<Selection>& superpose_on, FileContents& contents)
-    : own_atoms_(contents.atoms.size()) {
+                       const std::optional<Selection>& superpose_on, FileContents& contents) {
+  const std::size_t own_atoms = contents.atoms.size();
   for (const std::string& name : files) {
     const TextFile file = read_molecule_file(name);
     FileContents more = read(file, models, contents.radii, path);
     Part& part = parts_.emplace_back();
     const Ends ends(contents.atoms);
+    if (more.radii != contents.radii) contents.radii = FileRadii::none;  // not all have those of a force field
     part.begin = contents.atoms.size();
     part.end = part.begin + more.atoms.size();
     if (superpose_on) {
-      const std::span<const Atom> own(contents.atoms.data(), own_atoms_);
+      const std::span<const Atom> own(contents.atoms.data(), own_atoms);
       part.pairs = corresponding_atoms(own, selected(*superpose_on, own, path), more.atoms,
                                        selected(*superpose_on, more.atoms, file.path));
       if (part.pairs.empty())
@@ -83,6 +84,10 @@ AddedFiles::AddedFiles(const std::string& path, std::span<const std::string> fil
     contents.atoms.insert(contents.atoms.end(), std::make_move_iterator(more.atoms.begin()),
                           std::make_move_iterator(more.atoms.end()));
     contents.other_model_atoms += more.other_model_atoms;
+    if (more.of_molecules && more.models > 1 && !models.all)
+      more.warnings.emplace_back(fmt::format(
+          "{} molecules are in the file, and the first is added; to add another, save it as a file of its own",
+          with_thousands(more.models)));
     for (Warning& warning : more.warnings) {
       warning.text = fmt::format("{}: {}", escaped(file.path), warning.text);
       contents.warnings.push_back(std::move(warning));

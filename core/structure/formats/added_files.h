@@ -26,9 +26,6 @@ class AddedFiles {
   AddedFiles(const std::string& path, std::span<const std::string> files, const ModelChoice& models,
              const std::optional<Selection>& superpose_on, FileContents& contents);
 
-  /// How many atoms the first file has.
-  std::size_t own_atoms() const { return own_atoms_; }
-
   /// Superposes the files again, where those of the first have moved. atoms: as the constructor has left them, with
   /// other positions. One each: what was added, with its fit.
   std::vector<AddedFile> place(std::vector<Atom>& atoms) const;
@@ -40,7 +37,6 @@ class AddedFiles {
     std::vector<AtomPair> pairs;     ///< empty: it stays where it is
   };
 
-  std::size_t own_atoms_;
   std::vector<Part> parts_;
 };
 

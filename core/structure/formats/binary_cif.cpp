@@ -27,14 +27,17 @@ namespace {
 using nlohmann::json;
 
 /// What the reader of mmCIF looks for.
-constexpr std::array<std::string_view, 8> kCategories{"_atom_site",
-                                                      "_entity",
-                                                      "_entity_poly",
-                                                      "_struct_conf",
-                                                      "_struct_sheet_range",
-                                                      "_pdbx_struct_assembly",
-                                                      "_pdbx_struct_oper_list",
-                                                      "_pdbx_struct_assembly_gen"};
+constexpr std::array<std::string_view, 11> kCategories{"_atom_site",
+                                                       "_exptl",
+                                                       "_ma_qa_metric",
+                                                       "_ma_qa_metric_local",
+                                                       "_entity",
+                                                       "_entity_poly",
+                                                       "_struct_conf",
+                                                       "_struct_sheet_range",
+                                                       "_pdbx_struct_assembly",
+                                                       "_pdbx_struct_oper_list",
+                                                       "_pdbx_struct_assembly_gen"};
 
 /// Molecules have at most four values and forty letters for a byte of their file.
 constexpr std::size_t kMostValuesPerByte = 64, kMostLettersPerByte = 256;

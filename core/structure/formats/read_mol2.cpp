@@ -94,9 +94,9 @@ class Mol2Reader {
     finish_molecule();
     if (contents_.atoms.empty() && contents_.other_model_atoms == 0)
       throw InputError(file_.path, 0, "has no atoms after @<TRIPOS>ATOM");
-    note_other_molecules(contents_, choice_);
     classify_atoms(contents_.atoms, contents_.warnings, hints_of_atoms());
     force_field_.warn(contents_.warnings, "a type that names no element; elements were guessed from the names");
+    contents_.of_molecules = true;
     return std::move(contents_);
   }
 

@@ -71,7 +71,7 @@ class SdfReader {
   FileContents run() {
     while (!lines_.only_blanks_left()) read_molecule();
     if (contents_.atoms.empty() && contents_.other_model_atoms == 0) throw InputError(file_.path, 0, "holds no atoms");
-    note_other_molecules(contents_, choice_);
+    contents_.of_molecules = true;
     return std::move(contents_);
   }
 

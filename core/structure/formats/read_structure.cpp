@@ -343,10 +343,18 @@ struct StructureFile::Parts {
     report.excluded[kExcludedModel] = contents.other_model_atoms;
     std::erase_if(report.excluded, [](const auto& reason) { return reason.second == 0; });
     report.warnings = contents.warnings;
+    note_other_molecules();
     radii.emplace(options.radii, file.path, contents.radii);
   }
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
+
+  void note_other_molecules() {
+    if (!contents.of_molecules || contents.models < 2 || options.model.all || options.model.number != 1) return;
+    report.warnings.emplace_back(
+        fmt::format("{} molecules are in the file; the first is used, {} 2 takes the next, {} all unites them",
+                    with_thousands(contents.models), option_name("model"), option_name("model")));
+  }
 
   void add_files() {
     if (options.added.empty()) {

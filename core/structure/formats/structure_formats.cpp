@@ -74,14 +74,6 @@ TextFile read_molecule_file(const std::string& path) {
   return is_binary_cif(bytes) ? TextFile{name, std::move(bytes)} : text_of_bytes(name, std::move(bytes));
 }
 
-void note_other_molecules(FileContents& contents, const ModelChoice& models) {
-  if (contents.models < 2 || models.all || models.number != 1) return;
-  contents.warnings.emplace_back(
-      fmt::format("{} molecules are in the file; the first is used, {} 2 takes the next, "
-                  "{} all unites them",
-                  with_thousands(contents.models), option_name("model"), option_name("model")));
-}
-
 const Reader& choose_reader(const TextFile& file) {
   const Reader* by_name = reader_by_name(lower_case_name(file.path));
   if (by_name && by_name->recognizes(file.text)) return *by_name;

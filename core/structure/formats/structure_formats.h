@@ -35,9 +35,10 @@ struct ModelChoice {
 struct FileContents {
   std::vector<Atom> atoms;                 ///< Atom::model says of which model
   std::vector<Bond> bonds;                 ///< those the file lists, of the first of these models or of all
-  std::vector<std::int32_t> fully_bonded;  ///< models of which the file lists all bonds
+  std::vector<std::int32_t> fully_bonded;  ///< models whose bonds are all listed by the file
   bool without_positions = false;          ///< a topology (PSF, prmtop): all positions are the origin
   std::size_t models = 0;                  ///< in the whole file
+  bool of_molecules = false;               ///< the models are molecules or poses, not states of one molecule
   std::size_t other_model_atoms = 0;
   FileRadii radii = FileRadii::none;
   std::string experiment;  ///< as Structure::experiment
@@ -77,9 +78,6 @@ std::string format_names();
 
 /// read_text_file, or, where a file is BinaryCIF, its bytes.
 TextFile read_molecule_file(const std::string& path);
-
-/// Tells, where the first of several molecules is taken, how the others are.
-void note_other_molecules(FileContents& contents, const ModelChoice& models);
 
 /// The reader of a file: the format of its name if its content may be that, else the one its content is.
 /// Throws InputError where the content is clearly another format than the name says, and where it is none.

@@ -90,6 +90,36 @@ TEST(SecondaryStructure, AChainThatIsCutHasTwoHelices) {
   EXPECT_EQ(letters(atoms), "-HHHHHH---HHHHH-");
 }
 
+// As of a file that is added to another: whatever another model has, a model has what it has alone.
+TEST(SecondaryStructure, IsThatOfEachModelAlone) {
+  const auto read_lines = [](bool listed) {
+    std::string text;
+    std::istringstream lines(test::read_bytes(kUbiquitinFile));
+    for (std::string line; std::getline(lines, line);)
+      if (listed || (!line.starts_with("HELIX") && !line.starts_with("SHEET"))) text += line + "\n";
+    return text;
+  };
+  const TemporaryFolder folder;
+  const std::string bare = folder.file("bare.pdb", read_lines(false)),
+                    whole = folder.file("whole.pdb", read_lines(true));
+  const auto kinds_of = [](const std::string& file, std::vector<std::string> added) {
+    ReadOptions options;
+    options.secondary_structure = true;
+    options.added = std::move(added);
+    std::vector<SecondaryStructure> kinds;
+    for (const Atom& atom : read_structure(file, options).atoms) kinds.push_back(atom.secondary);
+    return kinds;
+  };
+  const std::vector<SecondaryStructure> own = kinds_of(bare, {}), listed = kinds_of(whole, {});
+  EXPECT_NE(own, listed);
+  for (const auto& [first, second] : {std::pair(bare, bare), {bare, whole}, {whole, bare}}) {
+    std::vector<SecondaryStructure> expected = first == bare ? own : listed;
+    const std::vector<SecondaryStructure>& more = second == bare ? own : listed;
+    expected.insert(expected.end(), more.begin(), more.end());
+    EXPECT_EQ(kinds_of(first, {second}), expected) << first << " " << second;
+  }
+}
+
 TEST(SecondaryStructure, WhatAFileListsCounts) {
   const TemporaryFolder folder;
   std::istringstream lines(test::read_bytes(kUbiquitinFile));

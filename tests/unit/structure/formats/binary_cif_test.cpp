@@ -48,6 +48,29 @@ TEST(BinaryCif, NameAndPackingDoNotMatter) {
   EXPECT_THROW(read_bytes("a.pdb", three_atoms()), InputError);
 }
 
+TEST(BinaryCif, ExperimentAndConfidenceAreThoseOfMmcif) {
+  const std::vector<std::int8_t> one{0}, all{0, 0, 0};
+  std::vector<Json> columns;
+  for (const Json& known : atom_columns())
+    if (known.at("name") != "label_asym_id" && known.at("name") != "label_seq_id") columns.push_back(known);
+  columns.push_back(column("label_asym_id", strings("A", {0, 1}, all)));
+  columns.push_back(column("label_seq_id", strings("7", {0, 1}, all)));
+  const Structure structure = read_bytes(
+      "a.bcif",
+      binary_cif({category("_atom_site", 3, columns),
+                  category("_exptl", 1, {column("method", strings("SOLUTION NMR", {0, 12}, one))}),
+                  category("_ma_qa_metric", 1,
+                           {column("id", strings("1", {0, 1}, one)), column("type", strings("pLDDT", {0, 5}, one)),
+                            column("mode", strings("local", {0, 5}, one))}),
+                  category("_ma_qa_metric_local", 1,
+                           {column("metric_id", strings("1", {0, 1}, one)),
+                            column("metric_value", strings("87.5", {0, 4}, one)),
+                            column("label_asym_id", strings("A", {0, 1}, one)),
+                            column("label_seq_id", strings("7", {0, 1}, one))})}));
+  EXPECT_EQ(structure.experiment, "SOLUTION NMR");
+  EXPECT_EQ(structure.atoms.at(0).confidence, 87.5f);
+}
+
 TEST(BinaryCif, EntitiesAndAssembliesAreThoseOfMmcif) {
   const std::vector<std::int8_t> one{0};
   std::vector<Json> columns = atom_columns();
