@@ -25,7 +25,7 @@ constexpr auto kTable = of_commands(
             "aligned by sequence; the number of atoms and the RMSD are printed")
             .in(kInput, kShared)
             .needs("molecule.add")
-            .of(kForMolecules | for_panels),
+            .of(kForMolecules | for_panels | for_morph),
         text("molecule.model", "--model", "N|all", "Model to read, from 1; all: all models as one molecule")
             .initially("1")
             .in(kInput, kShared),
@@ -38,7 +38,8 @@ constexpr auto kTable = of_commands(
         text("molecule.select", "--select", "EXPR",
              "Use only these atoms, such as 'chain A and resid 10-50'. See meniscus help selections")
             .in(kInput, kShared)
-            .in_short_help(),
+            .in_short_help()
+            .of(kForMolecules | for_morph),
         flag("molecule.keep_water", "--keep-water", "Use water molecules, too").in(kInput, kShared),
         flag("molecule.keep_ions", "--keep-ions", "Use free ions, too: lone metal and halogen atoms")
             .in(kInput, kShared),
@@ -53,11 +54,11 @@ constexpr auto kTable = of_commands(
             .one_of("full|summary|none")
             .initially("summary")
             .in(kInput, in_bundle)
-            .of(kForMolecules | for_panels),
+            .of(kForMolecules | for_panels | for_morph),
         flag("molecule.quiet", "-q,--quiet", "Print errors only")
             .in(kInput, in_bundle)
             .in_short_help()
-            .of(kForMolecules | for_bench | for_panels),
+            .of(kForMolecules | for_bench | for_panels | for_morph),
 
         word("molecule.hydrogens", "--hydrogens", "WORD",
              "Hydrogens: keep, drop or auto. auto: drop them if the radii of heavy atoms include them")

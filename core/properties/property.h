@@ -51,7 +51,8 @@ enum CommandBit : unsigned {
   for_atoms = 256,
   for_info = 512,
   for_bench = 1024,
-  for_panels = 2048
+  for_panels = 2048,
+  for_morph = 4096
 };
 inline constexpr unsigned kForExports = for_povray | for_blender | for_path_tracers;  ///< of figures
 inline constexpr unsigned kForFigures = for_render | for_preview | kForExports;

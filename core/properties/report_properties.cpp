@@ -73,9 +73,16 @@ constexpr auto kTable = std::to_array<Property>({
          "See all panels with the camera of the first. Unless its scene names a camera, it shows what is in any panel")
         .in(kPanels)
         .in_short_help(),
-    flag("panels.one_scale", "--one-scale",
-         "Colour all panels by one range: from the least number of any to the greatest")
+    flag("panels.one_scale", "--one-scale", "Colour all panels by one range, from the least number to the greatest")
         .in(kPanels)
+        .in_short_help(),
+
+    file("morph.files", "MOLECULE", "", "Structures of one molecule, or of alike ones, in the order of the path")
+        .in("Path"),
+    count("morph.steps", "--steps", "N", "Number of steps from each structure to the next")
+        .from(1, 100000)
+        .initially("50")
+        .in("Path")
         .in_short_help(),
 
     count("bench.runs", "--runs", "N", "Number of timed runs; the median is shown")

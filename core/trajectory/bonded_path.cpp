@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
+#include <queue>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -12,12 +15,6 @@
 
 namespace meniscus {
 namespace {
-
-/// Two atoms and how far apart they are to be, Å.
-struct Distance {
-  std::uint32_t a, b;
-  double wanted;
-};
 
 std::vector<Distance> distances_between(std::span<const Bond> pairs, std::span<const glm::dvec3> from,
                                         std::span<const glm::dvec3> to, double share) {
@@ -46,6 +43,62 @@ double correct_all(std::span<const Distance> distances, double part, std::vector
   return most;
 }
 
+/// Six times the volume between three bonds of an atom, Å³; its sign tells the hand.
+double volume_of(const BondNetwork::Corner& corner, std::span<const glm::dvec3> x) {
+  const glm::dvec3& from = x[corner[0]];
+  return glm::dot(x[corner[1]] - from, glm::cross(x[corner[2]] - from, x[corner[3]] - from));
+}
+
+/// Moves the atoms of a corner along the gradients of its volume, as SHAKE does along lines.
+double correct_corner(const BondNetwork::Corner& corner, double wanted, std::vector<glm::dvec3>& x) {
+  const glm::dvec3 one = x[corner[1]] - x[corner[0]], two = x[corner[2]] - x[corner[0]],
+                   three = x[corner[3]] - x[corner[0]];
+  const glm::dvec3 of_one = glm::cross(two, three), of_two = glm::cross(three, one), of_three = glm::cross(one, two),
+                   of_apex = -(of_one + of_two + of_three);
+  const double error = glm::dot(one, of_one) - wanted, square = glm::dot(of_one, of_one) + glm::dot(of_two, of_two) +
+                                                                glm::dot(of_three, of_three) +
+                                                                glm::dot(of_apex, of_apex);
+  if (square < 1e-6) return 0.0;
+  const double step = -error / square;
+  x[corner[0]] += step * of_apex;
+  x[corner[1]] += step * of_one;
+  x[corner[2]] += step * of_two;
+  x[corner[3]] += step * of_three;
+  return std::abs(error) / std::sqrt(square);
+}
+
+/// A share of a turn, which may be longer than half a circle.
+glm::dquat part_of(const glm::dquat& turn, double share) {
+  const glm::dvec3 axis(turn.x, turn.y, turn.z);
+  const double sine = glm::length(axis), half = std::atan2(sine, turn.w);
+  if (sine < 1e-12) return {1.0, 0.0, 0.0, 0.0};
+  return {std::cos(share * half), std::sin(share * half) / sine * axis};
+}
+
+/// Whether an atom and its neighbours lie in one line, so that no turn about it can be told from another.
+bool is_line(std::uint32_t atom, std::span<const std::uint32_t> around, std::span<const glm::dvec3> x) {
+  constexpr double kSine = 1e-3;
+  const glm::dvec3 first = x[around.front()] - x[atom];
+  return std::ranges::all_of(around, [&](std::uint32_t b) {
+    const glm::dvec3 other = x[b] - x[atom];
+    return glm::length(glm::cross(first, other)) <= kSine * glm::length(first) * glm::length(other);
+  });
+}
+
+/// Of an atom and its neighbours; of a line the least that brings one direction to the other.
+glm::dquat turn_of(std::uint32_t atom, std::span<const std::uint32_t> around, std::span<const glm::dvec3> from,
+                   std::span<const glm::dvec3> to) {
+  if (!is_line(atom, around, from) && !is_line(atom, around, to)) {
+    std::vector<std::uint32_t> group(around.begin(), around.end());
+    group.push_back(atom);
+    return glm::normalize(glm::quat_cast(superposition(to, from, group).rotation));
+  }
+  const glm::dvec3 begin = from[around.front()] - from[atom], end = to[around.front()] - to[atom];
+  const double lengths = glm::length(begin) * glm::length(end);
+  const glm::dquat twice(lengths + glm::dot(begin, end), glm::cross(begin, end));
+  return glm::length(twice) > 1e-6 * lengths ? glm::normalize(twice) : glm::dquat(1, 0, 0, 0);
+}
+
 void sort_once(std::vector<Bond>& pairs) {
   std::ranges::sort(pairs);
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
@@ -58,6 +111,22 @@ BondNetwork::BondNetwork(std::size_t atoms, std::span<const Bond> bonds, std::sp
   for (const std::uint32_t a : held) is_held[a] = true;
   for (const auto& [a, b] : bonds)
     if (is_held[a] && is_held[b] && a != b) bonds_.push_back({std::min(a, b), std::max(a, b)});
+  list_neighbors(atoms);
+  for (std::uint32_t a = 0; a < atoms; ++a) {
+    const std::span<const std::uint32_t> around = neighbors(a);
+    for (std::size_t m = 0; m < around.size(); ++m)
+      for (std::size_t n = m + 1; n < around.size(); ++n)
+        angles_.push_back({std::min(around[m], around[n]), std::max(around[m], around[n])});
+    for (std::size_t n = 2; n < around.size(); ++n) corners_.push_back({a, around[n - 2], around[n - 1], around[n]});
+  }
+  sort_once(angles_);
+}
+
+BondNetwork::BondNetwork(std::size_t atoms, std::vector<Bond> pairs) : bonds_(std::move(pairs)) {
+  list_neighbors(atoms);
+}
+
+void BondNetwork::list_neighbors(std::size_t atoms) {
   sort_once(bonds_);
   std::vector<std::vector<std::uint32_t>> neighbors(atoms);
   for (const auto& [a, b] : bonds_) {
@@ -66,77 +135,120 @@ BondNetwork::BondNetwork(std::size_t atoms, std::span<const Bond> bonds, std::sp
   }
   begin_.push_back(0);
   for (const std::vector<std::uint32_t>& around : neighbors) {
-    for (std::size_t m = 0; m < around.size(); ++m)
-      for (std::size_t n = m + 1; n < around.size(); ++n)
-        angles_.push_back({std::min(around[m], around[n]), std::max(around[m], around[n])});
     neighbor_.insert(neighbor_.end(), around.begin(), around.end());
     begin_.push_back(neighbor_.size());
   }
-  sort_once(angles_);
 }
 
 BondedPath::BondedPath(const BondNetwork& network, std::vector<glm::dvec3> from, std::vector<glm::dvec3> to)
     : network_(network), from_(std::move(from)), to_(std::move(to)), turns_(network.atoms(), glm::dquat(1, 0, 0, 0)) {
-  std::vector<std::uint32_t> group;
-  for (std::uint32_t a = 0; a < turns_.size(); ++a) {
-    const std::span<const std::uint32_t> around = network.neighbors(a);
-    if (around.size() < 2) continue;
-    group.assign(around.begin(), around.end());
-    group.push_back(a);
-    turns_[a] = glm::normalize(glm::quat_cast(superposition(to_, from_, group).rotation));
-    if (turns_[a].w < 0.0) turns_[a] = -turns_[a];  // the shorter way
-  }
+  for (std::uint32_t a = 0; a < turns_.size(); ++a)
+    if (network.neighbors(a).size() > 1) turns_[a] = turn_of(a, network.neighbors(a), from_, to_);
   // An atom at the end of a chain turns with the one that it hangs on.
   for (std::uint32_t a = 0; a < turns_.size(); ++a)
     if (network.neighbors(a).size() == 1) turns_[a] = turns_[network.neighbors(a).front()];
+  turn_alike();
+}
+
+/// A turn by 170° and one by 190° about the same axis are alike, and must not go opposite ways because half a circle is
+/// between them. Turns of up to 120° go the shorter way; then each other atom turns as the most similar of those
+/// neighbours that have been decided.
+void BondedPath::turn_alike() {
+  constexpr double kShort = 0.5;  // cosine of half a turn by 120°
+  std::vector<std::uint32_t> by_turn(turns_.size());
+  std::iota(by_turn.begin(), by_turn.end(), 0u);
+  std::ranges::stable_sort(by_turn, std::greater{}, [this](std::uint32_t a) { return std::abs(turns_[a].w); });
+  std::vector<bool> is_decided(turns_.size(), false);
+  struct Step {
+    double likeness;
+    std::uint32_t from, to;
+    bool operator<(const Step& other) const { return likeness < other.likeness; }
+  };
+  std::priority_queue<Step> steps;
+  const auto decide = [&](std::uint32_t a, bool is_opposite) {
+    if (is_opposite) turns_[a] = -turns_[a];
+    is_decided[a] = true;
+    for (const std::uint32_t b : network_.neighbors(a))
+      if (!is_decided[b]) steps.push({std::abs(glm::dot(turns_[a], turns_[b])), a, b});
+  };
+  for (const std::uint32_t first : by_turn) {
+    if (is_decided[first]) continue;
+    decide(first, turns_[first].w < 0.0);
+    while (!steps.empty()) {
+      const Step step = steps.top();
+      steps.pop();
+      if (is_decided[step.to]) continue;
+      const double w = turns_[step.to].w;
+      decide(step.to, std::abs(w) >= kShort ? w < 0.0 : glm::dot(turns_[step.from], turns_[step.to]) < 0.0);
+    }
+  }
 }
 
 void BondedPath::correct(double share, std::vector<glm::dvec3>& positions) const {
-  turn_groups(share, positions);
-  hold_lengths(share, positions);
+  constexpr double kStay = 0.05;
+  constexpr int kRounds = 60;
+  turn_groups(share, straight(share), kStay, kRounds, positions);
+  hold_lengths(share, {}, positions);
 }
 
-/// By how much a bond that turns differs from one on a straight way is what two bonded atoms are moved apart; the least
-/// squares of what is left of that, and of all moves, by Gauss and Seidel.
-void BondedPath::turn_groups(double share, std::vector<glm::dvec3>& positions) const {
-  constexpr int kRounds = 60;
-  constexpr double kStay = 0.05;  // weight of a move beside that of a bond
-  const glm::dquat still(1, 0, 0, 0);
-  std::vector<glm::dquat> there(turns_.size()), back(turns_.size());
+std::vector<glm::dvec3> BondedPath::straight(double share) const {
+  std::vector<glm::dvec3> positions(from_.size());
+  for (std::size_t a = 0; a < positions.size(); ++a) positions[a] = (1.0 - share) * from_[a] + share * to_[a];
+  return positions;
+}
+
+void BondedPath::turn_groups(double share, const std::vector<glm::dvec3>& instead_of, double stay, int rounds,
+                             std::vector<glm::dvec3>& positions) const {
+  std::vector<glm::dmat3> there(turns_.size()), back(turns_.size());
   for (std::size_t a = 0; a < turns_.size(); ++a) {
-    there[a] = glm::slerp(still, turns_[a], share);
-    back[a] = there[a] * glm::conjugate(turns_[a]);
+    const glm::dquat turn = part_of(turns_[a], share);
+    there[a] = glm::mat3_cast(turn);
+    back[a] = glm::mat3_cast(turn * glm::conjugate(turns_[a]));
   }
-  const auto bend = [&](std::uint32_t a, std::uint32_t b) {
-    const glm::dvec3 first = from_[b] - from_[a], last = to_[b] - to_[a];
-    const auto turned = [&](std::uint32_t atom) {
-      return (1.0 - share) * (there[atom] * first - first) + share * (back[atom] * last - last);
-    };
-    return 0.5 * (turned(a) + turned(b));
+  // By how much the vector from b to a is to change.
+  const auto bend = [&](std::uint32_t b, std::uint32_t a) {
+    const glm::dvec3 first = 0.5 * (1.0 - share) * (from_[a] - from_[b]), last = 0.5 * share * (to_[a] - to_[b]);
+    return (there[a] + there[b]) * first + (back[a] + back[b]) * last - (instead_of[a] - instead_of[b]);
   };
   std::vector<glm::dvec3> bends, moves(positions.size(), glm::dvec3(0.0));
   for (std::uint32_t a = 0; a < network_.atoms(); ++a)
     for (const std::uint32_t b : network_.neighbors(a)) bends.push_back(bend(b, a));
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     std::size_t place = 0;
     for (std::uint32_t a = 0; a < network_.atoms(); ++a) {
       const std::span<const std::uint32_t> around = network_.neighbors(a);
       if (around.empty()) continue;
       glm::dvec3 sum(0.0);
       for (const std::uint32_t b : around) sum += moves[b] + bends[place++];
-      moves[a] = sum / (static_cast<double>(around.size()) + kStay);
+      moves[a] = sum / (static_cast<double>(around.size()) + stay);
     }
   }
   for (std::size_t a = 0; a < positions.size(); ++a) positions[a] += moves[a];
 }
 
-void BondedPath::hold_lengths(double share, std::vector<glm::dvec3>& positions) const {
+void BondedPath::hold_lengths(double share, std::span<const Distance> apart, std::vector<glm::dvec3>& positions) const {
   constexpr int kRounds = 100, kLastRounds = 200;
   constexpr double kClose = 1e-3, kEnough = 0.01, kAngles = 0.5;  // Å, Å, part of a correction
   const std::vector<Distance> bonds = distances_between(network_.bonds(), from_, to_, share),
                               angles = distances_between(network_.angles(), from_, to_, share);
+  std::vector<double> volumes;
+  for (const BondNetwork::Corner& corner : network_.corners())
+    volumes.push_back((1.0 - share) * volume_of(corner, from_) + share * volume_of(corner, to_));
+  const auto shape = [&] {
+    double wrong = 0.0;
+    for (std::size_t n = 0; n < volumes.size(); ++n)
+      wrong = std::max(wrong, correct_corner(network_.corners()[n], volumes[n], positions));
+    return wrong;
+  };
+  const auto part = [&] {
+    double wrong = 0.0;
+    for (const Distance& distance : apart)
+      if (glm::distance(positions[distance.a], positions[distance.b]) < distance.wanted)
+        wrong = std::max(wrong, correct_one(distance, 1.0, positions));
+    return wrong;
+  };
   for (int round = 0; round < kRounds; ++round) {
-    const double wrong = correct_all(angles, kAngles, positions);
+    const double wrong = std::max({part(), shape(), correct_all(angles, kAngles, positions)});
     if (std::max(wrong, correct_all(bonds, 1.0, positions)) < kClose) return;
   }
   for (int round = 0; round < kLastRounds; ++round)

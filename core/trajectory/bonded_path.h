@@ -2,6 +2,7 @@
 // The way of bonded atoms from one frame to the next, on which groups turn and bonds keep their lengths.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -19,19 +20,33 @@ class BondNetwork {
  public:
   /// atoms: how many there are. Bonds with both ends in `held` count.
   BondNetwork(std::size_t atoms, std::span<const Bond> bonds, std::span<const std::uint32_t> held);
+  /// Of any pairs of atoms that are near each other; without angles.
+  BondNetwork(std::size_t atoms, std::vector<Bond> pairs);
 
   std::span<const Bond> bonds() const { return bonds_; }
   /// Of each angle between two bonds both outer atoms.
   std::span<const Bond> angles() const { return angles_; }
+  /// An atom and three of its neighbours, whose order on its left or right hand is to stay.
+  using Corner = std::array<std::uint32_t, 4>;
+  std::span<const Corner> corners() const { return corners_; }
   std::size_t atoms() const { return begin_.size() - 1; }
   std::span<const std::uint32_t> neighbors(std::uint32_t atom) const {
     return std::span(neighbor_).subspan(begin_[atom], begin_[atom + 1] - begin_[atom]);
   }
 
  private:
+  void list_neighbors(std::size_t atoms);
+
   std::vector<Bond> bonds_, angles_;
+  std::vector<Corner> corners_;
   std::vector<std::size_t> begin_;  ///< per atom, of its neighbours, and the end
   std::vector<std::uint32_t> neighbor_;
+};
+
+/// Two atoms and how far apart they are to be, Å.
+struct Distance {
+  std::uint32_t a, b;
+  double wanted;
 };
 
 /// On straight lines or curves from frame to frame atoms that turn, such as those of a methyl group, take short cuts.
@@ -48,9 +63,19 @@ class BondedPath {
   /// lengths wherever 300 rounds suffice.
   void correct(double share, std::vector<glm::dvec3>& positions) const;
 
+  /// Moves atoms so that the vectors between neighbours are those of groups that turn, instead of those that they have
+  /// in `instead_of`. stay: weight of the squared moves beside those of vectors; rounds: of Gauss and Seidel.
+  void turn_groups(double share, const std::vector<glm::dvec3>& instead_of, double stay, int rounds,
+                   std::vector<glm::dvec3>& positions) const;
+  /// Moves atoms until bonds, angles and volumes of corners are as they are to be, and none of `apart` are nearer than
+  /// they are to be.
+  void hold_lengths(double share, std::span<const Distance> apart, std::vector<glm::dvec3>& positions) const;
+
+  /// Positions on straight ways between both frames.
+  std::vector<glm::dvec3> straight(double share) const;
+
  private:
-  void turn_groups(double share, std::vector<glm::dvec3>& positions) const;
-  void hold_lengths(double share, std::vector<glm::dvec3>& positions) const;
+  void turn_alike();
 
   const BondNetwork& network_;
   std::vector<glm::dvec3> from_, to_;

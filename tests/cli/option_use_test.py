@@ -96,6 +96,7 @@ INPUTS = {
     "a.json": json.dumps({"meniscus_scene": 1, "molecule": {"file": "one.pdb"}, "objects": [{"representation": "surface", "color": "bfactor"}]}),
     "b.json": json.dumps({"meniscus_scene": 1, "molecule": {"file": "moved.pdb", "select": "chain B"}, "objects": [{"representation": "surface", "color": "bfactor"}]}),
     "chains.json": json.dumps({"meniscus_scene": 1, "molecule": {"file": "one.pdb"}, "objects": [{"representation": "surface", "color": "chain"}]}),
+    "bent.pdb": molecule(1).replace("   2.000  -0.800   1.200", "   2.000  -0.900   0.700"),
     "look.jsonl": "", "other.jsonl": '{"command": "color", "scheme": "chain"}\n',
 }
 # What a preview is asked for: its state and a picture of each frame.
@@ -138,6 +139,7 @@ CONTEXTS = {
     "panels scale": ["{a.json}", "{b.json}", "--one-scale"],
     "panels length": ["{a.json}", "{b.json}", "--width", "20mm"], "panels chains": ["{chains.json}", "--legend"],
     "panels camera": ["{a.json}", "{b.json}", "--one-camera"],
+    "path": ["{one.pdb}", "{bent.pdb}"],
     "bundle": [], "bundled film": ["--film", "f.mp4"], "": [],
 }
 
@@ -223,6 +225,8 @@ OWN_ROWS = {
         ("--legend-title", "Heat", "panels legend"), ("--legend-size", "7", "panels legend"),
         ("--legend-place", "below", "panels legend"), ("--legend-name", "A=Alpha", "panels chains"),
         ("--letter-size", "7", "panels"), ("--letter-color", "red", "panels"))},
+    ("morph", "--select"): ("chain A", "path"), ("morph", "--superpose-on"): ("name CB or backbone and chain A", "path"),
+    ("morph", "--steps"): ("3", "path"),
     **{("farm bundle", option): (value, "bundled film")
        for option, value in (("--fps", "10"), ("--codec", "h265"), ("--crf", "40"), ("--bits", "10"), ("--chroma", "444"))},
 }
@@ -248,7 +252,7 @@ EXCLUDES = {"--tolerance-pixels": "--tolerance", "--density": "--tolerance", "--
 def output_of(command, context):
     of_run = "--frames" in CONTEXTS[context] or "--trajectory" in CONTEXTS[context]
     return {"render": "a.mp4" if context == "film" else "a.exr" if context == "exr" else "a_#.png" if of_run else "a.png", "export mesh": "a_#.glb" if of_run else "a.glb",
-            "panels": "a.png", "export ply": "a_#.ply" if of_run else "a.ply", "export atoms": "a.atoms", "export blender": "a" if of_run else "a.mns"}.get(command, "a")
+            "panels": "a.png", "morph": "a.pdb", "export ply": "a_#.ply" if of_run else "a.ply", "export atoms": "a.atoms", "export blender": "a" if of_run else "a.mns"}.get(command, "a")
 
 
 def options_of(command):
@@ -317,11 +321,11 @@ class OptionUse(unittest.TestCase):
         words = [filled(word) for word in CONTEXTS[context]] + own
         if command == "farm bundle":
             words = ["b", *words] if option == "--chunk-minutes" else ["b", "--chunk-frames", "2", *words]
-        elif command != "info" and command != "formats" and "--device" not in words:
+        elif command not in ("info", "formats", "morph") and "--device" not in words:
             words += ["--device", "cpu", *(["--threads", "1"] if command != "preview" else [])]
         if command == "preview":
             words += ["--serve", "--commands", str(self.folder / "look.jsonl")]
-        if command in ("render", "panels") or command.startswith("export"):
+        if command in ("render", "panels", "morph") or command.startswith("export"):
             words += ["-o", output_of(command, context)]
         tail = ["--", "render", str(self.folder / "run.pdb"), "--frames", "all", "--size", "64x48"] if command == "farm bundle" else []
         asked = [option] if value is None else [option, filled(value)]
@@ -337,7 +341,7 @@ class OptionUse(unittest.TestCase):
                     continue
                 value, own = OWN_ROWS.get((command, option)) or ROWS[option]
                 for context in dict.fromkeys([own, *contexts]):
-                    if context is None or (context != own and command in ("formats", "farm bundle", "pockets", "panels")):
+                    if context is None or (context != own and command in ("formats", "farm bundle", "pockets", "panels", "morph")):
                         continue
                     if any(word.startswith("--") and word not in options for word in CONTEXTS[context]):
                         continue
@@ -382,7 +386,7 @@ class OptionUse(unittest.TestCase):
                 self.assertTrue(more.differs_from(base) or any(option in line for line in said), more.err)
 
 
-TESTED = ["surface", "pockets", "info", "render", "panels", "preview", "export povray", "export blender", "export mitsuba", "export pbrt",
+TESTED = ["surface", "pockets", "info", "render", "panels", "morph", "preview", "export povray", "export blender", "export mitsuba", "export pbrt",
           "export mesh", "export ply", "export atoms", "formats", "farm bundle"]
 # What it is for is nothing that the command can do, or not with an output of that name.
 REFUSED = {("pockets", "--instances"), ("render", "--frames"), ("render", "--trajectory"),
