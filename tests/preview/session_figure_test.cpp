@@ -384,6 +384,25 @@ TEST_F(FigureSession, WhatItCannotShowIsRefusedInOneLine) {
 }
 
 TEST_F(FigureSession, SchemesThatAreOfferedAreThoseItCanShow) {
+// What comes beside the surface turns nothing, and a later change of the size neither.
+TEST_F(FigureSession, ShapesBesideTheSurfaceDoNotTurnTheMolecule) {
+  const Json before = apply(R"({"command":"state"})")["camera"];
+  const auto camera = [&] { return apply(R"({"command":"state"})")["camera"]; };
+  for (const char* command :
+       {R"({"command":"represent","as":"sticks","selection":"ligand"})",
+        R"({"command":"object","object":{"selection":"ligand"}})", R"({"command":"remove","of":"objects"})"}) {
+    expect_ok(command);
+    EXPECT_EQ(camera(), before) << command;
+  }
+  const auto side = [](const Json& seen) {
+    const auto point = [&](const char* key) { return glm::dvec3(seen[key][0], seen[key][1], seen[key][2]); };
+    return glm::normalize(point("target") - point("position"));
+  };
+  expect_ok(R"({"command":"resize","width":90,"height":60})");
+  EXPECT_NE(camera(), before) << "all is in view again";
+  EXPECT_LT(glm::length(side(camera()) - side(before)), 1e-9);
+}
+
   const auto offered = [](PreviewSession& session) {
     std::set<std::string> words;
     const Json choices = session.apply({{"command", "choices"}});
