@@ -95,7 +95,7 @@ void Panel::coloring() {
   const Json& schemes = link_.choices()["schemes"];
   std::vector<std::string> words;
   for (const Json& one : schemes)
-    if (one["word"] != "kind") words.push_back(one["word"]);  // they have a switch of their own
+    if (one["word"] != "kind" && !one.contains("lacks")) words.push_back(one["word"]);  // kinds have a switch
   if (const auto word = chosen("##scheme", scheme, words)) link_.send({{"command", "color"}, {"scheme", *word}});
   if (const Json offered = scheme_of(schemes, scheme); offered.is_object() && offered["has_map"] == true) {
     label("Map");

@@ -217,8 +217,8 @@ function apply_state(next) {
 function fill_choices(choices) {
   if (!choices.ok) return;
   actions = choices.actions;
-  for (const { word, has_map, description } of choices.schemes) {
-    const option = new Option(word, word);
+  for (const { word, has_map, description, lacks } of choices.schemes) {
+    const option = new Option(lacks ? `${word}: the file ${lacks}` : word, word);
     option.title = description;
     $("scheme").add(option);
     if (has_map) numbered.add(word);
@@ -256,6 +256,7 @@ $("scheme").addEventListener("change", () => { $("range").value = ""; set_color(
 $("range").addEventListener("change", set_color);
 $("preset").addEventListener("change", (event) => command("preset", { preset: event.target.value }));
 $("map").addEventListener("change", set_color);
+    option.disabled = Boolean(lacks);
 $("kinds").addEventListener("change", (event) => command("patch_kinds", { on: event.target.checked }));
 $("projection").addEventListener("change", (event) => command("projection", { projection: event.target.value }));
 $("background").addEventListener("input", (event) => command("look", { background: event.target.value }));
