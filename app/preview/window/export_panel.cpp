@@ -111,9 +111,12 @@ void ExportPanel::show_reply(const SessionReply& reply, double time) {
   const std::string word = command_word(reply.command);
   if (question_.take(reply, time) && question_.running()) return;
   if (word == "export_state" && !reply.reply.contains("path")) return;
-  line_is_fault_ = !reply.reply.value("ok", false) || reply.reply.contains("error");
-  if (line_is_fault_) line_ = sentence_of(reply.reply.value("error", "the command failed"), word);
-  if (line_is_fault_) return;
+  const bool failed = !reply.reply.value("ok", false) || reply.reply.contains("error");
+  if (failed) line_ = sentence_of(reply.reply.value("error", "the command failed"), word);
+  if (failed) line_is_fault_ = true;
+  // What the window sends by itself clears nothing.
+  if (failed || word == "end_step" || word == "resize" || word == "next_frame") return;
+  if (std::exchange(line_is_fault_, false)) line_.clear();
   if (word == "export" || word == "export_state" || word == "save") {
     line_ = "written: " + reply.reply.value("path", std::string());
     if (reply.reply.contains("note")) line_ += "; " + reply.reply["note"].get<std::string>();

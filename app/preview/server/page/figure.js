@@ -35,7 +35,8 @@ function plane_range(plane, state) {
   return { axis, sign, min, max, step, value: Number(bound) };
 }
 
-/// Shows what the figure has, each with its controls; command(word, values) changes it. Returns show(state).
+/// Shows what the figure has, each with its controls; command(word, values) changes it. Returns show(state), and
+/// forget_fault(), which takes back what was said of the atoms.
 export function figure_controls(command, say) {
   let known = "";  // what the chips show: they are made anew when there are others, not when a slider moves
 
@@ -163,7 +164,7 @@ export function figure_controls(command, say) {
     });
   }
 
-  return function show(state) {
+  function show(state) {
     latest = state;
     const shape = JSON.stringify([state.show, state.representations, state.objects.map((o) => [o.representation, o.selection]), state.color.rules, state.opacities.map((o) => o.selection),
       state.cuts.map((plane) => plane.match(kPlane)?.slice(1, 3) ?? plane), state.views]);
@@ -191,5 +192,7 @@ export function figure_controls(command, say) {
     $("legend-place").value = state.legend.place;
     $("legend-fault").textContent = state.legend.fault ?? "";
     $("legend-fault").hidden = !state.legend.fault;
-  };
+  }
+
+  return { show, forget_fault: () => fault("") };
 }

@@ -58,6 +58,7 @@ async function command(word, values = {}, refuse = (text) => say(text, true)) {
   note_rest();
   if (!reply.ok && reply.error) refuse(sentence_of(reply.error, word));
   if (reply.ok && reply.revision === undefined && changes_state.has(word))
+  else if (reply.ok && word !== "resize") forget_errors();
     server.ask({ command: "state" }).then((next) => { if (next.ok) apply_state(next); });  // there is no new picture
   return reply.ok ? reply : null;
 }
@@ -98,6 +99,13 @@ function end(text, is_error) {
   say_anew("");
   say(text, is_error, true);
   $("controls").disabled = true;
+}
+
+/// What was wrong with an earlier command, once another one has worked.
+function forget_errors() {
+  const { classList } = $("message");
+  if (classList.contains("error") && !classList.contains("stays")) $("message").hidden = true;
+  figure.forget_fault();
 }
 
 /// In place of one that stays.
@@ -170,7 +178,7 @@ new ResizeObserver(fit).observe(stage);
 
 // State
 
-const show_figure = figure_controls(command, (text) => say(text));
+const figure = figure_controls(command, (text) => say(text));
 
 /// Unless somebody is at it: what is typed, or dragged ahead of the pictures, stays.
 function set_value(element, value) {
@@ -195,7 +203,7 @@ function apply_state(next) {
   set_value($("range"), next.color.range ?? "");
   $("map").options[0].text = next.color.own_map ? "the file's" : "its own";
   set_value($("preset"), next.preset);
-  show_figure(next);
+  figure.show(next);
   take_wishes(next);
   $("kinds").checked = next.patch_kinds;
   $("kinds-key").hidden = !(next.patch_kinds || next.color.scheme === "kind");
