@@ -70,6 +70,7 @@ std::vector<Command> all_commands() {
       {"save", {"path", "width", "height", "samples", "transparent", "force"}, Effect::none, save_scene},
       {"open", {"path"}, Effect::edit, open_scene},
       {"render_command", {"width", "height", "samples", "transparent"}, Effect::none, render_command},
+      {"scene", {"width", "height", "samples", "transparent"}, Effect::none, tell_scene},
       {"stats", {}, Effect::none, tell_stats},
       {"state", {}, Effect::none, tell_state},
       {"choices", {}, Effect::none, tell_choices},

@@ -92,7 +92,7 @@ Reducer set_color, paint, set_patch_kinds, set_opacity, set_film_opacity, set_lo
 Reducer undo, redo, end_step, quit;                                            // commands.cpp
 Translator press;                                                              // commands.cpp
 Service tell_stats, tell_choices, pick;                                        // question_commands.cpp
-Service export_view, export_state, cancel_export, save_scene, render_command;  // export_commands.cpp
+Service export_view, export_state, cancel_export, save_scene, tell_scene, render_command;  // export_commands.cpp
 Reducer open_scene;                                                            // export_commands.cpp
 
 }  // namespace meniscus

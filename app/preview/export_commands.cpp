@@ -189,4 +189,8 @@ Outcome open_scene(const CommandReader& command, PreviewState state, const Surro
   return {std::move(state), renewal, {{"path", (exporter.folder / name).string()}}, true};
 }
 
+Json tell_scene(const CommandReader& command, const Surroundings& around) {
+  return {{"text", scene_of(command, around)}};
+}
+
 }  // namespace meniscus

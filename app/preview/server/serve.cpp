@@ -54,8 +54,8 @@ class JpegEncoder {
   void* compressor_;
 };
 
-/// The same pixels as PNG, nothing lost, lightly compressed.
-std::vector<std::uint8_t> png_of(std::span<const std::uint8_t> rgba, glm::ivec2 size) {
+/// The same pixels as PNG, nothing lost, lightly compressed. scene: that it is of; empty: not said.
+std::vector<std::uint8_t> png_of(std::span<const std::uint8_t> rgba, glm::ivec2 size, std::string scene) {
   ImageToEncode image;
   image.format = "png";
   image.width = size.x;
@@ -63,6 +63,7 @@ std::vector<std::uint8_t> png_of(std::span<const std::uint8_t> rgba, glm::ivec2 
   image.channels = {"R", "G", "B"};
   image.color_space = "sRGB";
   image.png_level = 1;  // of 9; more takes longer for a little less
+  image.scene = std::move(scene);
   return encode_png(image, rgba, 4);
 }
 
@@ -162,7 +163,7 @@ class ServedSession {
     const auto begin = Clock::now();
     const bool full = quality == Quality::full;
     picture_.bytes =
-        std::make_shared<const std::vector<std::uint8_t>>(full ? png_of(rgba, size) : jpeg_.encode(rgba, size));
+        std::make_shared<const std::vector<std::uint8_t>>(full ? png_of(rgba, size, scene()) : jpeg_.encode(rgba, size));
     const std::chrono::duration<double, std::milli> elapsed = Clock::now() - begin;
     ++picture_.number;
     picture_.revision = session_.state().revision;
@@ -178,6 +179,17 @@ class ServedSession {
   Json question(const char* word) { return session_.apply({{"command", word}}); }
 
   std::optional<Clock::time_point> next_deadline() const {
+  /// Of the picture as it is shown.
+  std::string scene() {
+    const PreviewState& state = session_.state();
+    const Json asked{{"command", "scene"},
+                     {"width", state.size.x},
+                     {"height", state.size.y},
+                     {"samples", state.samples},
+                     {"transparent", false}};
+    return session_.apply(asked).value("text", "");
+  }
+
     std::optional<Clock::time_point> deadline;
     if (waiting_.empty()) return deadline;
     const bool drawable = view_.fault().empty();
