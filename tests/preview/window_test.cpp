@@ -305,7 +305,7 @@ TEST_F(WindowTest, HasMapsPaintAndThePaceOfFrames) {
   click("paint");
   ASSERT_TRUE(happens([&] { return recorded("paint").size() == 1; }));
   EXPECT_EQ(recorded("paint")[0]["color"], "#e69f00");
-  screen_.act({"mousemove", "1100", "600", "click", "--repeat", "40", "--delay", "10", "5"});
+  screen_.act({"mousemove", "1100", "300", "click", "--repeat", "40", "--delay", "10", "5"});
   click("##fps");
   ASSERT_TRUE(happens([&] { return !recorded("pause").empty(); })) << "the pace, before it plays";
   const Json pace = recorded("pause").back()["fps"];

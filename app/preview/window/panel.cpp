@@ -26,6 +26,7 @@ using Json = nlohmann::json;
 
 constexpr float kLargestSliderProbe = 10.0f;  // Å; larger ones can be typed
 constexpr float kFooterLines = 2.3f;          // room for a fault
+constexpr float kMostOfWrite = 0.45f;         // of the window's height
 
 /// The scheme of this word; null: one that is not to be chosen.
 Json scheme_of(const Json& schemes, const std::string& word) {
@@ -43,9 +44,18 @@ void Panel::draw(float em) {
   ImGui::Begin("panel", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove);
   ImGui::PopStyleVar();
   const float footer = kFooterLines * ImGui::GetTextLineHeightWithSpacing();
-  ImGui::BeginChild("widgets", {0.0f, -footer});
+  // What writes is always in sight; on a small screen it scrolls, too.
+  const float write = link_.has_state() ? std::min(write_height_, kMostOfWrite * window.y) : 0.0f;
+  ImGui::BeginChild("widgets", {0.0f, -footer - write});
   if (link_.has_state()) widgets();
   ImGui::EndChild();
+  if (link_.has_state()) {
+    ImGui::BeginChild("write", {0.0f, write});
+    heading("Write");
+    exports_.draw();
+    write_height_ = ImGui::GetCursorPosY() + ImGui::GetStyle().ItemSpacing.y;
+    ImGui::EndChild();
+  }
   status();
   ImGui::End();
 }
@@ -59,8 +69,6 @@ void Panel::widgets() {
   view();
   look();
   if (link_.state()["frames"].get<int>() > 1) frames();
-  heading("Export this view");
-  exports_.draw();
   picked();
   timing();
 }

@@ -44,6 +44,7 @@ class Panel {
   ExportPanel exports_;
   nlohmann::json pick_ = nlohmann::json::object();
   std::string selection_;
+  float write_height_ = 0.0f;  ///< of what writes, as it was drawn last
 };
 
 /// How long the last picture took, as the command "stats" answers; how many a second only while it moves.

@@ -90,8 +90,8 @@ export function figure_controls(command, say) {
 
   let latest = null;
   const chip = (what, of, index, ...more) =>
-    element("li", {}, element("span", { textContent: what, title: what }), ...more,
-      remove_button(what, () => command("remove", { of, index })));
+    element("li", {}, element("span", { textContent: what }),
+      remove_button(what, () => command("remove", { of, index })), ...more);
 
   /// An object with its colour, its opacity if that is one number, and a surface's cut along the view.
   function object_chip(object, index) {
@@ -121,7 +121,7 @@ export function figure_controls(command, say) {
     const list = [];
     if (state.show !== null) {
       const what = `surface of ${state.show}`;
-      list.push(element("li", {}, element("span", { textContent: what, title: what }),
+      list.push(element("li", {}, element("span", { textContent: what }),
         remove_button(what, () => command("show"))));
     }
     state.representations.forEach(({ as, selection }, n) => list.push(chip(`${as}: ${selection}`, "representations", n)));
