@@ -129,12 +129,10 @@ Json export_view(const CommandReader& command, const Surroundings& around) {
       molecule.structure(), molecule.atoms(), molecule.balls(), molecule.coloring(state), state.told_scheme(), state,
       molecule.beside(), std::move(annotations), wishes.size, wishes.samples, wishes.transparent,
       format == Format::png ? scene_of(command, around) : "", state.wishes.dots_per_inch});
-  exporter.job.reset();  // the one before, which is done
-  exporter.job =
-      std::make_unique<ExportJob>(target.path.string(), [view, target, format, make_device](const ExportWatch& watch) {
-        return written(*view, format, make_device, target, watch);
-      });
-  return waits ? exporter.job->result() : Json{{"path", target.path.string()}, {"running", true}};
+  const auto write = [view, target, format, make_device](const ExportWatch& watch) {
+    return written(*view, format, make_device, target, watch);
+  };
+  return begin(write, view->scene.empty() ? std::nullopt : std::optional(state.edition));
 }
 
 Json export_state(const CommandReader&, const Surroundings& around) {
@@ -153,6 +151,21 @@ Json render_command(const CommandReader& command, const Surroundings& around) {
   return {{"words", words}, {"text", shell_line(words)}};
 }
 
+  exporter.forget_job();
+  const auto begin = [&](ExportJob::Work work, std::optional<std::uint64_t> edition) {
+    exporter.job_edition = edition;
+    exporter.job = std::make_unique<ExportJob>(target.path.string(), std::move(work));
+    return waits ? exporter.job->result() : Json{{"path", target.path.string()}, {"running", true}};
+  };
+  if (format == Format::film) {
+    if (!exporter.context.make_film) throw RequestError("export: this preview makes no films");
+    const auto make = [scene = film_scene(command, around), target,
+                       make = exporter.context.make_film](const ExportWatch& watch) {
+      make(scene, target, watch);
+      return Json{{"path", target.path.string()}};
+    };
+    return begin(make, {});
+  }
 Json save_scene(const CommandReader& command, const Surroundings& around) {
   const Exporter& exporter = around.exporter;
   if (!exporter.context.scene) throw RequestError("save: this preview writes no scenes");
@@ -186,11 +199,10 @@ Outcome open_scene(const CommandReader& command, PreviewState state, const Surro
   if (state.frame >= molecule.frame_count())
     throw RequestError(fmt::format("open: {} is of a model that is not there", name));
   const Renewal renewal = state.frame == around.state.frame ? Renewal::shapes : Renewal::frame;
-  return {std::move(state), renewal, {{"path", (exporter.folder / name).string()}}, true};
-}
-
-Json tell_scene(const CommandReader& command, const Surroundings& around) {
-  return {{"text", scene_of(command, around)}};
+  Outcome next{std::move(state), renewal, {{"path", (exporter.folder / name).string()}}, true};
+  next.is_saved = true;
+  return next;
 }
 
 }  // namespace meniscus
+  around.exporter.saved = around.state.edition;

@@ -160,6 +160,7 @@ Json tell_state(const CommandReader&, const Surroundings& around) {
             {"views", Json::array()},
             {"undo", around.history.undo_steps()},
             {"redo", around.history.redo_steps()},
+            {"unsaved", !around.exporter.keeps(state)},
             {"drawn_by", around.pictures.draws_on_cpu() ? "cpu" : "gl"}};
   tell_figure(state, told);
   if (!molecule.legend_fault().empty()) told["legend"]["fault"] = molecule.legend_fault();
@@ -188,8 +189,8 @@ Json tell_choices(const CommandReader&, const Surroundings& around) {
     if (color.takes_file() && (first.file.empty() || first.by == ColorScheme::By::rmsf)) continue;
     color.file = first.file;
     schemes.push_back({{"word", scheme.word}, {"has_map", color.has_scale()}, {"description", scheme.description}});
-    if (const std::string lack = lacking(around.molecule.structure(), color); !lack.empty())
     if (scheme.by == first.by) continue;
+    if (const std::string lack = lacking(around.molecule.structure(), color); !lack.empty())
       schemes.back()["lacks"] = lack;
   }
   for (const ColorMapMetadata& map : color_maps()) maps.push_back(map.name);

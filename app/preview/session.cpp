@@ -96,8 +96,10 @@ Json PreviewSession::become(const Command& command, const std::function<Outcome(
   return std::move(next.reply);
 }
 
-void PreviewSession::note(const Command& command, const Outcome& next) {
+void PreviewSession::note(const Command& command, Outcome& next) {
   using Effect = Command::Effect;
+  if (command.is_step() && next.renewal != Renewal::nothing) next.state.edition = ++last_edition_;
+  if (next.is_saved) exporter_.saved = next.state.edition;
   if (command.is_step()) history_.note(next.is_own_step ? std::string_view() : command.kind_of_step(), state_);
   if (command.effect == Effect::back) history_.go_back(state_);
   if (command.effect == Effect::forward) history_.go_forward(state_);

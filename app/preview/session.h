@@ -43,7 +43,10 @@ class PreviewSession {
   nlohmann::json apply(const nlohmann::json& command);
 
   /// Calls `sink` with every command from now on that was carried out and is not a mere question (is_question).
-  void record(std::function<void(const nlohmann::json&)> sink) { sink_ = std::move(sink); }
+  void record(std::function<void(const nlohmann::json&)> sink) {
+    sink_ = std::move(sink);
+    exporter_.all_recorded = sink_ != nullptr;
+  }
 
   /// The picture of the state: see ViewCache. A new one may come with render and with apply (pick).
   bool render(Quality quality, const std::function<bool()>& stop = {}) {
@@ -65,7 +68,7 @@ class PreviewSession {
  private:
   nlohmann::json carry_out(const nlohmann::json& command);
   nlohmann::json become(const Command& command, const std::function<Outcome(PreviewState)>& reduce);
-  void note(const Command& command, const Outcome& next);
+  void note(const Command& command, Outcome& next);
 
   PreviewState state_;
   ShownMolecule molecule_;
@@ -75,6 +78,7 @@ class PreviewSession {
   PreviewState first_;  ///< as it began
   std::function<void(const nlohmann::json&)> sink_;
 };
+  std::uint64_t last_edition_ = 0;
 
 /// Carries out the commands of the file `path`, up to one that asks to quit, and prints the replies.
 void replay_commands(const std::string& path, std::span<const WrittenCommand> commands, PreviewSession& session,

@@ -47,6 +47,8 @@ class ExportJob {
   /// It ends soon, unless it is done before.
   void cancel();
   bool running() const;
+  /// Whether it has come to its end, and nothing was thrown.
+  bool done() const;
   /// Waits for the end. Throws what the work threw; RequestError where that is a GpuError, which is the export's alone,
   /// and where it was cancelled.
   nlohmann::json result();
@@ -130,7 +132,21 @@ struct SessionContext {
 struct Exporter {
   std::filesystem::path folder;
   SessionContext context;
-  std::unique_ptr<ExportJob> job{};  ///< nullptr: none yet
+  std::unique_ptr<ExportJob> job{};            ///< nullptr: none yet
+  std::optional<std::uint64_t> job_edition{};  ///< of the figure whose scene the job writes; nothing: it writes none
+  std::uint64_t saved = 0;                     ///< the edition of the figure that a file has
+  bool all_recorded = false;                   ///< a log has every command
+
+  /// Whether the end of the preview loses nothing of the figure but its camera.
+  bool keeps(const PreviewFigure& figure) const {
+    return all_recorded || figure.edition == saved || (job_edition == figure.edition && job->done());
+  }
+  /// The latest job, which has ended, makes room for another.
+  void forget_job() {
+    if (job_edition && job->done()) saved = *job_edition;
+    job_edition.reset();
+    job.reset();
+  }
 };
 
 }  // namespace meniscus

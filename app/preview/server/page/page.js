@@ -36,7 +36,7 @@ const server = new Connection({
 
 const kStep = 700;  // ms without a command, after which the next is a step of its own for undo
 const tells_only = new Set(["pick", "export", "export_state", "cancel_export", "save", "render_command", "end_step", "undo", "redo"]);
-const changes_state = new Set(["key", "save_view", "forget_view", "play", "pause"]);
+const changes_state = new Set(["key", "save_view", "forget_view", "play", "pause", "save"]);
 let last_change = 0;
 
 /// What an error says, without the word of its command, which is a program's and no reader's.
@@ -376,6 +376,9 @@ $("export-form").addEventListener("submit", async (event) => {
 
 /// Shows how far the export is until it is done; the picture can be turned meanwhile.
 async function follow_export() {
+/// The server keeps the figure, but nobody may come back to it.
+window.addEventListener("beforeunload", (event) => { if (controls && state?.unsaved) event.preventDefault(); });
+
   $("job").hidden = false;
   for (const button of document.querySelectorAll("#export-form button")) button.disabled = true;
   let told = { running: true };
@@ -415,6 +418,7 @@ function take_wishes(next) {
 /// What is asked of an exported picture.
 function wishes() {
   const wish = { samples: $("export-samples").valueAsNumber || state.samples };
+  server.ask({ command: "state" }).then((next) => { if (next.ok) apply_state(next); });
   wish.transparent = $("export-transparent").checked;
   const [width, height] = [$("export-width").valueAsNumber, $("export-height").valueAsNumber];
   if (width) wish.width = width;
