@@ -149,6 +149,7 @@ std::unique_ptr<PreviewSession> begin_session(const DeclaredPreview& declared, b
 }
 
 void say_address(const PreviewCommand& command, const std::string& url, std::uint16_t port) {
+  context.make_film = make_film;
   std::cout << url << std::endl;
   say(command, fmt::format("from another machine: ssh -L {0}:127.0.0.1:{0} {1}", port, host_name()));
   say(command, "Ctrl-C ends the preview");

@@ -55,6 +55,10 @@ class ShownReader {
 Camera aimed_camera(const Scene& scene, const std::optional<Camera>& given, const ColorScheme& color,
                     const Structure& structure);
 
+/// As `meniscus render` makes it, by this program as a process of its own, whose end `watch` may want. Throws
+/// RequestError, OutputError.
+void make_film(Scene scene, const ExportTarget& target, const ExportWatch& watch);
+
 /// Opens scenes of one molecule.
 class SceneOpener {
  public:

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The commands that write and read files of the output folder: exports, scenes, the command line of a picture.
+#include <cmath>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "app/film/film_format.h"
 #include "app/options/scene_words.h"
 #include "app/preview/commands.h"
 #include "app/preview/preview_state.h"
@@ -47,11 +52,14 @@ ExportTarget target_of(const CommandReader& command, const std::filesystem::path
   return target;
 }
 
-enum class Format { png, povray, blender, camera, camera_path };  // the last two are written at once
+enum class Format { png, povray, blender, film, camera, camera_path };  // the last two are written at once
 
 /// A scene is a folder; so no file of another kind is replaced.
 void check_ending(const std::string& name, Format format) {
-  constexpr std::string_view kEndings[] = {"", "", ".mns", ".json", ".json"};
+  constexpr std::string_view kEndings[] = {"", "", ".mns", "", ".json", ".json"};
+  if (format == Format::film && !is_film_path(name))
+    throw RequestError(fmt::format("export: \"path\" is {}; a film's name must end in .mp4, .mov, .mkv, .webm or .gif",
+                                   in_quotes(name)));
   if (format == Format::povray ? name.find('.') != std::string::npos
                                : !name.ends_with(kEndings[static_cast<std::size_t>(format)]))
     throw RequestError(fmt::format(
@@ -70,6 +78,29 @@ Json written(const ExportedView& view, Format format, const MakePictureDevice& m
   if (format == Format::povray) reply["render_with"] = export_povray(view, target, watch);
   if (format == Format::blender) export_blender(view, target, watch);
   return reply;
+}
+
+/// The scene of the film that a command wishes: the run, or the molecule as it is, turned once around.
+Scene film_scene(const CommandReader& command, const Surroundings& around) {
+  const PreviewState& state = around.state;
+  const ShownMolecule& molecule = around.molecule;
+  const bool is_run = molecule.frame_count() > 1;
+  if (is_run && state.follows_keys && !state.keys.empty())
+    throw RequestError(
+        "export: a film along the keys of a camera is made by meniscus render --camera-path; export them");
+  constexpr double kTurnRate = 25.0, kTurnSeconds = 6.0, kLongest = 600.0;
+  const PictureWishes wishes = wishes_of(command, state);
+  const glm::ivec2 even = 2 * (wishes.size / 2);  // as most encoders want it
+  RenderedView view{state, even, wishes.samples, false, {}, {}, {}, state.wishes.dots_per_inch};
+  Scene scene = rendered_scene(around.exporter.context.scene.value_or(Scene{}), view);
+  scene.run_camera = {};
+  scene.run_camera.turns = command.number_or(is_run ? 0.0 : 1.0, "turns", -100.0, 100.0);
+  scene.film.frames_per_second = is_run ? state.frames_per_second : kTurnRate;
+  const double seconds = command.number_or(kTurnSeconds, "seconds", 0.1, kLongest);
+  if (!is_run) scene.frames.repeat = static_cast<std::uint64_t>(std::lround(kTurnRate * seconds));
+  if (!molecule.has_trajectory()) scene.frames.frames = is_run ? "all" : "0";
+  if (is_run && !molecule.has_trajectory()) scene.molecule.reading.model = {};
+  return scene;
 }
 
 /// The scene of the picture that a command wishes.
@@ -110,7 +141,7 @@ Json export_view(const CommandReader& command, const Surroundings& around) {
   const ShownMolecule& molecule = around.molecule;
   Exporter& exporter = around.exporter;
   const auto format =
-      static_cast<Format>(command.choice("format", {"png", "povray", "blender", "camera", "camera_path"}));
+      static_cast<Format>(command.choice("format", {"png", "povray", "blender", "film", "camera", "camera_path"}));
   check_ending(command.text("path"), format);
   const bool waits = command.flag_or(true, "wait");
   if (exporter.job && exporter.job->running())
@@ -122,6 +153,21 @@ Json export_view(const CommandReader& command, const Surroundings& around) {
   if (format == Format::camera) export_camera(state.camera, target);
   if (format == Format::camera_path) export_camera_path(molecule.camera_keys(state), target);
   if (format >= Format::camera) return {{"path", target.path.string()}};
+  exporter.forget_job();
+  const auto begin = [&](ExportJob::Work work, std::optional<std::uint64_t> edition) {
+    exporter.job_edition = edition;
+    exporter.job = std::make_unique<ExportJob>(target.path.string(), std::move(work));
+    return waits ? exporter.job->result() : Json{{"path", target.path.string()}, {"running", true}};
+  };
+  if (format == Format::film) {
+    if (!exporter.context.make_film) throw RequestError("export: this preview makes no films");
+    const auto make = [scene = film_scene(command, around), target,
+                       make = exporter.context.make_film](const ExportWatch& watch) {
+      make(scene, target, watch);
+      return Json{{"path", target.path.string()}};
+    };
+    return begin(make, {});
+  }
   const MakePictureDevice& make_device = exporter.context.make_device;
   Annotations annotations;
   if (exporter.context.annotations) annotations = exporter.context.annotations(molecule.annotated_structure());
@@ -146,26 +192,15 @@ Json cancel_export(const CommandReader&, const Surroundings& around) {
   return Json::object();
 }
 
+Json tell_scene(const CommandReader& command, const Surroundings& around) {
+  return {{"text", scene_of(command, around)}};
+}
+
 Json render_command(const CommandReader& command, const Surroundings& around) {
   const std::vector<std::string> words = render_words(shown_scene(command, around));
   return {{"words", words}, {"text", shell_line(words)}};
 }
 
-  exporter.forget_job();
-  const auto begin = [&](ExportJob::Work work, std::optional<std::uint64_t> edition) {
-    exporter.job_edition = edition;
-    exporter.job = std::make_unique<ExportJob>(target.path.string(), std::move(work));
-    return waits ? exporter.job->result() : Json{{"path", target.path.string()}, {"running", true}};
-  };
-  if (format == Format::film) {
-    if (!exporter.context.make_film) throw RequestError("export: this preview makes no films");
-    const auto make = [scene = film_scene(command, around), target,
-                       make = exporter.context.make_film](const ExportWatch& watch) {
-      make(scene, target, watch);
-      return Json{{"path", target.path.string()}};
-    };
-    return begin(make, {});
-  }
 Json save_scene(const CommandReader& command, const Surroundings& around) {
   const Exporter& exporter = around.exporter;
   if (!exporter.context.scene) throw RequestError("save: this preview writes no scenes");
@@ -176,6 +211,7 @@ Json save_scene(const CommandReader& command, const Surroundings& around) {
   OutputFile file(target.path, target.existing);
   file.write(scene_text(shown_scene(command, around), target.path.parent_path().string()));
   file.commit();
+  around.exporter.saved = around.state.edition;
   return {{"path", target.path.string()}};
 }
 
@@ -205,4 +241,3 @@ Outcome open_scene(const CommandReader& command, PreviewState state, const Surro
 }
 
 }  // namespace meniscus
-  around.exporter.saved = around.state.edition;

@@ -124,6 +124,8 @@ struct SessionContext {
   MakePictureDevice make_device;  ///< of exported pictures
   /// What is written into exported pictures of the molecule, as it is at a frame.
   std::function<Annotations(const Structure& structure)> annotations;
+  /// Makes the film of a scene, as `meniscus render` does; empty: there are none. Throws RequestError, OutputError.
+  std::function<void(const Scene& scene, const ExportTarget& target, const ExportWatch& watch)> make_film;
   /// Reads a scene. Throws InputError, UsageError; RequestError where it is one of another molecule.
   std::function<OpenedScene(const std::filesystem::path& path)> open_scene;
 };

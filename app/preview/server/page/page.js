@@ -368,7 +368,7 @@ $("save-path").addEventListener("click", () => {
 $("export-form").addEventListener("submit", async (event) => {
   event.preventDefault();
   const format = event.submitter?.value ?? "png";
-  const ending = { png: ".png", povray: "", blender: ".mns" }[format];
+  const ending = { png: ".png", film: ".mp4", povray: "", blender: ".mns" }[format];
   const reply = await command("export", { format, path: $("export-name").value + ending, force: $("export-force").checked,
     wait: false, ...wishes() });
   if (reply) follow_export();
