@@ -4,6 +4,8 @@
 #include <charconv>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
+#include <functional>
 #include <iostream>
 #include <iterator>
 #include <memory>
@@ -85,9 +87,17 @@ Shown read_run(PreviewCommand& command) {
   return {std::move(scene), frames->structure(), std::move(trajectory), {}};
 }
 
-Shown read_inputs(PreviewCommand& command) {
-  if (!std::filesystem::is_directory(command.output_folder))
-    throw OutputError(command.output_folder, "--output-dir is not a folder");
+/// What is said while the molecule is read.
+std::string reading_line(const std::string& file) {
+  if (file == "-") return "Reading standard input";
+  std::error_code unknown;
+  const auto bytes = std::filesystem::file_size(file, unknown);
+  const std::string name = std::filesystem::path(file).filename().string();
+  return unknown ? "Reading " + name : fmt::format("Reading {}, {:.1f} MB", name, 1e-6 * static_cast<double>(bytes));
+}
+
+Shown read_inputs(PreviewCommand& command, const std::function<void(const std::string&)>& tell) {
+  tell(reading_line(command.scene.molecule.file));
   const std::optional<Camera> camera = given_camera(command.scene.picture);
   Shown shown = read_run(command);
   shown.camera = camera;
@@ -98,6 +108,7 @@ Shown read_inputs(PreviewCommand& command) {
   require_previewed(color);
   if (!command.aims) return shown;
   // What is drawn beside the surface counts; a scene's picture is framed as render frames it.
+  tell(fmt::format("Preparing {} atoms", with_thousands(shown.structure.atoms.size())));
   const FigureRequest& figure = shown.scene.figure;
   const bool reads_again = !figure.representations.empty() || !figure.objects.empty();
   shown.camera =
@@ -138,6 +149,7 @@ std::unique_ptr<PreviewSession> begin_session(const DeclaredPreview& declared, b
   context.make_device = [request = command.scene.molecule.surface] { return std::make_unique<PictureDevice>(request); };
   context.open_scene = SceneOpener(declared);
   std::unique_ptr<ViewRenderer> renderer = make_renderer(command, shown.structure, on_gl);
+  context.make_film = make_film;
   auto session = std::make_unique<PreviewSession>(std::move(renderer), std::move(shown.structure), view, shown.camera,
                                                   command.output_folder, std::move(shown.trajectory), context);
   for (const std::string& sentence : session->idle_cuts()) say(command, "note: --clip " + sentence);
@@ -149,7 +161,6 @@ std::unique_ptr<PreviewSession> begin_session(const DeclaredPreview& declared, b
 }
 
 void say_address(const PreviewCommand& command, const std::string& url, std::uint16_t port) {
-  context.make_film = make_film;
   std::cout << url << std::endl;
   say(command, fmt::format("from another machine: ssh -L {0}:127.0.0.1:{0} {1}", port, host_name()));
   say(command, "Ctrl-C ends the preview");
@@ -162,12 +173,40 @@ std::vector<WrittenCommand> written_commands(const PreviewCommand& command) {
 
 void serve(DeclaredPreview& declared) {
   PreviewCommand& command = declared.state;
+/// The token that the user chose; empty: none.
+std::string token_of(const PreviewCommand& command) {
+  std::string token;
+  if (!command.token_file.empty()) {
+    std::ifstream stream(command.token_file);
+    if (!(stream >> token)) throw InputError(command.token_file, 0, "no token can be read");
+  } else if (const char* const given = std::getenv("MENISCUS_TOKEN")) {
+    token = given;
+  }
+  if (token.empty()) return token;
+  if (const std::string fault = token_fault(token); !fault.empty())
+    throw UsageError(fmt::format("{}: {}", command.token_file.empty() ? "MENISCUS_TOKEN" : command.token_file, fault));
+  return token;
+}
+
+void require_output_folder(const PreviewCommand& command) {
+  if (!std::filesystem::is_directory(command.output_folder))
+    throw OutputError(command.output_folder, "--output-dir is not a folder");
+}
+
   std::signal(SIGPIPE, SIG_IGN);  // a client that stops reading must not end the server
   const std::vector<WrittenCommand> commands = written_commands(command);
-  Shown shown = read_inputs(command);
+  ServeOptions options;
+  options.port = *command.port;
+  options.token = token_of(command);
+  options.ready = [&](const std::string& url, std::uint16_t port) { say_address(command, url, port); };
+  require_output_folder(command);
   const PictureDevice device(command.scene.molecule.surface);
-  const std::unique_ptr<PreviewSession> session =
-      begin_session(declared, device.context() != nullptr, std::move(shown));
+  const auto make = [&](const std::function<void(const std::string&)>& tell) {
+    return begin_session(declared, device.context() != nullptr, read_inputs(command, tell));
+  };
+  if (commands.empty()) return serve_session(options, make);
+  // Their replies come before the address.
+  std::unique_ptr<PreviewSession> session = make([](const std::string&) {});
   replay_commands(command.commands, commands, *session, std::cout);
   if (session->wants_to_quit()) return;
   serve_session(*session, *command.port,
@@ -203,7 +242,7 @@ void open_window(DeclaredPreview& declared) {
   if (surface.gl.index || !surface.gl.name.empty())
     throw UsageError("--device gpu:N is for --serve; a window draws on the device of its display, or on the CPU");
   const std::vector<WrittenCommand> commands = written_commands(command);
-  Shown shown = read_inputs(command);
+  require_output_folder(command);
   WindowOptions options;
   options.title = fmt::format("{} - Meniscus", std::filesystem::path(command.scene.molecule.file).filename().string());
   for (const WrittenCommand& written : commands) options.commands.push_back(written.command);
@@ -212,8 +251,9 @@ void open_window(DeclaredPreview& declared) {
   options.replied = [&](std::size_t index, const nlohmann::json& reply) {
     print_reply(command.commands, commands[index].line, reply, std::cout);
   };
-  const auto make = [&](const EglContext& context) {
-    return begin_session(declared, draws_on_gl(surface, context), std::move(shown));
+  const auto make = [&](const EglContext& context, const std::function<void(const std::string&)>& tell) {
+    const bool on_gl = draws_on_gl(surface, context);
+    return begin_session(declared, on_gl, read_inputs(command, tell));
   };
   say_report(command, run_window(options, make));
 }

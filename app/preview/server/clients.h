@@ -112,6 +112,7 @@ struct Clients {
   std::size_t connections = 0;  ///< sockets of any kind, open
   std::map<ClientNumber, std::shared_ptr<Client>> sockets;
   ClientNumber next_number = 1;
+  std::string announcement{};   ///< what a new client is told, as JSON; empty: nothing
 
   /// Connections that have not shown the token yet, oldest first, each by a function that ends it.
   std::map<std::uint64_t, std::function<void()>> strangers;

@@ -56,6 +56,7 @@ class SocketClient : public Client, public std::enable_shared_from_this<SocketCl
       self->open_ = true;
       self->send(
           text_message(json_line({{"event", "welcome"}, {"controls", self->clients_->controls(self->number_)}})));
+      if (!self->clients_->announcement.empty()) self->send(text_message(self->clients_->announcement));
       self->read();
     });
   }

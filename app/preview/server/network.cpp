@@ -116,6 +116,13 @@ void Network::send_to_all(const nlohmann::json& message) {
 }
 
 void Network::send_picture(ClientNumber client, const nlohmann::json& message,
+void Network::announce(const nlohmann::json& message) {
+  asio::post(state_->context, [clients = state_->clients, text = message.is_null() ? "" : json_line(message)] {
+    clients->announcement = text;
+  });
+  if (!message.is_null()) send_to_all(message);
+}
+
                            std::shared_ptr<const std::vector<std::uint8_t>> picture) {
   asio::post(state_->context, [clients = state_->clients, client, text = text_message(json_line(message)),
                                bytes = OutgoingMessage{std::move(picture), false}] {

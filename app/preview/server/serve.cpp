@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <turbojpeg.h>
@@ -62,8 +63,8 @@ std::vector<std::uint8_t> png_of(std::span<const std::uint8_t> rgba, glm::ivec2 
   image.height = size.y;
   image.channels = {"R", "G", "B"};
   image.color_space = "sRGB";
-  image.png_level = 1;  // of 9; more takes longer for a little less
   image.scene = std::move(scene);
+  image.png_level = 1;  // of 9; more takes longer for a little less
   return encode_png(image, rgba, 4);
 }
 
@@ -146,7 +147,8 @@ class ServedSession {
   /// False if there is nothing to show: it cannot be drawn, or a newer command stopped it.
   bool draw() {
     // However late a page asks, of what it has not seen at all there is a draft first.
-    const bool begun = picture_.number > 0 && picture_.revision == session_.state().revision;
+    const bool begun =
+        picture_.number > 0 && picture_.revision == session_.state().revision && picture_.quality > Quality::balls;
     const Quality due = view_.due(Clock::now()), quality = begun ? due : std::min(due, view_.at_once());
     if (!view_.draw(quality, [this] { return mailbox_.waiting_change(); })) {
       if (!view_.fault().empty())
@@ -162,8 +164,8 @@ class ServedSession {
     const glm::ivec2 size = session_.picture_size();
     const auto begin = Clock::now();
     const bool full = quality == Quality::full;
-    picture_.bytes =
-        std::make_shared<const std::vector<std::uint8_t>>(full ? png_of(rgba, size, scene()) : jpeg_.encode(rgba, size));
+    picture_.bytes = std::make_shared<const std::vector<std::uint8_t>>(full ? png_of(rgba, size, scene())
+                                                                            : jpeg_.encode(rgba, size));
     const std::chrono::duration<double, std::milli> elapsed = Clock::now() - begin;
     ++picture_.number;
     picture_.revision = session_.state().revision;
@@ -171,14 +173,12 @@ class ServedSession {
     picture_.message = {{"event", "picture"},
                         {"type", full ? "image/png" : "image/jpeg"},
                         {"full", full},
+                        {"balls", quality == Quality::balls},
                         {"state", question("state")},
                         {"stats", question("stats")}};
     picture_.message["stats"]["encode_milliseconds"] = elapsed.count();
   }
 
-  Json question(const char* word) { return session_.apply({{"command", word}}); }
-
-  std::optional<Clock::time_point> next_deadline() const {
   /// Of the picture as it is shown.
   std::string scene() {
     const PreviewState& state = session_.state();
@@ -190,6 +190,9 @@ class ServedSession {
     return session_.apply(asked).value("text", "");
   }
 
+  Json question(const char* word) { return session_.apply({{"command", word}}); }
+
+  std::optional<Clock::time_point> next_deadline() const {
     std::optional<Clock::time_point> deadline;
     if (waiting_.empty()) return deadline;
     const bool drawable = view_.fault().empty();
@@ -213,13 +216,16 @@ class ServedSession {
 
 }  // namespace
 
-void serve_session(PreviewSession& session, std::uint16_t port,
-                   const std::function<void(const std::string& url, std::uint16_t port)>& ready) {
+void serve_session(const ServeOptions& options, const MakeSession& make) {
   Mailbox mailbox;
-  Network network(port, mailbox);
-  ready(network.url(), network.port());
+  Network network(options.port, options.token, mailbox);
+  options.ready(network.url(), network.port());
   try {
-    ServedSession(session, network, mailbox).run();
+    const std::unique_ptr<PreviewSession> session = make([&](const std::string& what) {
+      network.announce({{"event", "progress"}, {"what", escaped(what)}});
+    });
+    network.announce(nullptr);
+    ServedSession(*session, network, mailbox).run();
   } catch (const std::exception& error) {
     network.send_to_all({{"event", "ended"}, {"error", escaped(error.what())}});
     throw;

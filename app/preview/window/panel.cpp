@@ -225,6 +225,12 @@ std::string timing_line(const Json& stats, bool full) {
   return full ? line : line + fmt::format(", {:.1f} fps", stats["fps"].get<double>());
 }
 
+std::string working_line(const SessionLink& link) {
+  const SessionUpdate& news = link.news();
+  return fmt::format("{}, {:.0f} s ...", link.has_state() || news.stage.empty() ? "working" : news.stage,
+                     std::floor(news.busy_seconds.value_or(0.0)));
+}
+
 void Panel::picked() {
   heading("Picked");
   if (!pick_.value("hit", false)) {
@@ -264,7 +270,7 @@ void Panel::status() {
   const auto& busy = link_.news().busy_seconds;
   const std::string& reason = link_.news().fault;
   if (busy && *busy > kPatience)
-    plain(fmt::format("{}working, {:.0f} s ...", link_.has_state() ? "" : "the first picture: ", std::floor(*busy)));
+    plain(working_line(link_));
   else if (!reason.empty() || exports_.line_is_fault())
     fault(reason.empty() ? exports_.line() : reason);
   else if (!exports_.line().empty())

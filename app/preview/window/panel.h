@@ -47,6 +47,9 @@ class Panel {
   float write_height_ = 0.0f;  ///< of what writes, as it was drawn last
 };
 
+/// What the session is doing, and for how long.
+std::string working_line(const SessionLink& link);
+
 /// How long the last picture took, as the command "stats" answers; how many a second only while it moves.
 std::string timing_line(const nlohmann::json& stats, bool full);
 

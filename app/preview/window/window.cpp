@@ -180,6 +180,8 @@ void PreviewWindow::take_events() {
     const bool for_panel = unsure_frames_ > 0 ? typing_assumed_ : Gui::typing();
     // A letter that is a command must not turn up in the field that it opens.
     if (event.kind != InputEvent::Kind::text || for_panel) gui_.take(event);
+    // A file that takes long to read need not be waited for.
+    if (!link_.has_state() && (event.letter == 'q' || event.letter == 'Q')) window_.close();
     if (!link_.has_state() || replaying()) continue;
     gestures_.take(event, picture_area(), elsewhere, movements);
     if (gestures_.click()) take_click(*gestures_.click());
@@ -204,13 +206,13 @@ void PreviewWindow::take_pointer(const InputEvent& event, bool elsewhere) {
 }
 
 void PreviewWindow::take_key(const InputEvent& event) {
-  const KeyMeaning meaning = event_meaning(event, link_.state());
-  if (Gui::list_open() && meaning.action == FaceAction::leave) return gui_.close_lists();
   if (asks_) {
     if (event.kind == InputEvent::Kind::text && (event.letter == 'y' || event.letter == 'Y')) answer(true);
     if (event.kind == InputEvent::Kind::text && (event.letter == 'n' || event.letter == 'N')) answer(false);
     return;
   }
+  const KeyMeaning meaning = event_meaning(event, link_.state());
+  if (Gui::list_open() && meaning.action == FaceAction::leave) return gui_.close_lists();
   if (meaning.command) link_.send(*meaning.command);
   if (!meaning.action) return;
   switch (*meaning.action) {
@@ -289,6 +291,7 @@ void PreviewWindow::draw() {
     if (const std::optional<bool> leaves = draw_close_question(Panel::width(gui_.em()))) answer(*leaves);
   const SharedPicture picture = link_.picture();
   const std::uint64_t shown = link_.news().shown;
+  if (!picture.texture && panel_shown_) draw_notice(Panel::width(gui_.em()), working_line(link_));
   glViewport(0, 0, window_.pixels().x, window_.pixels().y);
   glClearColor(1.0f, 1.0f, 1.0f, 1.0f);
   glClear(GL_COLOR_BUFFER_BIT);

@@ -26,6 +26,7 @@ const server = new Connection({
     await fit();  // before a picture is asked for, which would have another size
   },
   role: (message) => { set_role(message.controls); fit(); },
+  progress: (message) => say_working(message.what),
   error: (message) => { apply_state(message.state); say(message.error, true); },
   ended: (message) => { end(message.error ?? "The preview has ended.", Boolean(message.error)); },
   lost: () => {
@@ -72,7 +73,19 @@ $("take").addEventListener("click", () => server.request("control"));
 // Messages
 
 let message_timer = 0;
+let working = null;  // what is done before the first picture, and since when
+const kAgain = "meniscus connected again";  // in the session's storage
 say("The first picture …", false, true);
+setInterval(() => { if (working) say_working(working.what); }, 1000);
+
+/// What takes long, and how long it has by now.
+function say_working(what) {
+  const now = performance.now();
+  if (working?.what !== what) working = { what, since: now };
+  const seconds = Math.floor((now - working.since) / 1000);
+  if ($("message").textContent !== `${what} …`) $("message").textContent = `${what} …`;
+  $("message").dataset.seconds = seconds < 1 ? "" : ` ${seconds} s`;  // which nobody wants to hear each time
+}
 
 /// A line over the picture, for some seconds or until another takes its place by say_anew().
 function say(text, is_error = false, stays = false) {
@@ -80,6 +93,7 @@ function say(text, is_error = false, stays = false) {
   const { classList } = box;
   if (classList.contains("stays") && (classList.contains("error") || !is_error)) return;
   box.textContent = text;
+  delete box.dataset.seconds;
   box.classList.toggle("error", is_error);
   box.classList.toggle("stays", stays);
   box.hidden = !text;
@@ -110,6 +124,7 @@ function forget_errors() {
 
 /// In place of one that stays.
 function say_anew(text, is_error = false) {
+  working = null;
   $("message").classList.remove("stays");
   allow_controls();
   say(text, is_error);
@@ -135,7 +150,13 @@ async function show_picture(message, bytes) {
   context.imageSmoothingQuality = "high";
   context.drawImage(bitmap, 0, 0, width, height);
   bitmap.close();
-  if (!shown) say_anew("");
+  if (message.balls) {
+    say_working(`Computing the surface of ${message.state.atoms.toLocaleString("en")} atoms`);
+  } else if (!shown || working) {
+    working = null;
+    say_anew(sessionStorage.getItem(kAgain) ? "Connected again." : "");
+    sessionStorage.removeItem(kAgain);
+  }
   full_picture = message.full ? blob : null;
   shown = message;
   note_rest();
