@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus preview`: shows the surface in a window or a browser while it changes.
 #include <algorithm>
-#include <charconv>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -10,7 +10,8 @@
 #include <iterator>
 #include <memory>
 #include <optional>
-#include <string_view>
+#include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,7 @@
 #include "app/commands/preview_command.h"
 #include "core/scene/molecule.h"
 #include "app/preview/command_json.h"
+#include "app/preview/server/clients.h"
 #include "app/preview/server/serve.h"
 #include "app/preview/session.h"
 #include "app/preview/window/window.h"
@@ -106,9 +108,9 @@ Shown read_inputs(PreviewCommand& command, const std::function<void(const std::s
     throw UsageError("--color-map-file is for render and export mesh; leave it out");
   color = color_of(shown.scene.molecule);
   require_previewed(color);
+  tell(fmt::format("Preparing {} atoms", with_thousands(shown.structure.atoms.size())));
   if (!command.aims) return shown;
   // What is drawn beside the surface counts; a scene's picture is framed as render frames it.
-  tell(fmt::format("Preparing {} atoms", with_thousands(shown.structure.atoms.size())));
   const FigureRequest& figure = shown.scene.figure;
   const bool reads_again = !figure.representations.empty() || !figure.objects.empty();
   shown.camera =
@@ -147,9 +149,9 @@ std::unique_ptr<PreviewSession> begin_session(const DeclaredPreview& declared, b
     return annotations_of(request, structure);
   };
   context.make_device = [request = command.scene.molecule.surface] { return std::make_unique<PictureDevice>(request); };
+  context.make_film = make_film;
   context.open_scene = SceneOpener(declared);
   std::unique_ptr<ViewRenderer> renderer = make_renderer(command, shown.structure, on_gl);
-  context.make_film = make_film;
   auto session = std::make_unique<PreviewSession>(std::move(renderer), std::move(shown.structure), view, shown.camera,
                                                   command.output_folder, std::move(shown.trajectory), context);
   for (const std::string& sentence : session->idle_cuts()) say(command, "note: --clip " + sentence);
@@ -171,8 +173,6 @@ std::vector<WrittenCommand> written_commands(const PreviewCommand& command) {
   return read_commands(command.commands);
 }
 
-void serve(DeclaredPreview& declared) {
-  PreviewCommand& command = declared.state;
 /// The token that the user chose; empty: none.
 std::string token_of(const PreviewCommand& command) {
   std::string token;
@@ -193,13 +193,15 @@ void require_output_folder(const PreviewCommand& command) {
     throw OutputError(command.output_folder, "--output-dir is not a folder");
 }
 
+void serve(DeclaredPreview& declared) {
+  PreviewCommand& command = declared.state;
   std::signal(SIGPIPE, SIG_IGN);  // a client that stops reading must not end the server
+  require_output_folder(command);
   const std::vector<WrittenCommand> commands = written_commands(command);
   ServeOptions options;
   options.port = *command.port;
   options.token = token_of(command);
   options.ready = [&](const std::string& url, std::uint16_t port) { say_address(command, url, port); };
-  require_output_folder(command);
   const PictureDevice device(command.scene.molecule.surface);
   const auto make = [&](const std::function<void(const std::string&)>& tell) {
     return begin_session(declared, device.context() != nullptr, read_inputs(command, tell));
@@ -209,8 +211,7 @@ void require_output_folder(const PreviewCommand& command) {
   std::unique_ptr<PreviewSession> session = make([](const std::string&) {});
   replay_commands(command.commands, commands, *session, std::cout);
   if (session->wants_to_quit()) return;
-  serve_session(*session, *command.port,
-                [&](const std::string& url, std::uint16_t port) { say_address(command, url, port); });
+  serve_session(options, [&](const auto&) { return std::move(session); });
 }
 
 void say_report(const PreviewCommand& command, const WindowReport& report) {
@@ -241,8 +242,8 @@ void open_window(DeclaredPreview& declared) {
   const SurfaceRequest& surface = command.scene.molecule.surface;
   if (surface.gl.index || !surface.gl.name.empty())
     throw UsageError("--device gpu:N is for --serve; a window draws on the device of its display, or on the CPU");
-  const std::vector<WrittenCommand> commands = written_commands(command);
   require_output_folder(command);
+  const std::vector<WrittenCommand> commands = written_commands(command);
   WindowOptions options;
   options.title = fmt::format("{} - Meniscus", std::filesystem::path(command.scene.molecule.file).filename().string());
   for (const WrittenCommand& written : commands) options.commands.push_back(written.command);

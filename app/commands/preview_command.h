@@ -21,7 +21,7 @@ struct PreviewCommand : SceneCommand {
   bool aims = false;                  ///< the scene says how the camera looks at first
   ExportWishes wishes;                ///< of exported pictures
   std::optional<std::uint16_t> port;  ///< of --serve
-  std::string record, commands, output_folder = ".";
+  std::string record, commands, token_file, output_folder = ".";
 
   /// The molecule as it is read: all models, if each is a frame.
   MoleculeRequest read_molecule_request() const;

@@ -54,8 +54,8 @@ class Server(unittest.IsolatedAsyncioTestCase):
     def path(self, name):
         return os.path.join(self.folder.name, name)
 
-    def serve(self, *arguments):
-        preview = Preview(PROGRAM, self.file, "--output-dir", self.folder.name, *arguments)
+    def serve(self, *arguments, **options):
+        preview = Preview(PROGRAM, self.file, "--output-dir", self.folder.name, *arguments, **options)
         self.addCleanup(preview.end)
         return preview
 
@@ -342,6 +342,7 @@ class Server(unittest.IsolatedAsyncioTestCase):
         fails(3, "--serve", "--show", "chain Z")
         fails(6, "--serve", "--output-dir", self.path("nowhere"))
         fails(6, "--serve", "--record", self.file)
+        fails(3, "--serve", "--token-file", self.path("missing"))
         with open(self.path("bad.jsonl"), "w") as file:
             file.write('{"command":"state"}\n{"command":"probe","radius":-1}\n')
         fails(3, "--serve", "--commands", self.path("bad.jsonl"))

@@ -210,7 +210,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   /// The page runs its own script and style only, talks to this server only, and is in no frame.
   void set_policies() {
-    const std::string sockets = fmt::format("ws://127.0.0.1:{0} ws://localhost:{0}", clients_->port);
+    const std::string sockets = fmt::format("'self' ws://127.0.0.1:{0} ws://localhost:{0}", clients_->port);
     response_.set("Content-Security-Policy",
                   "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; connect-src " +
                       sockets + "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");

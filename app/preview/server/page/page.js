@@ -58,8 +58,8 @@ async function command(word, values = {}, refuse = (text) => say(text, true)) {
   newest = reply.revision ?? newest;
   note_rest();
   if (!reply.ok && reply.error) refuse(sentence_of(reply.error, word));
-  if (reply.ok && reply.revision === undefined && changes_state.has(word))
   else if (reply.ok && word !== "resize") forget_errors();
+  if (reply.ok && reply.revision === undefined && changes_state.has(word))
     server.ask({ command: "state" }).then((next) => { if (next.ok) apply_state(next); });  // there is no new picture
   return reply.ok ? reply : null;
 }
@@ -101,20 +101,6 @@ function say(text, is_error = false, stays = false) {
   if (!stays) message_timer = setTimeout(() => { box.hidden = true; }, 6000);
 }
 
-/// A fresh page, once the server answers again.
-async function connect_again() {
-  do await new Promise((resolve) => setTimeout(resolve, 2000));
-  while (!await answers());
-  location.reload();
-}
-
-/// The last word.
-function end(text, is_error) {
-  say_anew("");
-  say(text, is_error, true);
-  $("controls").disabled = true;
-}
-
 /// What was wrong with an earlier command, once another one has worked.
 function forget_errors() {
   const { classList } = $("message");
@@ -122,9 +108,30 @@ function forget_errors() {
   figure.forget_fault();
 }
 
+/// A fresh page, once the server answers again.
+async function connect_again() {
+  let answer = "gone";
+  while (answer === "gone") {
+    await new Promise((resolve) => setTimeout(resolve, 2000));
+    answer = await answers();
+  }
+  if (answer === "refused")
+    return end("The preview was started again under another address, which the terminal shows.", true);
+  sessionStorage.setItem(kAgain, "yes");
+  state = null;  // what is gone cannot be lost
+  location.reload();
+}
+
+/// The last word.
+function end(text, is_error) {
+  working = null;
+  say_anew("");
+  say(text, is_error, true);
+  $("controls").disabled = true;
+}
+
 /// In place of one that stays.
 function say_anew(text, is_error = false) {
-  working = null;
   $("message").classList.remove("stays");
   allow_controls();
   say(text, is_error);
@@ -249,6 +256,7 @@ function fill_choices(choices) {
   for (const { word, has_map, description, lacks } of choices.schemes) {
     const option = new Option(lacks ? `${word}: the file ${lacks}` : word, word);
     option.title = description;
+    option.disabled = Boolean(lacks);
     $("scheme").add(option);
     if (has_map) numbered.add(word);
   }
@@ -285,7 +293,6 @@ $("scheme").addEventListener("change", () => { $("range").value = ""; set_color(
 $("range").addEventListener("change", set_color);
 $("preset").addEventListener("change", (event) => command("preset", { preset: event.target.value }));
 $("map").addEventListener("change", set_color);
-    option.disabled = Boolean(lacks);
 $("kinds").addEventListener("change", (event) => command("patch_kinds", { on: event.target.checked }));
 $("projection").addEventListener("change", (event) => command("projection", { projection: event.target.value }));
 $("background").addEventListener("input", (event) => command("look", { background: event.target.value }));
@@ -369,6 +376,9 @@ follow_pointer(canvas, {
 
 // Saving
 
+/// The server keeps the figure, but nobody may come back to it.
+window.addEventListener("beforeunload", (event) => { if (controls && state?.unsaved) event.preventDefault(); });
+
 function download(blob, name) {
   const link = document.createElement("a");
   link.href = URL.createObjectURL(blob);
@@ -397,9 +407,6 @@ $("export-form").addEventListener("submit", async (event) => {
 
 /// Shows how far the export is until it is done; the picture can be turned meanwhile.
 async function follow_export() {
-/// The server keeps the figure, but nobody may come back to it.
-window.addEventListener("beforeunload", (event) => { if (controls && state?.unsaved) event.preventDefault(); });
-
   $("job").hidden = false;
   for (const button of document.querySelectorAll("#export-form button")) button.disabled = true;
   let told = { running: true };
@@ -411,6 +418,7 @@ window.addEventListener("beforeunload", (event) => { if (controls && state?.unsa
   }
   $("job").hidden = true;
   for (const button of document.querySelectorAll("#export-form button")) button.disabled = false;
+  server.ask({ command: "state" }).then((next) => { if (next.ok) apply_state(next); });
   if (told.error) say(sentence_of(told.error, "export"), true);
   else if (told.path) say([`Written: ${told.path}`, told.note, told.render_with && `render it with: ${told.render_with}`]
     .filter(Boolean).join("; "));
@@ -439,7 +447,6 @@ function take_wishes(next) {
 /// What is asked of an exported picture.
 function wishes() {
   const wish = { samples: $("export-samples").valueAsNumber || state.samples };
-  server.ask({ command: "state" }).then((next) => { if (next.ok) apply_state(next); });
   wish.transparent = $("export-transparent").checked;
   const [width, height] = [$("export-width").valueAsNumber, $("export-height").valueAsNumber];
   if (width) wish.width = width;
