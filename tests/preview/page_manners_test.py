@@ -253,8 +253,13 @@ class PageManners(PageCase):
 
     async def test_control_can_be_taken(self):
         preview = self.serve(MOLECULE, "--select", "chain D")
+        async def controls(client):
+            while "controls" not in (message := json.loads(await client.recv())):
+                pass  # what is read is told, too
+            return message["controls"]
+
         async with preview.socket() as other, Browser(CHROMIUM, SIZE) as page:
-            self.assertTrue(json.loads(await other.recv())["controls"])
+            self.assertTrue(await controls(other))
             await page.open(preview.url)
             self.assertFalse(await page.evaluate("document.getElementById('role').hidden"))
             self.assertTrue(await page.evaluate("document.getElementById('controls').disabled"))
@@ -263,7 +268,7 @@ class PageManners(PageCase):
             self.assertEqual((await self.state(page))["camera"], before)
             await page.click("#take")
             await page.until("document.getElementById('role').hidden && !document.getElementById('controls').disabled")
-            self.assertFalse(json.loads(await other.recv())["controls"])
+            self.assertFalse(await controls(other))
             await page.drag([(200, 200), (230, 210), (260, 220)])
             await page.until("JSON.stringify(JSON.parse(document.getElementById('picture').dataset.state).camera)"
                              f" !== {json.dumps(json.dumps(before, separators=(',', ':')))}")

@@ -395,7 +395,9 @@ TEST_F(FigureSession, ShapesBesideTheSurfaceDoNotTurnTheMolecule) {
     EXPECT_EQ(camera(), before) << command;
   }
   const auto side = [](const Json& seen) {
-    const auto point = [&](const char* key) { return glm::dvec3(seen[key][0], seen[key][1], seen[key][2]); };
+    const auto point = [&](const char* key) {
+      return glm::dvec3(seen[key][0].get<double>(), seen[key][1].get<double>(), seen[key][2].get<double>());
+    };
     return glm::normalize(point("target") - point("position"));
   };
   expect_ok(R"({"command":"resize","width":90,"height":60})");
@@ -422,7 +424,7 @@ TEST_F(FigureSession, SchemesThatAreOfferedAreThoseItCanShow) {
   // Of the others the reason is told.
   std::map<std::string, std::string> lacks;
   for (const Json& scheme : apply(R"({"command":"choices"})")["schemes"])
-    lacks[scheme["word"]] = scheme.value("lacks", "");
+    lacks[scheme["word"].get<std::string>()] = scheme.value("lacks", "");
   EXPECT_EQ(lacks["charge"], "has no partial charges to colour by");
   EXPECT_EQ(lacks["model"], "has one model");
   EXPECT_EQ(lacks["copy"], "has no copies");

@@ -24,6 +24,7 @@ class Panel {
   /// An atom to tell about, as the command "pick" answers.
   void show_pick(const nlohmann::json& pick) { pick_ = pick; }
   ExportPanel& exports() { return exports_; }
+  const ExportPanel& exports() const { return exports_; }
 
  private:
   void widgets();
