@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus preview`: shows the surface in a window or a browser while it changes.
 #include <algorithm>
-#include <charconv>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <functional>
 #include <iostream>
 #include <iterator>
 #include <memory>
 #include <optional>
-#include <string_view>
+#include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -20,6 +23,7 @@
 #include "app/commands/preview_command.h"
 #include "core/scene/molecule.h"
 #include "app/preview/command_json.h"
+#include "app/preview/server/clients.h"
 #include "app/preview/server/serve.h"
 #include "app/preview/session.h"
 #include "app/preview/window/window.h"
@@ -85,9 +89,17 @@ Shown read_run(PreviewCommand& command) {
   return {std::move(scene), frames->structure(), std::move(trajectory), {}};
 }
 
-Shown read_inputs(PreviewCommand& command) {
-  if (!std::filesystem::is_directory(command.output_folder))
-    throw OutputError(command.output_folder, "--output-dir is not a folder");
+/// What is said while the molecule is read.
+std::string reading_line(const std::string& file) {
+  if (file == "-") return "Reading standard input";
+  std::error_code unknown;
+  const auto bytes = std::filesystem::file_size(file, unknown);
+  const std::string name = std::filesystem::path(file).filename().string();
+  return unknown ? "Reading " + name : fmt::format("Reading {}, {:.1f} MB", name, 1e-6 * static_cast<double>(bytes));
+}
+
+Shown read_inputs(PreviewCommand& command, const std::function<void(const std::string&)>& tell) {
+  tell(reading_line(command.scene.molecule.file));
   const std::optional<Camera> camera = given_camera(command.scene.picture);
   Shown shown = read_run(command);
   shown.camera = camera;
@@ -96,6 +108,7 @@ Shown read_inputs(PreviewCommand& command) {
     throw UsageError("--color-map-file is for render and export mesh; leave it out");
   color = color_of(shown.scene.molecule);
   require_previewed(color);
+  tell(fmt::format("Preparing {} atoms", with_thousands(shown.structure.atoms.size())));
   if (!command.aims) return shown;
   // What is drawn beside the surface counts; a scene's picture is framed as render frames it.
   const FigureRequest& figure = shown.scene.figure;
@@ -136,6 +149,7 @@ std::unique_ptr<PreviewSession> begin_session(const DeclaredPreview& declared, b
     return annotations_of(request, structure);
   };
   context.make_device = [request = command.scene.molecule.surface] { return std::make_unique<PictureDevice>(request); };
+  context.make_film = make_film;
   context.open_scene = SceneOpener(declared);
   std::unique_ptr<ViewRenderer> renderer = make_renderer(command, shown.structure, on_gl);
   auto session = std::make_unique<PreviewSession>(std::move(renderer), std::move(shown.structure), view, shown.camera,
@@ -159,18 +173,45 @@ std::vector<WrittenCommand> written_commands(const PreviewCommand& command) {
   return read_commands(command.commands);
 }
 
+/// The token that the user chose; empty: none.
+std::string token_of(const PreviewCommand& command) {
+  std::string token;
+  if (!command.token_file.empty()) {
+    std::ifstream stream(command.token_file);
+    if (!(stream >> token)) throw InputError(command.token_file, 0, "no token can be read");
+  } else if (const char* const given = std::getenv("MENISCUS_TOKEN")) {
+    token = given;
+  }
+  if (token.empty()) return token;
+  if (const std::string fault = token_fault(token); !fault.empty())
+    throw UsageError(fmt::format("{}: {}", command.token_file.empty() ? "MENISCUS_TOKEN" : command.token_file, fault));
+  return token;
+}
+
+void require_output_folder(const PreviewCommand& command) {
+  if (!std::filesystem::is_directory(command.output_folder))
+    throw OutputError(command.output_folder, "--output-dir is not a folder");
+}
+
 void serve(DeclaredPreview& declared) {
   PreviewCommand& command = declared.state;
   std::signal(SIGPIPE, SIG_IGN);  // a client that stops reading must not end the server
+  require_output_folder(command);
   const std::vector<WrittenCommand> commands = written_commands(command);
-  Shown shown = read_inputs(command);
+  ServeOptions options;
+  options.port = *command.port;
+  options.token = token_of(command);
+  options.ready = [&](const std::string& url, std::uint16_t port) { say_address(command, url, port); };
   const PictureDevice device(command.scene.molecule.surface);
-  const std::unique_ptr<PreviewSession> session =
-      begin_session(declared, device.context() != nullptr, std::move(shown));
+  const auto make = [&](const std::function<void(const std::string&)>& tell) {
+    return begin_session(declared, device.context() != nullptr, read_inputs(command, tell));
+  };
+  if (commands.empty()) return serve_session(options, make);
+  // Their replies come before the address.
+  std::unique_ptr<PreviewSession> session = make([](const std::string&) {});
   replay_commands(command.commands, commands, *session, std::cout);
   if (session->wants_to_quit()) return;
-  serve_session(*session, *command.port,
-                [&](const std::string& url, std::uint16_t port) { say_address(command, url, port); });
+  serve_session(options, [&](const auto&) { return std::move(session); });
 }
 
 void say_report(const PreviewCommand& command, const WindowReport& report) {
@@ -201,8 +242,8 @@ void open_window(DeclaredPreview& declared) {
   const SurfaceRequest& surface = command.scene.molecule.surface;
   if (surface.gl.index || !surface.gl.name.empty())
     throw UsageError("--device gpu:N is for --serve; a window draws on the device of its display, or on the CPU");
+  require_output_folder(command);
   const std::vector<WrittenCommand> commands = written_commands(command);
-  Shown shown = read_inputs(command);
   WindowOptions options;
   options.title = fmt::format("{} - Meniscus", std::filesystem::path(command.scene.molecule.file).filename().string());
   for (const WrittenCommand& written : commands) options.commands.push_back(written.command);
@@ -211,8 +252,9 @@ void open_window(DeclaredPreview& declared) {
   options.replied = [&](std::size_t index, const nlohmann::json& reply) {
     print_reply(command.commands, commands[index].line, reply, std::cout);
   };
-  const auto make = [&](const EglContext& context) {
-    return begin_session(declared, draws_on_gl(surface, context), std::move(shown));
+  const auto make = [&](const EglContext& context, const std::function<void(const std::string&)>& tell) {
+    const bool on_gl = draws_on_gl(surface, context);
+    return begin_session(declared, on_gl, read_inputs(command, tell));
   };
   say_report(command, run_window(options, make));
 }

@@ -21,7 +21,7 @@ struct PreviewCommand : SceneCommand {
   bool aims = false;                  ///< the scene says how the camera looks at first
   ExportWishes wishes;                ///< of exported pictures
   std::optional<std::uint16_t> port;  ///< of --serve
-  std::string record, commands, output_folder = ".";
+  std::string record, commands, token_file, output_folder = ".";
 
   /// The molecule as it is read: all models, if each is a frame.
   MoleculeRequest read_molecule_request() const;
@@ -54,6 +54,10 @@ class ShownReader {
 /// the numbers of its file. Throws InputError, RequestError.
 Camera aimed_camera(const Scene& scene, const std::optional<Camera>& given, const ColorScheme& color,
                     const Structure& structure);
+
+/// As `meniscus render` makes it, by this program as a process of its own, whose end `watch` may want. Throws
+/// RequestError, OutputError.
+void make_film(Scene scene, const ExportTarget& target, const ExportWatch& watch);
 
 /// Opens scenes of one molecule.
 class SceneOpener {

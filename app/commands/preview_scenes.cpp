@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads a preview's molecule again for a figure, aims cameras as render does, and opens scenes.
+// Reads a preview's molecule again for a figure, aims cameras as render does, opens scenes, and has films made of them.
 #include <algorithm>
+#include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <numeric>
+#include <optional>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "app/commands/preview_command.h"
+#include "app/farm/child_process.h"
+#include "app/options/scene_words.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/color_key.h"
@@ -78,6 +84,47 @@ Camera aimed_camera(const Scene& scene, const std::optional<Camera>& given, cons
   std::iota(all.begin(), all.end(), 0u);
   if (objects.empty()) add(all);
   return ViewAim(layout, scene.molecule.show, structure).camera(layout, given, objects);
+}
+
+void make_film(Scene scene, const ExportTarget& target, const ExportWatch& watch) {
+  using namespace std::chrono_literals;
+  using Json = nlohmann::json;
+  if (scene.molecule.file == "-")
+    throw RequestError("export: a molecule from standard input cannot be read again; give FILE to make a film");
+  check_output(target.path, target.existing);
+  scene.output = target.path.string();
+  std::vector<std::string> words = render_words(scene);
+  words.front() = std::filesystem::read_symlink("/proc/self/exe").string();
+  words.insert(words.end(), {"-q", "--progress", "json"});
+  if (target.existing == Existing::replace) words.emplace_back("--force");
+  farm::ChildProcess child(words, ".");
+  std::uint64_t frames = 0, done = 0;
+  std::string fault = "the film was not made";
+  try {
+    for (;;) {
+      const double share = static_cast<double>(done) / static_cast<double>(std::max<std::uint64_t>(frames, 1));
+      watch(frames ? fmt::format("frame {} of {}", done, frames).c_str() : "reading", share);
+      if (!child.has_news(100ms)) continue;
+      const std::optional<std::string> line = child.next_line();
+      if (!line) break;
+      const Json event = Json::parse(*line, nullptr, false);
+      if (!event.is_object()) fault = *line;
+      if (!event.is_object()) continue;
+      if (event.value("event", "") == "start") frames = event.value("frames", frames);
+      if (event.value("event", "") != "frame") continue;
+      ++done;
+      fault = event.value("error", fault);
+    }
+  } catch (...) {
+    child.stop();  // it removes what it has begun
+    while (child.next_line()) {
+    }
+    child.wait();
+    throw;
+  }
+  constexpr std::string_view kPrefix = "meniscus: error: ";
+  if (child.wait() != 0)
+    throw RequestError("export: " + (fault.starts_with(kPrefix) ? fault.substr(kPrefix.size()) : fault));
 }
 
 SceneOpener::SceneOpener(const DeclaredPreview& begun) : begun_(begun.state.scene), models_(begun.state.models) {

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -151,6 +152,16 @@ std::optional<std::string> ChildProcess::next_line() {
   }
   if (pending_.empty()) return {};
   return std::exchange(pending_, {});
+}
+
+bool ChildProcess::has_news(std::chrono::milliseconds patience) const {
+  if (pending_.find('\n') != std::string::npos) return true;
+  pollfd reading{output_, POLLIN, 0};
+  return ::poll(&reading, 1, static_cast<int>(patience.count())) > 0;
+}
+
+void ChildProcess::stop() const {
+  if (pid_ > 0) ::kill(pid_, SIGTERM);
 }
 
 int ChildProcess::wait() {

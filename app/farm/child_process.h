@@ -2,6 +2,7 @@
 // A child process: started without a shell, read line by line, and ended when this program ends.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -11,8 +12,8 @@
 
 namespace meniscus::farm {
 
-/// One child. Made and used by the main thread, since the kernel ends a child when the *thread* that started it ends;
-/// even kill -9 of this process leaves none behind.
+/// One child. Made and used by one thread that outlives it, since the kernel ends a child when the *thread* that
+/// started it ends; even kill -9 of this process leaves none behind.
 class ChildProcess {
  public:
   /// arguments[0] is the program, looked for in the absolute folders of PATH unless it has a slash; it runs in
@@ -25,6 +26,12 @@ class ChildProcess {
   /// The next line it writes, to standard output or error; nothing at their end. A line without
   /// end comes in pieces of 64 KiB.
   std::optional<std::string> next_line();
+
+  /// Whether it wrote something, or has come to its end, within this time.
+  bool has_news(std::chrono::milliseconds patience) const;
+
+  /// Asks it to end, by SIGTERM.
+  void stop() const;
 
   /// Waits for its end, once: its exit code, or 128 + the signal that ended it.
   int wait();

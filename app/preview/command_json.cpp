@@ -46,7 +46,8 @@ std::string sentence_of(const std::string& error, const std::string& word) {
 bool is_question(const nlohmann::json& command) {
   const std::string word = command_word(command);
   if (word == "pick") return command.value("wait", nlohmann::json()) == false;
-  return word == "state" || word == "stats" || word == "choices" || word == "render_command" || word == "export_state";
+  return word == "state" || word == "stats" || word == "choices" || word == "scene" || word == "render_command" ||
+         word == "export_state";
 }
 
 Change change_of(const nlohmann::json& command) {

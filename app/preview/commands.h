@@ -33,6 +33,7 @@ struct Outcome {
   Renewal renewal = Renewal::nothing;
   nlohmann::json reply = nlohmann::json::object();
   bool frames_all = false;          ///< where all is in view, it comes into view again
+  bool is_saved = false;            ///< a file has this figure
   bool is_own_step = false;         ///< for undo, whatever the command before it was
   bool passes_over_damage = false;  ///< if its frame cannot be read, the command is carried out again from there
 };
@@ -89,10 +90,10 @@ Reducer set_surface, set_probe, show, hide, represent, put_object, hide_surface,
     set_cut, set_cap, remove_entry;
 Reducer set_color, paint, set_patch_kinds, set_opacity, set_film_opacity, set_look, set_preset,  // look_commands.cpp
     set_legend;
-Reducer undo, redo, end_step, quit;                                            // commands.cpp
-Translator press;                                                              // commands.cpp
-Service tell_stats, tell_choices, pick;                                        // question_commands.cpp
-Service export_view, export_state, cancel_export, save_scene, render_command;  // export_commands.cpp
-Reducer open_scene;                                                            // export_commands.cpp
+Reducer undo, redo, end_step, quit;                                                        // commands.cpp
+Translator press;                                                                          // commands.cpp
+Service tell_stats, tell_choices, pick;                                                    // question_commands.cpp
+Service export_view, export_state, cancel_export, save_scene, tell_scene, render_command;  // export_commands.cpp
+Reducer open_scene;                                                                        // export_commands.cpp
 
 }  // namespace meniscus

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The commands that write and read files of the output folder: exports, scenes, the command line of a picture.
+#include <cmath>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "app/film/film_format.h"
 #include "app/options/scene_words.h"
 #include "app/preview/commands.h"
 #include "app/preview/preview_state.h"
@@ -47,11 +52,14 @@ ExportTarget target_of(const CommandReader& command, const std::filesystem::path
   return target;
 }
 
-enum class Format { png, povray, blender, camera, camera_path };  // the last two are written at once
+enum class Format { png, povray, blender, film, camera, camera_path };  // the last two are written at once
 
 /// A scene is a folder; so no file of another kind is replaced.
 void check_ending(const std::string& name, Format format) {
-  constexpr std::string_view kEndings[] = {"", "", ".mns", ".json", ".json"};
+  constexpr std::string_view kEndings[] = {"", "", ".mns", "", ".json", ".json"};
+  if (format == Format::film && !is_film_path(name))
+    throw RequestError(fmt::format("export: \"path\" is {}; a film's name must end in .mp4, .mov, .mkv, .webm or .gif",
+                                   in_quotes(name)));
   if (format == Format::povray ? name.find('.') != std::string::npos
                                : !name.ends_with(kEndings[static_cast<std::size_t>(format)]))
     throw RequestError(fmt::format(
@@ -70,6 +78,29 @@ Json written(const ExportedView& view, Format format, const MakePictureDevice& m
   if (format == Format::povray) reply["render_with"] = export_povray(view, target, watch);
   if (format == Format::blender) export_blender(view, target, watch);
   return reply;
+}
+
+/// The scene of the film that a command wishes: the run, or the molecule as it is, turned once around.
+Scene film_scene(const CommandReader& command, const Surroundings& around) {
+  const PreviewState& state = around.state;
+  const ShownMolecule& molecule = around.molecule;
+  const bool is_run = molecule.frame_count() > 1;
+  if (is_run && state.follows_keys && !state.keys.empty())
+    throw RequestError(
+        "export: a film along the keys of a camera is made by meniscus render --camera-path; export them");
+  constexpr double kTurnRate = 25.0, kTurnSeconds = 6.0, kLongest = 600.0;
+  const PictureWishes wishes = wishes_of(command, state);
+  const glm::ivec2 even = 2 * (wishes.size / 2);  // as most encoders want it
+  RenderedView view{state, even, wishes.samples, false, {}, {}, {}, state.wishes.dots_per_inch};
+  Scene scene = rendered_scene(around.exporter.context.scene.value_or(Scene{}), view);
+  scene.run_camera = {};
+  scene.run_camera.turns = command.number_or(is_run ? 0.0 : 1.0, "turns", -100.0, 100.0);
+  scene.film.frames_per_second = is_run ? state.frames_per_second : kTurnRate;
+  const double seconds = command.number_or(kTurnSeconds, "seconds", 0.1, kLongest);
+  if (!is_run) scene.frames.repeat = static_cast<std::uint64_t>(std::lround(kTurnRate * seconds));
+  if (!molecule.has_trajectory()) scene.frames.frames = is_run ? "all" : "0";
+  if (is_run && !molecule.has_trajectory()) scene.molecule.reading.model = {};
+  return scene;
 }
 
 /// The scene of the picture that a command wishes.
@@ -110,7 +141,7 @@ Json export_view(const CommandReader& command, const Surroundings& around) {
   const ShownMolecule& molecule = around.molecule;
   Exporter& exporter = around.exporter;
   const auto format =
-      static_cast<Format>(command.choice("format", {"png", "povray", "blender", "camera", "camera_path"}));
+      static_cast<Format>(command.choice("format", {"png", "povray", "blender", "film", "camera", "camera_path"}));
   check_ending(command.text("path"), format);
   const bool waits = command.flag_or(true, "wait");
   if (exporter.job && exporter.job->running())
@@ -122,6 +153,21 @@ Json export_view(const CommandReader& command, const Surroundings& around) {
   if (format == Format::camera) export_camera(state.camera, target);
   if (format == Format::camera_path) export_camera_path(molecule.camera_keys(state), target);
   if (format >= Format::camera) return {{"path", target.path.string()}};
+  exporter.forget_job();
+  const auto begin = [&](ExportJob::Work work, std::optional<std::uint64_t> edition) {
+    exporter.job_edition = edition;
+    exporter.job = std::make_unique<ExportJob>(target.path.string(), std::move(work));
+    return waits ? exporter.job->result() : Json{{"path", target.path.string()}, {"running", true}};
+  };
+  if (format == Format::film) {
+    if (!exporter.context.make_film) throw RequestError("export: this preview makes no films");
+    const auto make = [scene = film_scene(command, around), target,
+                       make = exporter.context.make_film](const ExportWatch& watch) {
+      make(scene, target, watch);
+      return Json{{"path", target.path.string()}};
+    };
+    return begin(make, {});
+  }
   const MakePictureDevice& make_device = exporter.context.make_device;
   Annotations annotations;
   if (exporter.context.annotations) annotations = exporter.context.annotations(molecule.annotated_structure());
@@ -129,12 +175,10 @@ Json export_view(const CommandReader& command, const Surroundings& around) {
       molecule.structure(), molecule.atoms(), molecule.balls(), molecule.coloring(state), state.told_scheme(), state,
       molecule.beside(), std::move(annotations), wishes.size, wishes.samples, wishes.transparent,
       format == Format::png ? scene_of(command, around) : "", state.wishes.dots_per_inch});
-  exporter.job.reset();  // the one before, which is done
-  exporter.job =
-      std::make_unique<ExportJob>(target.path.string(), [view, target, format, make_device](const ExportWatch& watch) {
-        return written(*view, format, make_device, target, watch);
-      });
-  return waits ? exporter.job->result() : Json{{"path", target.path.string()}, {"running", true}};
+  const auto write = [view, target, format, make_device](const ExportWatch& watch) {
+    return written(*view, format, make_device, target, watch);
+  };
+  return begin(write, view->scene.empty() ? std::nullopt : std::optional(state.edition));
 }
 
 Json export_state(const CommandReader&, const Surroundings& around) {
@@ -146,6 +190,10 @@ Json cancel_export(const CommandReader&, const Surroundings& around) {
   if (!job || !job->running()) throw RequestError("cancel_export: nothing is being written");
   job->cancel();
   return Json::object();
+}
+
+Json tell_scene(const CommandReader& command, const Surroundings& around) {
+  return {{"text", scene_of(command, around)}};
 }
 
 Json render_command(const CommandReader& command, const Surroundings& around) {
@@ -163,6 +211,7 @@ Json save_scene(const CommandReader& command, const Surroundings& around) {
   OutputFile file(target.path, target.existing);
   file.write(scene_text(shown_scene(command, around), target.path.parent_path().string()));
   file.commit();
+  around.exporter.saved = around.state.edition;
   return {{"path", target.path.string()}};
 }
 
@@ -186,7 +235,9 @@ Outcome open_scene(const CommandReader& command, PreviewState state, const Surro
   if (state.frame >= molecule.frame_count())
     throw RequestError(fmt::format("open: {} is of a model that is not there", name));
   const Renewal renewal = state.frame == around.state.frame ? Renewal::shapes : Renewal::frame;
-  return {std::move(state), renewal, {{"path", (exporter.folder / name).string()}}, true};
+  Outcome next{std::move(state), renewal, {{"path", (exporter.folder / name).string()}}, true};
+  next.is_saved = true;
+  return next;
 }
 
 }  // namespace meniscus

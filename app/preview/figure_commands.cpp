@@ -17,9 +17,9 @@
 namespace meniscus {
 namespace {
 
-/// What is beside the surface has changed, and so has what there is to be seen.
+/// What is beside the surface has changed; the camera stays.
 Outcome with_shapes(PreviewState& state, nlohmann::json reply = nlohmann::json::object()) {
-  return {std::move(state), Renewal::shapes, std::move(reply), true};
+  return {std::move(state), Renewal::shapes, std::move(reply)};
 }
 
 /// Throws RequestError where no more may be drawn beside the surface.

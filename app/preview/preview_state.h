@@ -40,6 +40,7 @@ struct PreviewFigure {
   bool legend = false;
   LegendStyle legend_style;
   LetterStyle letters;
+  std::uint64_t edition = 0;  ///< a number of its own for all that was changed, but for the camera
 
   /// What the colours are by, kinds of patch too.
   ColorScheme told_scheme() const;

@@ -10,11 +10,14 @@
 #include "app/preview/command_json.h"
 #include "app/preview/commands.h"
 #include "app/preview/look_json.h"
+#include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/camera/camera_json.h"
+#include "core/color/color_key.h"
 #include "core/color/color_maps.h"
 #include "core/color/color_rule.h"
 #include "core/color/named_colors.h"
+#include "core/color/ordered_classes.h"
 #include "core/properties/properties.h"
 #include "core/scene/copied_atoms.h"
 #include "core/scene/object_json.h"
@@ -86,6 +89,30 @@ void tell_figure(const PreviewState& state, Json& told) {
                     {"place", words_of(property_of("legend.place"))[static_cast<std::size_t>(style.place)]}};
 }
 
+/// Why the molecule cannot be coloured by a scheme; empty: it can.
+std::string lacking(const Structure& structure, const ColorScheme& color) {
+  using By = ColorScheme::By;
+  const std::vector<Atom>& atoms = structure.atoms;
+  try {
+    if (color.by == By::copy && std::ranges::none_of(atoms, [](const Atom& atom) { return atom.copy > 0; }))
+      return "has no copies";
+    if (color.by == By::model && std::ranges::all_of(atoms, [&](const Atom& a) { return a.model == atoms[0].model; }))
+      return "has one model";
+    if (color.by == By::secondary) {
+      const std::vector<ColorClass> classes = secondary_classes(structure).classes;
+      if (classes.size() == 1 && classes[0].name == "other") return "has no amino acids";
+    }
+    if (color.by == By::plddt && (confidence_classes(structure), doubt_of_confidence(structure)))
+      return "is not known to be a predicted model";
+    if (color.has_scale()) color_scale(structure, color);
+  } catch (const Error& error) {
+    const std::string text = error.what(), place = structure.file + ": ";
+    const std::string sentence = text.starts_with(place) ? text.substr(place.size()) : text;
+    return escaped(sentence.substr(0, sentence.find_first_of(";,")));
+  }
+  return {};
+}
+
 }  // namespace
 
 Json tell_state(const CommandReader&, const Surroundings& around) {
@@ -133,6 +160,7 @@ Json tell_state(const CommandReader&, const Surroundings& around) {
             {"views", Json::array()},
             {"undo", around.history.undo_steps()},
             {"redo", around.history.redo_steps()},
+            {"unsaved", !around.exporter.keeps(state)},
             {"drawn_by", around.pictures.draws_on_cpu() ? "cpu" : "gl"}};
   tell_figure(state, told);
   if (!molecule.legend_fault().empty()) told["legend"]["fault"] = molecule.legend_fault();
@@ -153,20 +181,17 @@ Json tell_stats(const CommandReader&, const Surroundings& around) {
 
 Json tell_choices(const CommandReader&, const Surroundings& around) {
   const ColorScheme& first = around.first.color;
-  const auto is_copy = [](const Atom& atom) { return atom.copy > 0; };
-  const std::vector<Atom>& atoms = around.molecule.structure().atoms;
-  const bool has_copies = std::ranges::any_of(atoms, is_copy);
-  const bool has_models =
-      std::ranges::any_of(atoms, [&](const Atom& atom) { return atom.model != atoms.front().model; });
   Json schemes = Json::array(), maps = Json::array();
   for (const ColorSchemeMetadata& scheme : color_schemes()) {
     if (!is_previewed(scheme.by) && scheme.by != first.by) continue;
-    if (scheme.by == ColorScheme::By::copy && !has_copies) continue;
-    if (scheme.by == ColorScheme::By::model && !has_models) continue;
     ColorScheme color;
     color.by = scheme.by;
-    if (color.takes_file() && first.file.empty()) continue;
+    if (color.takes_file() && (first.file.empty() || first.by == ColorScheme::By::rmsf)) continue;
+    color.file = first.file;
     schemes.push_back({{"word", scheme.word}, {"has_map", color.has_scale()}, {"description", scheme.description}});
+    if (scheme.by == first.by) continue;
+    if (const std::string lack = lacking(around.molecule.structure(), color); !lack.empty())
+      schemes.back()["lacks"] = lack;
   }
   for (const ColorMapMetadata& map : color_maps()) maps.push_back(map.name);
   Json keys = Json::array();

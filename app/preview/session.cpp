@@ -96,8 +96,10 @@ Json PreviewSession::become(const Command& command, const std::function<Outcome(
   return std::move(next.reply);
 }
 
-void PreviewSession::note(const Command& command, const Outcome& next) {
+void PreviewSession::note(const Command& command, Outcome& next) {
   using Effect = Command::Effect;
+  if (command.is_step() && next.renewal != Renewal::nothing) next.state.edition = ++last_edition_;
+  if (next.is_saved) exporter_.saved = next.state.edition;
   if (command.is_step()) history_.note(next.is_own_step ? std::string_view() : command.kind_of_step(), state_);
   if (command.effect == Effect::back) history_.go_back(state_);
   if (command.effect == Effect::forward) history_.go_forward(state_);
@@ -164,7 +166,7 @@ bool LiveView::draw(Quality quality, const std::function<Change()>& waiting) {
 }
 
 std::optional<Quality> LiveView::drawn() const {
-  for (const Quality quality : {Quality::full, Quality::plain, Quality::draft})
+  for (const Quality quality : {Quality::full, Quality::plain, Quality::draft, Quality::balls})
     if (session_.is_drawn(quality)) return quality;
   return {};
 }
@@ -172,16 +174,17 @@ std::optional<Quality> LiveView::drawn() const {
 std::optional<Quality> LiveView::next() const {
   const std::optional<Quality> best = drawn();
   if (!fault_.empty() || best == Quality::full || (best && session_.state().playing)) return {};
-  if (!best) return Quality::draft;
-  return best == Quality::draft ? Quality::plain : Quality::full;
+  if (!best) return at_once();
+  return best == Quality::balls ? Quality::draft : best == Quality::draft ? Quality::plain : Quality::full;
 }
 
 LiveView::Clock::duration LiveView::rest(Quality quality) const {
-  if (quality == Quality::draft) return Clock::duration::zero();
+  if (quality <= Quality::draft) return Clock::duration::zero();
   return quality == Quality::plain ? kPause : rest_;
 }
 
 Quality LiveView::at_once() const {
+  if (!drawn() && session_.wants_balls()) return Quality::balls;
   if (!session_.state().playing || !draft_cost_) return Quality::draft;
   constexpr int kMostLikely = 3;  // drafts of a quarter of the pixels that a plain picture takes
   const std::chrono::duration<double> frame(0.8 / session_.state().frames_per_second);

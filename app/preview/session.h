@@ -43,12 +43,17 @@ class PreviewSession {
   nlohmann::json apply(const nlohmann::json& command);
 
   /// Calls `sink` with every command from now on that was carried out and is not a mere question (is_question).
-  void record(std::function<void(const nlohmann::json&)> sink) { sink_ = std::move(sink); }
+  void record(std::function<void(const nlohmann::json&)> sink) {
+    sink_ = std::move(sink);
+    exporter_.all_recorded = sink_ != nullptr;
+  }
 
   /// The picture of the state: see ViewCache. A new one may come with render and with apply (pick).
   bool render(Quality quality, const std::function<bool()>& stop = {}) {
     return pictures_.draw(state_, molecule_, quality, stop);
   }
+  /// Whether atoms alone should be shown first: see ViewCache.
+  bool wants_balls() const { return pictures_.wants_balls(state_, molecule_); }
   bool is_drawn(Quality quality) const { return pictures_.is_drawn(state_, quality); }
   std::vector<std::uint8_t> rgba() const { return pictures_.rgba(); }
   std::uint32_t texture() const { return pictures_.texture(); }
@@ -65,7 +70,7 @@ class PreviewSession {
  private:
   nlohmann::json carry_out(const nlohmann::json& command);
   nlohmann::json become(const Command& command, const std::function<Outcome(PreviewState)>& reduce);
-  void note(const Command& command, const Outcome& next);
+  void note(const Command& command, Outcome& next);
 
   PreviewState state_;
   ShownMolecule molecule_;
@@ -73,6 +78,7 @@ class PreviewSession {
   Exporter exporter_;
   EditHistory history_;
   PreviewState first_;  ///< as it began
+  std::uint64_t last_edition_ = 0;
   std::function<void(const nlohmann::json&)> sink_;
 };
 
@@ -106,7 +112,8 @@ class LiveView {
   /// Without a change for so long a picture of this quality is begun. A full one is rested for as long as it may take,
   /// for it stops between samples only.
   Clock::duration rest(Quality quality) const;
-  /// The quality of the first picture after a change: a draft, but of a trajectory that plays the full size once a
+  /// The quality of the first picture after a change: balls while there was no surface yet and the first one takes
+  /// long, else a draft, but of a trajectory that plays the full size once a
   /// picture of it has turned out to be made before the next frame is due.
   Quality at_once() const;
   /// The quality that is due at this time, as the view has rested since its last change.

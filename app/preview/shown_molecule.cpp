@@ -276,9 +276,11 @@ double ShownMolecule::aspect(const PreviewState& state) const {
 }
 
 Camera ShownMolecule::overview(const PreviewState& state) const {
-  const std::vector<Ball> all =
-      trajectory_ ? grown(sampled_, growth_of(state.kind, state.probe_radius)) : balls_in_view();
-  return meniscus::overview(all, aspect(state), state.camera.projection);
+  const std::vector<Ball> own = trajectory_ ? grown(sampled_, growth_of(state.kind, state.probe_radius)) : reach();
+  const Camera camera = meniscus::overview(own, aspect(state), state.camera.projection);
+  if (trajectory_ || !beside_) return camera;
+  const std::vector<Ball> all = balls_in_view();
+  return zoomed_to(camera, all, all, aspect(state));
 }
 
 std::vector<std::string> ShownMolecule::idle_among(std::span<const Cut> cuts, const PreviewFigure& figure) const {

@@ -115,7 +115,7 @@ class ShownMolecule {
   /// Width of these / their height.
   double aspect(const PreviewState& state) const;
 
-  /// A camera that shows everything, all frames of a trajectory too.
+  /// A camera that shows everything, all frames of a trajectory too. What is beside the surface does not turn it.
   Camera overview(const PreviewState& state) const;
   /// How many atoms of the surface the figure shows. Throws RequestError if it is none.
   std::size_t count_shown(const PreviewFigure& figure) const;

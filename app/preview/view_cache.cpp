@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <limits>
+#include <span>
 #include <utility>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "app/preview/look_json.h"
 #include "core/base/error.h"
@@ -69,12 +73,71 @@ void ViewCache::take(const PreviewState& state, const ShownMolecule& molecule, R
   if (renewal >= Renewal::cuts) renderer_->set_figure(state.figure, molecule.beside());
 }
 
+namespace {
+
+/// Each ball in its colour, the darker the more it turns away; rows from the top.
+std::vector<std::uint8_t> draw_balls(std::span<const Ball> balls, const Coloring& coloring, const Camera& camera,
+                                     glm::ivec2 size, const glm::vec3& background) {
+  const std::size_t pixels = static_cast<std::size_t>(size.x) * size.y;
+  std::vector<std::uint8_t> rgba;
+  for (std::size_t p = 0; p < pixels; ++p)
+    for (const float channel : {background.x, background.y, background.z, 1.0f})
+      rgba.push_back(static_cast<std::uint8_t>(std::lround(255.0f * channel)));
+  std::vector<float> nearest(pixels, std::numeric_limits<float>::max());
+  const ViewBasis view = view_basis(camera);
+  const bool flat = camera.projection == Projection::orthographic;
+  const double half_height = half_extent(camera, static_cast<double>(size.x) / size.y).y;
+  for (std::size_t a = 0; a < balls.size(); ++a) {
+    const glm::dvec3 from_eye = balls[a].center - camera.position;
+    const double depth = glm::dot(from_eye, view.forward);
+    if (depth <= balls[a].radius || !coloring.shows(static_cast<std::uint32_t>(a))) continue;
+    const double scale = 0.5 * size.y / (flat ? half_height : half_height * depth);  // pixels per Å
+    const double radius = scale * balls[a].radius;
+    const double x = 0.5 * size.x + scale * glm::dot(from_eye, view.right);
+    const double y = 0.5 * size.y - scale * glm::dot(from_eye, view.up);
+    const auto within = [](double value, int end) { return static_cast<int>(std::clamp<double>(value, 0.0, end)); };
+    const glm::vec3 color = 255.0f * coloring.atom[a];
+    for (int row = within(std::ceil(y - radius - 0.5), size.y), end = within(y + radius + 0.5, size.y); row < end;
+         ++row)
+      for (int column = within(std::ceil(x - radius - 0.5), size.x), last = within(x + radius + 0.5, size.x);
+           column < last; ++column) {
+        const double dx = (column + 0.5 - x) / radius, dy = (row + 0.5 - y) / radius, rest = 1.0 - dx * dx - dy * dy;
+        if (rest < 0.0) continue;
+        const double front = std::sqrt(rest);
+        const auto distance = static_cast<float>(depth - front * balls[a].radius);
+        const std::size_t pixel = static_cast<std::size_t>(row) * size.x + column;
+        if (distance >= nearest[pixel]) continue;
+        nearest[pixel] = distance;
+        const float light = 0.35f + 0.65f * static_cast<float>(front);
+        for (int c = 0; c < 3; ++c) rgba[4 * pixel + c] = static_cast<std::uint8_t>(light * color[c]);
+      }
+  }
+  return rgba;
+}
+
+}  // namespace
+
+bool ViewCache::wants_balls(const PreviewState& state, const ShownMolecule& molecule) const {
+  constexpr std::size_t kMany = 20'000;  // atoms whose surface takes more than half a second
+  return !has_surface_ && renderer_->draws_on_cpu() && !state.figure.hides_surface && molecule.balls().size() > kMany &&
+         molecule.structure().instances.empty();
+}
+
 bool ViewCache::draw(const PreviewState& state, const ShownMolecule& molecule, Quality quality,
                      const std::function<bool()>& stop) {
   if (is_drawn(state, quality)) return true;
   drawn_.revision = 0;
   const auto begin = std::chrono::steady_clock::now();
   const glm::ivec2 size = molecule.picture_size(state);
+  const auto end = [&] {
+    milliseconds_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    drawn_ = {state.revision, quality, molecule.legend()};
+    return true;
+  };
+  if (quality == Quality::balls) {
+    balls_ = {size, draw_balls(molecule.balls(), molecule.coloring(state), state.camera, size, state.background)};
+    return end();
+  }
   RenderSettings settings;
   settings.size = quality == Quality::draft ? glm::max(size / 2, glm::ivec2(1)) : size;
   settings.samples = quality == Quality::full ? state.samples : 1;
@@ -82,22 +145,22 @@ bool ViewCache::draw(const PreviewState& state, const ShownMolecule& molecule, Q
   settings.timing = quality == Quality::draft ? StageTiming::rough : StageTiming::exact;
   if (!renderer_->draw(rolling_probe(state.kind, state.probe_radius), state.camera, settings, stop)) return false;
   if (quality != Quality::draft || stages_.empty()) stages_ = renderer_->times();
-  milliseconds_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-  drawn_ = {state.revision, quality, molecule.legend()};
-  return true;
+  has_surface_ = true;
+  balls_ = {};
+  return end();
 }
 
 std::vector<std::uint8_t> ViewCache::rgba() const {
-  std::vector<std::uint8_t> molecule = renderer_->rgba();
-  return drawn_.legend ? drawn_.legend->around(molecule, renderer_->size()) : molecule;
+  std::vector<std::uint8_t> molecule = shows_balls() ? balls_.rgba : renderer_->rgba();
+  return drawn_.legend ? drawn_.legend->around(molecule, molecule_size()) : molecule;
 }
 
 glm::ivec2 ViewCache::size() const {
-  return drawn_.legend ? drawn_.legend->whole_size(renderer_->size()) : renderer_->size();
+  return drawn_.legend ? drawn_.legend->whole_size(molecule_size()) : molecule_size();
 }
 
 std::optional<PickedPoint> ViewCache::pick(const PreviewState& state, const ShownMolecule& molecule, glm::ivec2 pixel) {
-  if (drawn_.revision != state.revision || drawn_.quality == Quality::draft) draw(state, molecule, Quality::plain);
+  if (drawn_.revision != state.revision || drawn_.quality <= Quality::draft) draw(state, molecule, Quality::plain);
   const glm::ivec2 shown = renderer_->size();
   return pixel.x < shown.x && pixel.y < shown.y ? renderer_->pick(pixel) : std::nullopt;
 }

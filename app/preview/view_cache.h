@@ -58,6 +58,7 @@ class ExposedAreas {
 
 /// A picture while something moves, or at rest.
 enum class Quality {
+  balls,  ///< atoms alone, at once, while their first surface is computed
   draft,  ///< half the size, one ray a pixel, no effects
   plain,  ///< the same in full size
   full    ///< as exported
@@ -81,10 +82,13 @@ class ViewCache {
     return drawn_.revision == state.revision && drawn_.quality == quality;
   }
 
+  /// Whether the first surface takes so long that there should be something to see before.
+  bool wants_balls(const PreviewState& state, const ShownMolecule& molecule) const;
+
   /// The last picture with its legend; see ViewRenderer::draw().
   std::vector<std::uint8_t> rgba() const;
   /// Of GL; 0: the picture is rgba() alone.
-  std::uint32_t texture() const { return drawn_.legend ? 0 : renderer_->texture(); }
+  std::uint32_t texture() const { return drawn_.legend || shows_balls() ? 0 : renderer_->texture(); }
   glm::ivec2 size() const;
   bool draws_on_cpu() const { return renderer_->draws_on_cpu(); }
 
@@ -98,13 +102,21 @@ class ViewCache {
   bool computes_areas() const { return areas_.computing(); }
 
   /// Of the last picture's molecule, without the legend.
-  glm::ivec2 molecule_size() const { return renderer_->size(); }
+  glm::ivec2 molecule_size() const { return shows_balls() ? balls_.size : renderer_->size(); }
   double grown_by() const { return renderer_->grown_by(); }
   double milliseconds() const { return milliseconds_; }
   /// Of the last picture that was not a draft; stages of drafts are not measured.
   const std::vector<StageTime>& stages() const { return stages_; }
 
  private:
+  /// Atoms without their surface: 8 bit sRGB and alpha.
+  struct BallPicture {
+    glm::ivec2 size{0};
+    std::vector<std::uint8_t> rgba;
+  };
+
+  bool shows_balls() const { return !balls_.rgba.empty(); }
+
   /// What the last picture shows.
   struct Drawn {
     std::uint64_t revision = 0;  ///< 0: of no state
@@ -115,6 +127,8 @@ class ViewCache {
   std::unique_ptr<ViewRenderer> renderer_;
   ExposedAreas areas_;
   Drawn drawn_;
+  BallPicture balls_;         ///< the last picture, if it is of this quality
+  bool has_surface_ = false;  ///< some picture showed one
   double milliseconds_ = 0.0;
   std::vector<StageTime> stages_;
 };

@@ -98,6 +98,11 @@ bool ExportJob::running() const {
   return !shared_->ended;
 }
 
+bool ExportJob::done() const {
+  const std::scoped_lock lock(shared_->mutex);
+  return shared_->ended && !shared_->failure;
+}
+
 nlohmann::json ExportJob::result() {
   std::unique_lock lock(shared_->mutex);
   shared_->ended_now.wait(lock, [&] { return shared_->ended; });

@@ -47,6 +47,8 @@ class ExportJob {
   /// It ends soon, unless it is done before.
   void cancel();
   bool running() const;
+  /// Whether it has come to its end, and nothing was thrown.
+  bool done() const;
   /// Waits for the end. Throws what the work threw; RequestError where that is a GpuError, which is the export's alone,
   /// and where it was cancelled.
   nlohmann::json result();
@@ -122,6 +124,8 @@ struct SessionContext {
   MakePictureDevice make_device;  ///< of exported pictures
   /// What is written into exported pictures of the molecule, as it is at a frame.
   std::function<Annotations(const Structure& structure)> annotations;
+  /// Makes the film of a scene, as `meniscus render` does; empty: there are none. Throws RequestError, OutputError.
+  std::function<void(const Scene& scene, const ExportTarget& target, const ExportWatch& watch)> make_film;
   /// Reads a scene. Throws InputError, UsageError; RequestError where it is one of another molecule.
   std::function<OpenedScene(const std::filesystem::path& path)> open_scene;
 };
@@ -130,7 +134,21 @@ struct SessionContext {
 struct Exporter {
   std::filesystem::path folder;
   SessionContext context;
-  std::unique_ptr<ExportJob> job{};  ///< nullptr: none yet
+  std::unique_ptr<ExportJob> job{};            ///< nullptr: none yet
+  std::optional<std::uint64_t> job_edition{};  ///< of the figure whose scene the job writes; nothing: it writes none
+  std::uint64_t saved = 0;                     ///< the edition of the figure that a file has
+  bool all_recorded = false;                   ///< a log has every command
+
+  /// Whether the end of the preview loses nothing of the figure but its camera.
+  bool keeps(const PreviewFigure& figure) const {
+    return all_recorded || figure.edition == saved || (job_edition == figure.edition && job->done());
+  }
+  /// The latest job, which has ended, makes room for another.
+  void forget_job() {
+    if (job_edition && job->done()) saved = *job_edition;
+    job_edition.reset();
+    job.reset();
+  }
 };
 
 }  // namespace meniscus

@@ -47,6 +47,11 @@ constexpr auto kTable = std::to_array<Property>({
          "Serve a web page instead of a window, on 127.0.0.1. PORT: by default any free one")
         .in(kSession, live | value_optional)
         .in_short_help(),
+    file("preview.token_file", "--token-file", "FILE",
+         "Take the token of the page's address from this file, so that the address stays. Without it from the variable "
+         "MENISCUS_TOKEN. 16 to 128 letters and digits")
+        .initially("a random one")
+        .in(kSession, live),
     file("preview.commands", "--commands", "FILE", "Run commands from this file first, one JSON object per line")
         .in(kSession, live),
     new_file("preview.record", "--record", "FILE", "Record all commands in this file, for --commands")

@@ -16,11 +16,11 @@ import websockets
 
 
 class Preview:
-    """`meniscus preview FILE --serve`, until the with-block ends."""
+    """`meniscus preview FILE --serve`, until the with-block ends. options: of Popen."""
 
-    def __init__(self, program, *arguments):
-        self.process = subprocess.Popen([program, "preview", *arguments, "--serve"], stdout=subprocess.PIPE,
-                                        stderr=subprocess.PIPE, text=True)
+    def __init__(self, program, *arguments, port="", **options):
+        self.process = subprocess.Popen([program, "preview", *arguments, "--serve", *([str(port)] if port else [])],
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
         self.lines = []
         for line in self.process.stdout:
             self.lines.append(line.rstrip("\n"))
@@ -29,7 +29,7 @@ class Preview:
         else:
             raise RuntimeError(self.process.stderr.read())
         self.url = self.lines[-1]
-        self.port = int(re.match(r"http://127\.0\.0\.1:(\d+)/[0-9a-f]{32}/$", self.url).group(1))
+        self.port = int(re.match(r"http://127\.0\.0\.1:(\d+)/[\w-]+/$", self.url).group(1))
         self.origin = f"http://127.0.0.1:{self.port}"
 
     def socket(self, **options):

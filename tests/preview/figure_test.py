@@ -268,6 +268,36 @@ class Figures(unittest.TestCase):
         for name, expected in (("opened", "figure"), ("undone", "first"), ("redone", "figure")):
             self.same(f"{name}.png", f"{expected}.png")
 
+    def frames_of(self, film):
+        """How many pictures a film has, and their size."""
+        probed = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_entries",
+                                 "stream=nb_read_frames,width,height,r_frame_rate", "-of", "json", self.path(film)],
+                                capture_output=True, text=True, check=True)
+        stream = json.loads(probed.stdout)["streams"][0]
+        return int(stream["nb_read_frames"]), stream["width"], stream["height"], stream["r_frame_rate"]
+
+    def test_films_of_a_turn_of_models_and_of_a_run(self):
+        film = {"command": "export", "format": "film", "path": "film.mp4", "force": True, "width": 121, "height": 90,
+                "samples": 1}
+        replies = self.session(MOLECULE, "--select", "chain D", commands=[
+            {"command": "color", "scheme": "chain"}, {**film, "seconds": 0.2}])
+        self.assertTrue(replies[-1]["path"].endswith("film.mp4"))
+        self.assertEqual(self.frames_of("film.mp4"), (5, 120, 90, "25/1"))
+        models = f"{DATA}/pdb2k39_truncated.pdb"
+        count = self.session(models, commands=[{"command": "state"}, film])[0]["frames"]
+        self.assertEqual(self.frames_of("film.mp4"), (count, 120, 90, "10/1"))
+        run = (models, "--trajectory", f"{DATA}/dcd2k39_truncated.dcd", "--frames", "0-2", "--superpose", "name CA")
+        self.session(*run, commands=[{"command": "play", "fps": 5}, film])
+        self.assertEqual(self.frames_of("film.mp4"), (3, 120, 90, "5/1"))
+        # Refusals of the program that makes it are those of the export, and nothing is left behind.
+        with open(self.path("session.jsonl"), "w") as lines:
+            lines.write(json.dumps({**film, "path": "small.mp4", "width": 16, "height": 16}) + "\n")
+        done = subprocess.run([PROGRAM, "preview", MOLECULE, "--serve", "--legend", "--output-dir", self.folder,
+                               "--color", "chain", "--commands", self.path("session.jsonl")], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("legend", done.stderr)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["film.mp4", "session.jsonl"])
+
     def test_scenes_of_other_molecules_are_not_opened(self):
         self.scene("other.json", {"meniscus_scene": 1, "molecule": {"file": MOLECULE, "select": "chain A"}})
         self.scene("bad.json", {"meniscus_scene": 1, "molecule": {"file": MOLECULE}, "objects": [

@@ -45,6 +45,48 @@ TEST(LivePictures, SurfacesCanBeGivenUpBetweenStages) {
   EXPECT_LT(renderer->times().size(), stages);
 }
 
+// Of many atoms the first surface takes long; balls are there at once, and never again.
+TEST(LivePictures, ManyAtomsAreBallsUntilTheirSurfaceIsThere) {
+  const TemporaryFolder folder;
+  const auto begin = [&](int side) {
+    Structure structure;
+    for (int n = 0; n < side * side * side; ++n) {
+      Atom& atom = structure.atoms.emplace_back();
+      atom.position = 6.0 * glm::dvec3(n % side, n / side % side, n / side / side);
+      atom.radius = 1.5;
+      atom.element = 8;
+      atom.model = 1;
+    }
+    PreviewState view;
+    view.size = {160, 120};
+    return std::make_unique<PreviewSession>(make_cpu_view_renderer(), structure, view, std::nullopt, folder.path());
+  };
+  const auto nothing_waits = [] { return Change::none; };
+  const std::unique_ptr<PreviewSession> few = begin(3), many = begin(28);
+  EXPECT_EQ(LiveView(*few).next(), Quality::draft);
+  LiveView live(*many);
+  EXPECT_EQ(live.next(), Quality::balls);
+  ASSERT_TRUE(live.draw(Quality::balls, nothing_waits));
+  const std::vector<std::uint8_t> balls = many->rgba();
+  ASSERT_EQ(many->picture_size(), glm::ivec2(160, 120));
+  ASSERT_EQ(balls.size(), 4u * 160 * 120);
+  EXPECT_EQ(live.next(), Quality::draft);
+  ASSERT_TRUE(live.draw(Quality::plain, nothing_waits));
+  // They are where the surface of such atoms is.
+  const std::vector<std::uint8_t> surface = many->rgba();
+  ASSERT_EQ(surface.size(), balls.size());
+  std::size_t shown = 0, differ = 0;
+  for (std::size_t p = 0; p < balls.size(); p += 4) {
+    const bool ball = balls[p + 2] < 255, point = surface[p + 2] < 255;
+    shown += point;
+    differ += ball != point;
+  }
+  EXPECT_GT(shown, 5000u);
+  EXPECT_LT(differ, shown / 20);
+  ASSERT_TRUE(live.apply({{"command", "orbit"}, {"dx", 0.1}, {"dy", 0.0}})["ok"]);
+  EXPECT_EQ(live.next(), Quality::draft);
+}
+
 TEST(LivePictures, FramesPlayInFullSizeWhenThereIsTime) {
   const TemporaryFolder folder;
   PreviewState view;

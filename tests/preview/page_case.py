@@ -25,8 +25,8 @@ class PageCase(unittest.IsolatedAsyncioTestCase):
     def path(self, name):
         return os.path.join(self.folder.name, name)
 
-    def serve(self, file, *arguments):
-        preview = Preview(PROGRAM, file, "--output-dir", self.folder.name, *arguments)
+    def serve(self, file, *arguments, **options):
+        preview = Preview(PROGRAM, file, "--output-dir", self.folder.name, *arguments, **options)
         self.addCleanup(preview.end)
         return preview
 

@@ -3,6 +3,7 @@
 SESSION."""
 
 import json
+import os
 import sys
 import time
 import unittest
@@ -36,6 +37,8 @@ def distance(a, b):
 
 
 class PageManners(PageCase):
+    TOKEN = "the-token-of-this-test"
+
     async def test_a_connection_that_is_lost_comes_back(self):
         preview = self.serve(MOLECULE, "--select", "chain D")
         async with Browser(CHROMIUM, SIZE) as page:
@@ -49,6 +52,104 @@ class PageManners(PageCase):
                              "document.querySelector('#picture')?.dataset.rest === 'true'")
             self.assertTrue(await page.evaluate("document.getElementById('role').hidden"), "it controls again")
             self.assertEqual(page.complaints, [])
+
+    async def test_a_server_that_is_started_again_is_found(self):
+        for second in (self.TOKEN, "another-token-of-32-letters-long"):
+            first = self.serve(MOLECULE, "--select", "chain D", env={**os.environ, "MENISCUS_TOKEN": self.TOKEN})
+            async with Browser(CHROMIUM, SIZE) as page:
+                await page.open(first.url)
+                await page.evaluate("window.before = true")
+                first.end()
+                await page.until("document.getElementById('message').textContent.includes('lost')")
+                self.serve(MOLECULE, "--select", "chain D", port=first.port,
+                           env={**os.environ, "MENISCUS_TOKEN": second})
+                if second != self.TOKEN:
+                    await page.until("document.getElementById('message').textContent.includes('another address')")
+                    self.assertTrue(await page.evaluate("window.before"))
+                    continue
+                await page.until("window.before === undefined && "
+                                 "document.getElementById('message')?.textContent === 'Connected again.'")
+                await page.at_rest()
+                self.assertFalse(await page.evaluate("document.getElementById('controls').disabled"))
+
+    async def test_errors_go_when_the_next_command_works(self):
+        preview = self.serve(MOLECULE, "--select", "chain D")
+        async with Browser(CHROMIUM, SIZE) as page:
+            await page.open(preview.url)
+            await page.evaluate("""document.getElementById('selection').value = 'chain (';
+                document.getElementById('zoom-form').requestSubmit();
+                document.getElementById('atoms').value = 'resid 10 and (';
+                document.querySelector('#figure-form button[value=sticks]').click(); 0""")
+            await page.until("!document.getElementById('atoms-fault').hidden && "
+                             "document.getElementById('message').classList.contains('error')")
+            begin = time.monotonic()
+            await page.click("#kinds")
+            await page.until("document.getElementById('atoms-fault').hidden && document.getElementById('message').hidden")
+            self.assertLess(time.monotonic() - begin, 5, "before it goes by itself")
+
+    async def test_unsaved_work_is_asked_about(self):
+        preview = self.serve(MOLECULE, "--select", "chain D")
+        asked = "(() => { const leave = new Event('beforeunload', {cancelable: true}); window.dispatchEvent(leave); " \
+                "return leave.defaultPrevented; })()"
+        unsaved = "JSON.parse(document.getElementById('picture').dataset.state).unsaved"
+        async with Browser(CHROMIUM, SIZE) as page:
+            await page.open(preview.url)
+            await page.drag([(200, 200), (230, 210), (260, 220)])
+            await page.at_rest()
+            self.assertFalse(await page.evaluate(asked), "who looks around has nothing to save")
+            for save in ("#scene-form button[value=save]", "#export-form button[value=png]", "#undo"):
+                await page.click("#kinds")
+                await page.until(unsaved)
+                self.assertTrue(await page.evaluate(asked))
+                await page.click(save)
+                await page.until(f"!{unsaved}")
+                self.assertFalse(await page.evaluate(asked), save)
+            self.assertEqual(page.complaints, [])
+
+    async def test_labels_are_whole_and_what_writes_is_in_sight(self):
+        preview = self.serve(MODELS, "--color", "hydrophobicity", "--legend")
+        # Elements whose text, or whose chosen option, is wider than they are.
+        cut = """(() => {
+            const pen = document.createElement("canvas").getContext("2d");
+            return [...document.querySelectorAll("#panel *")].filter((one) => {
+              const style = getComputedStyle(one);
+              if (!one.clientWidth || style.display === "inline") return false;
+              if (!one.matches("select")) return one.scrollWidth > one.clientWidth;
+              pen.font = style.font;
+              return pen.measureText(one.selectedOptions[0]?.text ?? "").width + 36 > one.clientWidth;
+            }).map((one) => `${one.tagName} ${one.id} ${one.textContent.slice(0, 60)}`); })()"""
+        for size in ((1280, 720), SIZE, (390, 844)):
+            async with Browser(CHROMIUM, size) as page:
+                await page.open(preview.url)
+                if size == (1280, 720):
+                    for act, atoms in (("sticks", "resid 1-20 and not name N or resid 60"),
+                                       ("fade", "chain A and (resid 1-60 or resid 80-120)"), ("surface", "resid 1-9")):
+                        await page.evaluate(f"document.getElementById('atoms').value = '{atoms}'; "
+                                            f"document.querySelector('#figure-form button[value={act}]').click()")
+                    await page.click("#cut-depth")
+                    await page.evaluate("document.getElementById('view-name').value = 'a view with a name that is long'; "
+                                        "document.getElementById('view-form').requestSubmit(); 0")
+                    await page.until("document.querySelectorAll('#chips li').length === 4 && "
+                                     "document.querySelectorAll('#views li').length === 1")
+                await page.at_rest()
+                await self.shoot(page, f"labels_{size[0]}.png")
+                self.assertEqual(await page.evaluate(cut), [], size)
+                self.assertEqual(await page.evaluate("[...document.querySelectorAll('#panel h2')].filter((h) => "
+                                                     "h.offsetParent).map((h) => h.textContent)"),
+                                 ["Surface", "Colour", "Figure", "View", "Look", "Frames", "Files", "Write"])
+                if size[0] > 640:
+                    self.assertTrue(await page.evaluate("""[...document.querySelectorAll("#export-form button")].every((one) =>
+                        one.getBoundingClientRect().bottom <= window.innerHeight && one.getBoundingClientRect().top > 0)"""))
+
+    async def test_schemes_that_cannot_work_say_why(self):
+        preview = self.serve(MOLECULE, "--select", "chain D")
+        async with Browser(CHROMIUM, SIZE) as page:
+            await page.open(preview.url)
+            options = await page.evaluate("[...document.querySelectorAll('#scheme option')].map((o) => [o.value, "
+                                          "o.disabled, o.text])")
+            shown = {word: text for word, disabled, text in options if disabled}
+            self.assertEqual(shown.get("charge"), "charge: the file has no partial charges to colour by")
+            self.assertEqual(set(shown), {"charge", "copy", "model", "plddt"})
 
     async def test_a_finger_that_stays_behind_a_pinch_turns_nothing(self):
         preview = self.serve(MOLECULE, "--select", "chain D")
@@ -152,8 +253,13 @@ class PageManners(PageCase):
 
     async def test_control_can_be_taken(self):
         preview = self.serve(MOLECULE, "--select", "chain D")
+        async def controls(client):
+            while "controls" not in (message := json.loads(await client.recv())):
+                pass  # what is read is told, too
+            return message["controls"]
+
         async with preview.socket() as other, Browser(CHROMIUM, SIZE) as page:
-            self.assertTrue(json.loads(await other.recv())["controls"])
+            self.assertTrue(await controls(other))
             await page.open(preview.url)
             self.assertFalse(await page.evaluate("document.getElementById('role').hidden"))
             self.assertTrue(await page.evaluate("document.getElementById('controls').disabled"))
@@ -162,7 +268,7 @@ class PageManners(PageCase):
             self.assertEqual((await self.state(page))["camera"], before)
             await page.click("#take")
             await page.until("document.getElementById('role').hidden && !document.getElementById('controls').disabled")
-            self.assertFalse(json.loads(await other.recv())["controls"])
+            self.assertFalse(await controls(other))
             await page.drag([(200, 200), (230, 210), (260, 220)])
             await page.until("JSON.stringify(JSON.parse(document.getElementById('picture').dataset.state).camera)"
                              f" !== {json.dumps(json.dumps(before, separators=(',', ':')))}")

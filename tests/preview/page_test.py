@@ -148,6 +148,11 @@ class Page(PageCase):
         saved = await self.downloaded(page, "1tii.png")
         self.assertTrue(same_pixels(rendered, saved))
         self.assertTrue(same_pixels(rendered, self.path("written.png")))
+        # Both carry their scene.
+        for picture in (saved, self.path("written.png")):
+            subprocess.run([PROGRAM, "render", "--scene", picture, MOLECULE, "-o", self.path("again.png"), "--force"],
+                           check=True, capture_output=True)
+            self.assertTrue(same_pixels(picture, self.path("again.png")))
         await page.click("button[value=png]")
         await page.until("document.getElementById('message').textContent.includes('exists')")
 

@@ -54,8 +54,8 @@ class Server(unittest.IsolatedAsyncioTestCase):
     def path(self, name):
         return os.path.join(self.folder.name, name)
 
-    def serve(self, *arguments):
-        preview = Preview(PROGRAM, self.file, "--output-dir", self.folder.name, *arguments)
+    def serve(self, *arguments, **options):
+        preview = Preview(PROGRAM, self.file, "--output-dir", self.folder.name, *arguments, **options)
         self.addCleanup(preview.end)
         return preview
 
@@ -97,6 +97,55 @@ class Server(unittest.IsolatedAsyncioTestCase):
         self.assertEqual(self.get(Host="example.org")[0], 403)
         self.assertEqual(self.get(Host=f"example.org:{self.preview.port}")[0], 403)
         self.assertEqual(self.get(Host=f"localhost:{self.preview.port}")[0], 200)
+
+    async def test_a_page_is_told_what_is_read_and_then_served(self):
+        preview = Preview(PROGRAM, "-", "--output-dir", self.folder.name, stdin=subprocess.PIPE)
+        self.addCleanup(preview.end)
+        self.preview = preview
+        self.assertEqual(self.get()[0], 200, "the page is there before the molecule")
+        async with preview.socket() as client:
+            told = await receive(client, lambda message: message.get("event") == "progress")
+            self.assertEqual(told["what"], "Reading standard input")
+            await client.send('{"id":1,"command":"state"}')
+            preview.process.stdin.write(ATOMS)
+            preview.process.stdin.close()
+            preview.process.stdin = None
+            state = await receive(client, lambda message: message.get("id") == 1)
+            self.assertEqual(state["atoms"], 5)
+            self.assertIn("picture", (await picture(client))[0]["event"])
+        async with preview.socket() as late:
+            self.assertEqual(json.loads(await late.recv())["event"], "welcome")
+            await late.send('{"id":2,"command":"stats"}')
+            self.assertEqual(json.loads(await late.recv())["id"], 2, "nothing is read any more")
+
+    async def test_what_cannot_be_read_is_told_to_pages_too(self):
+        preview = Preview(PROGRAM, "-", "--output-dir", self.folder.name, stdin=subprocess.PIPE)
+        self.addCleanup(preview.end)
+        async with preview.socket() as client:
+            await receive(client, lambda message: message.get("event") == "welcome")
+            preview.process.stdin.write("nonsense")
+            preview.process.stdin.close()
+            preview.process.stdin = None
+            ended = await receive(client, lambda message: message.get("event") == "ended")
+            self.assertIn("standard input", ended["error"])
+        self.assertEqual(preview.end()[0], 3)
+
+    def test_a_token_of_the_users_own(self):
+        token = "my-token_0123456789"
+        with open(self.path("token"), "w") as file:
+            file.write(token + "\n")
+        for options in ({"env": {**os.environ, "MENISCUS_TOKEN": token}}, {}):
+            arguments = [] if options else ["--token-file", self.path("token")]
+            self.preview = self.serve(*arguments, **options)
+            self.assertTrue(self.preview.url.endswith(f"/{token}/"), self.preview.url)
+            self.assertEqual(self.get()[0], 200)
+            self.assertEqual(self.get(f"/{token[:-1]}/")[0], 403)
+        for wrong in ("short", "with blanks in it, which is wrong", "x" * 129):
+            result = subprocess.run([PROGRAM, "preview", self.file, "--serve"], capture_output=True, text=True,
+                                    env={**os.environ, "MENISCUS_TOKEN": wrong}, timeout=60)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn("MENISCUS_TOKEN: a token has 16 to 128 letters", result.stderr)
+            self.assertNotIn(wrong, result.stderr)
 
     async def test_sockets_of_foreign_pages_are_refused(self):
         await self.refused(403, origin="http://example.org")
@@ -293,6 +342,7 @@ class Server(unittest.IsolatedAsyncioTestCase):
         fails(3, "--serve", "--show", "chain Z")
         fails(6, "--serve", "--output-dir", self.path("nowhere"))
         fails(6, "--serve", "--record", self.file)
+        fails(3, "--serve", "--token-file", self.path("missing"))
         with open(self.path("bad.jsonl"), "w") as file:
             file.write('{"command":"state"}\n{"command":"probe","radius":-1}\n')
         fails(3, "--serve", "--commands", self.path("bad.jsonl"))

@@ -86,6 +86,33 @@ TEST_F(SessionExports, EndWhatTheirFormatEndsIn) {
   EXPECT_EQ(read_bytes(plain), "precious");
 }
 
+// What a file has, or a log, is not lost with the session.
+TEST_F(SessionExports, TellWhatIsNotSaved) {
+  const auto unsaved = [&] { return apply(R"({"command":"state"})")["unsaved"].get<bool>(); };
+  EXPECT_FALSE(unsaved());
+  expect_ok(R"({"command":"orbit","dx":0.1,"dy":0})");
+  EXPECT_FALSE(unsaved()) << "a look around";
+  const std::string change = R"({"command":"probe","radius":1.5})";
+  expect_ok(change);
+  EXPECT_TRUE(unsaved());
+  expect_ok(R"({"command":"undo"})");
+  EXPECT_FALSE(unsaved());
+  expect_ok(R"({"command":"redo"})");
+  EXPECT_TRUE(unsaved());
+  expect_ok(R"({"command":"save","path":"fig.json"})");
+  EXPECT_FALSE(unsaved());
+  expect_ok(R"({"command":"undo"})");
+  EXPECT_TRUE(unsaved()) << "of which there is no file";
+  expect_ok(R"({"command":"export","format":"povray","path":"scene"})");
+  EXPECT_TRUE(unsaved()) << "that file cannot be opened again";
+  expect_ok(R"({"command":"export","format":"png","path":"p.png","width":20,"height":20})");
+  EXPECT_FALSE(unsaved()) << "a picture carries its scene";
+  expect_ok(change);
+  EXPECT_TRUE(unsaved());
+  session_->record([](const Json&) {});
+  EXPECT_FALSE(unsaved()) << "the log has it";
+}
+
 TEST_F(SessionExports, AnExportIsMadeBesideThePicturesAndCanBeCancelled) {
   const std::string large = R"({"command":"export","format":"png","path":"large.png","width":2000,"height":2000,)"
                             R"("samples":1024,"wait":false})";

@@ -2,6 +2,7 @@
 // Commands that change what a figure shows, what they refuse, and undo and redo of them.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -383,15 +384,36 @@ TEST_F(FigureSession, WhatItCannotShowIsRefusedInOneLine) {
   refused(R"({"command":"open","path":"fig.json"})", "scenes");
 }
 
+// What comes beside the surface turns nothing, and a later change of the size neither.
+TEST_F(FigureSession, ShapesBesideTheSurfaceDoNotTurnTheMolecule) {
+  const Json before = apply(R"({"command":"state"})")["camera"];
+  const auto camera = [&] { return apply(R"({"command":"state"})")["camera"]; };
+  for (const char* command :
+       {R"({"command":"represent","as":"sticks","selection":"ligand"})",
+        R"({"command":"object","object":{"selection":"ligand"}})", R"({"command":"remove","of":"objects"})"}) {
+    expect_ok(command);
+    EXPECT_EQ(camera(), before) << command;
+  }
+  const auto side = [](const Json& seen) {
+    const auto point = [&](const char* key) {
+      return glm::dvec3(seen[key][0].get<double>(), seen[key][1].get<double>(), seen[key][2].get<double>());
+    };
+    return glm::normalize(point("target") - point("position"));
+  };
+  expect_ok(R"({"command":"resize","width":90,"height":60})");
+  EXPECT_NE(camera(), before) << "all is in view again";
+  EXPECT_LT(glm::length(side(camera()) - side(before)), 1e-9);
+}
+
 TEST_F(FigureSession, SchemesThatAreOfferedAreThoseItCanShow) {
   const auto offered = [](PreviewSession& session) {
     std::set<std::string> words;
     const Json choices = session.apply({{"command", "choices"}});
-    for (const Json& scheme : choices["schemes"]) words.insert(scheme["word"]);
+    for (const Json& scheme : choices["schemes"])
+      if (!scheme.contains("lacks")) words.insert(scheme["word"]);
     for (const std::string& word : words) {
       const Json reply = session.apply({{"command", "color"}, {"scheme", word}});
-      // Charges are those that files have; all else is there.
-      EXPECT_TRUE(reply["ok"] || word == "charge") << word << reply;
+      EXPECT_TRUE(reply["ok"]) << word << reply;
     }
     return words;
   };
@@ -399,6 +421,15 @@ TEST_F(FigureSession, SchemesThatAreOfferedAreThoseItCanShow) {
   for (const char* word : {"buried", "rmsf", "component", "volume", "copy", "file"})
     EXPECT_FALSE(words.contains(word)) << word;
   for (const char* word : {"element", "chain", "bfactor"}) EXPECT_TRUE(words.contains(word)) << word;
+  // Of the others the reason is told.
+  std::map<std::string, std::string> lacks;
+  for (const Json& scheme : apply(R"({"command":"choices"})")["schemes"])
+    lacks[scheme["word"].get<std::string>()] = scheme.value("lacks", "");
+  EXPECT_EQ(lacks["charge"], "has no partial charges to colour by");
+  EXPECT_EQ(lacks["model"], "has one model");
+  EXPECT_EQ(lacks["copy"], "has no copies");
+  EXPECT_EQ(lacks["plddt"], "");  // nothing speaks against it
+  EXPECT_EQ(lacks["secondary"], "");
   // An assembly has copies, and a scheme of numbers that it was begun with is there to be returned to.
   Structure assembly = session_->structure();
   for (std::size_t n = 0; n < assembly.atoms.size(); ++n) assembly.atoms[n].copy = static_cast<std::uint32_t>(n % 2);

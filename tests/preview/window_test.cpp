@@ -305,7 +305,7 @@ TEST_F(WindowTest, HasMapsPaintAndThePaceOfFrames) {
   click("paint");
   ASSERT_TRUE(happens([&] { return recorded("paint").size() == 1; }));
   EXPECT_EQ(recorded("paint")[0]["color"], "#e69f00");
-  screen_.act({"mousemove", "1100", "600", "click", "--repeat", "40", "--delay", "10", "5"});
+  screen_.act({"mousemove", "1100", "300", "click", "--repeat", "40", "--delay", "10", "5"});
   click("##fps");
   ASSERT_TRUE(happens([&] { return !recorded("pause").empty(); })) << "the pace, before it plays";
   const Json pace = recorded("pause").back()["fps"];
@@ -314,6 +314,51 @@ TEST_F(WindowTest, HasMapsPaintAndThePaceOfFrames) {
   ASSERT_TRUE(happens([&] { return recorded("next_frame").size() > 3; }));
   screen_.act({"mousemove", "400", "400", "type", "q"});
   EXPECT_EQ(program_->finish().exit_code, 0);
+}
+
+// The button that writes is in sight whatever else there is, and a fault is said until the next command works.
+TEST_F(WindowTest, WritesWithoutScrollingAndForgetsFaults) {
+  open();
+  screen_.act(move_to(place("write")));
+  const auto line = [&] { return state().value("line", std::string()); };
+  screen_.act({"type", "6"});  // charges, which this file has not
+  ASSERT_TRUE(happens([&] { return line().find("no partial charges") != std::string::npos; })) << line();
+  screen_.act({"type", "k"});
+  EXPECT_TRUE(happens([&] { return line().empty(); }, 20)) << line();
+  screen_.act({"type", "g"});  // and a legend
+  ASSERT_TRUE(happens([&] { return recorded("legend").size() == 1 && says("full") && says("idle"); }));
+  click("write");
+  EXPECT_TRUE(happens([&] { return std::filesystem::exists(folder_.path() / "view.png"); }));
+}
+
+// Nobody who only looked around is asked; who changed something may stay.
+TEST_F(WindowTest, AsksBeforeUnsavedWorkIsLost) {
+  const std::vector<std::string> arguments = with({"--output-dir", folder_.path()});
+  program_.emplace(kProgram, arguments);
+  ASSERT_TRUE(happens([&] { return is_drawn(); })) << program_->err();
+  screen_.act({"mousemove", "400", "400", "key", "Left", "type", "q"});
+  EXPECT_EQ(program_->finish().exit_code, 0);
+  std::filesystem::remove(state_file());
+  program_.emplace(kProgram, arguments);
+  ASSERT_TRUE(happens([&] { return is_drawn(); })) << program_->err();
+  screen_.act({"type", "k"});
+  ASSERT_TRUE(happens([&] { return says("unsaved") && says("full"); }));
+  screen_.act({"type", "q"});
+  ASSERT_TRUE(happens([&] { return says("asks"); }));
+  click("stay");
+  ASSERT_TRUE(happens([&] { return !says("asks"); }));
+  screen_.act({"key", "Escape"});
+  ASSERT_TRUE(happens([&] { return says("asks"); }));
+  screen_.act({"type", "y"});
+  EXPECT_EQ(program_->finish().exit_code, 0);
+}
+
+// The window is there before the molecule, and says what it waits for.
+TEST_F(WindowTest, TellsWhatIsRead) {
+  program_.emplace("/bin/sh", std::vector<std::string>{"-c", "sleep 3 | " + kProgram + " preview - --quiet"});
+  EXPECT_TRUE(happens([&] { return state().value("stage", std::string()) == "Reading standard input"; }))
+      << state().dump();
+  EXPECT_EQ(program_->finish(60).exit_code, 3) << "nothing came";
 }
 
 // A picture that takes long is written beside those of the window, and ends with it.

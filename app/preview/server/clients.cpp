@@ -104,6 +104,15 @@ std::string random_token() {
   return fmt::format("{:02x}", fmt::join(bytes, ""));
 }
 
+std::string token_fault(std::string_view token) {
+  constexpr std::size_t kShortest = 16, kLongest = 128;
+  constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
+  if (token.size() >= kShortest && token.size() <= kLongest && token.find_first_not_of(kLetters) == token.npos)
+    return {};
+  return fmt::format("a token has {} to {} letters, digits, '_' and '-', such as openssl rand -hex 16 writes",
+                     kShortest, kLongest);
+}
+
 bool is_own_host(std::string_view host, std::uint16_t port) {
   return host == fmt::format("127.0.0.1:{}", port) || host == fmt::format("localhost:{}", port);
 }

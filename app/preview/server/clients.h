@@ -74,6 +74,9 @@ inline constexpr int kPatience = 10;                  ///< seconds for a request
 /// 128 random bits of the system as 32 hexadecimal digits. Throws Error where the system has none.
 std::string random_token();
 
+/// Why a token of a user's own is none; empty: it is one.
+std::string token_fault(std::string_view token);
+
 /// Is this the Host header of a request to us? 127.0.0.1:PORT and localhost:PORT are; a name that someone else's DNS
 /// points here is not.
 bool is_own_host(std::string_view host, std::uint16_t port);
@@ -109,6 +112,7 @@ struct Clients {
   Mailbox& mailbox;
   std::string token;
   std::uint16_t port = 0;
+  std::string announcement{};   ///< what a new client is told, as JSON; empty: nothing
   std::size_t connections = 0;  ///< sockets of any kind, open
   std::map<ClientNumber, std::shared_ptr<Client>> sockets;
   ClientNumber next_number = 1;

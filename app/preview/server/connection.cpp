@@ -56,6 +56,7 @@ class SocketClient : public Client, public std::enable_shared_from_this<SocketCl
       self->open_ = true;
       self->send(
           text_message(json_line({{"event", "welcome"}, {"controls", self->clients_->controls(self->number_)}})));
+      if (!self->clients_->announcement.empty()) self->send(text_message(self->clients_->announcement));
       self->read();
     });
   }
@@ -209,7 +210,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   /// The page runs its own script and style only, talks to this server only, and is in no frame.
   void set_policies() {
-    const std::string sockets = fmt::format("ws://127.0.0.1:{0} ws://localhost:{0}", clients_->port);
+    const std::string sockets = fmt::format("'self' ws://127.0.0.1:{0} ws://localhost:{0}", clients_->port);
     response_.set("Content-Security-Policy",
                   "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; connect-src " +
                       sockets + "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");

@@ -23,8 +23,8 @@ namespace meniscus {
 namespace asio = boost::asio;
 
 struct Network::State {
-  State(std::uint16_t port, Mailbox& mailbox)
-      : acceptor(context), clients(std::make_shared<Clients>(mailbox, random_token())) {
+  State(std::uint16_t port, const std::string& token, Mailbox& mailbox)
+      : acceptor(context), clients(std::make_shared<Clients>(mailbox, token.empty() ? random_token() : token)) {
     try {
       const asio::ip::tcp::endpoint here(asio::ip::address_v4::loopback(), port);
       acceptor.open(here.protocol());
@@ -79,7 +79,8 @@ struct Network::State {
   std::thread thread;
 };
 
-Network::Network(std::uint16_t port, Mailbox& mailbox) : state_(std::make_unique<State>(port, mailbox)) {
+Network::Network(std::uint16_t port, const std::string& token, Mailbox& mailbox)
+    : state_(std::make_unique<State>(port, token, mailbox)) {
   state_->accept();
   state_->thread = std::thread([this] { state_->run(); });
 }
@@ -113,6 +114,13 @@ void Network::send_to_all(const nlohmann::json& message) {
     const auto sockets = clients->sockets;  // a client that is abandoned leaves the list
     for (const auto& [number, socket] : sockets) socket->send(text);
   });
+}
+
+void Network::announce(const nlohmann::json& message) {
+  asio::post(state_->context, [clients = state_->clients, text = message.is_null() ? "" : json_line(message)] {
+    clients->announcement = text;
+  });
+  if (!message.is_null()) send_to_all(message);
 }
 
 void Network::send_picture(ClientNumber client, const nlohmann::json& message,

@@ -18,8 +18,9 @@ namespace meniscus {
 /// functions may be called from any thread.
 class Network {
  public:
-  /// port 0: any free one. Listens when this returns. Throws RequestError if the port is not available, Error.
-  Network(std::uint16_t port, Mailbox& mailbox);
+  /// port 0: any free one; token empty: a random one. Listens when this returns. Throws RequestError if the port is not
+  /// available, Error.
+  Network(std::uint16_t port, const std::string& token, Mailbox& mailbox);
   /// Says goodbye to all clients, for a second at most.
   ~Network();
   Network(const Network&) = delete;
@@ -32,6 +33,8 @@ class Network {
   /// Sends a message to one client, or to all. A client that is gone, or too slow to read, is not an error.
   void send(ClientNumber client, const nlohmann::json& message);
   void send_to_all(const nlohmann::json& message);
+  /// The same, and to each client that comes later, until there is another one; null: none from now on.
+  void announce(const nlohmann::json& message);
   /// A message and the picture it speaks of.
   void send_picture(ClientNumber client, const nlohmann::json& message,
                     std::shared_ptr<const std::vector<std::uint8_t>> picture);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <turbojpeg.h>
@@ -54,14 +55,15 @@ class JpegEncoder {
   void* compressor_;
 };
 
-/// The same pixels as PNG, nothing lost, lightly compressed.
-std::vector<std::uint8_t> png_of(std::span<const std::uint8_t> rgba, glm::ivec2 size) {
+/// The same pixels as PNG, nothing lost, lightly compressed. scene: that it is of; empty: not said.
+std::vector<std::uint8_t> png_of(std::span<const std::uint8_t> rgba, glm::ivec2 size, std::string scene) {
   ImageToEncode image;
   image.format = "png";
   image.width = size.x;
   image.height = size.y;
   image.channels = {"R", "G", "B"};
   image.color_space = "sRGB";
+  image.scene = std::move(scene);
   image.png_level = 1;  // of 9; more takes longer for a little less
   return encode_png(image, rgba, 4);
 }
@@ -145,7 +147,8 @@ class ServedSession {
   /// False if there is nothing to show: it cannot be drawn, or a newer command stopped it.
   bool draw() {
     // However late a page asks, of what it has not seen at all there is a draft first.
-    const bool begun = picture_.number > 0 && picture_.revision == session_.state().revision;
+    const bool begun =
+        picture_.number > 0 && picture_.revision == session_.state().revision && picture_.quality > Quality::balls;
     const Quality due = view_.due(Clock::now()), quality = begun ? due : std::min(due, view_.at_once());
     if (!view_.draw(quality, [this] { return mailbox_.waiting_change(); })) {
       if (!view_.fault().empty())
@@ -161,8 +164,8 @@ class ServedSession {
     const glm::ivec2 size = session_.picture_size();
     const auto begin = Clock::now();
     const bool full = quality == Quality::full;
-    picture_.bytes =
-        std::make_shared<const std::vector<std::uint8_t>>(full ? png_of(rgba, size) : jpeg_.encode(rgba, size));
+    picture_.bytes = std::make_shared<const std::vector<std::uint8_t>>(full ? png_of(rgba, size, scene())
+                                                                            : jpeg_.encode(rgba, size));
     const std::chrono::duration<double, std::milli> elapsed = Clock::now() - begin;
     ++picture_.number;
     picture_.revision = session_.state().revision;
@@ -170,9 +173,21 @@ class ServedSession {
     picture_.message = {{"event", "picture"},
                         {"type", full ? "image/png" : "image/jpeg"},
                         {"full", full},
+                        {"balls", quality == Quality::balls},
                         {"state", question("state")},
                         {"stats", question("stats")}};
     picture_.message["stats"]["encode_milliseconds"] = elapsed.count();
+  }
+
+  /// Of the picture as it is shown.
+  std::string scene() {
+    const PreviewState& state = session_.state();
+    const Json asked{{"command", "scene"},
+                     {"width", state.size.x},
+                     {"height", state.size.y},
+                     {"samples", state.samples},
+                     {"transparent", false}};
+    return session_.apply(asked).value("text", "");
   }
 
   Json question(const char* word) { return session_.apply({{"command", word}}); }
@@ -201,13 +216,16 @@ class ServedSession {
 
 }  // namespace
 
-void serve_session(PreviewSession& session, std::uint16_t port,
-                   const std::function<void(const std::string& url, std::uint16_t port)>& ready) {
+void serve_session(const ServeOptions& options, const MakeSession& make) {
   Mailbox mailbox;
-  Network network(port, mailbox);
-  ready(network.url(), network.port());
+  Network network(options.port, options.token, mailbox);
+  options.ready(network.url(), network.port());
   try {
-    ServedSession(session, network, mailbox).run();
+    const std::unique_ptr<PreviewSession> session = make([&](const std::string& what) {
+      network.announce({{"event", "progress"}, {"what", escaped(what)}});
+    });
+    network.announce(nullptr);
+    ServedSession(*session, network, mailbox).run();
   } catch (const std::exception& error) {
     network.send_to_all({{"event", "ended"}, {"error", escaped(error.what())}});
     throw;

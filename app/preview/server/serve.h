@@ -4,16 +4,26 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "app/preview/session.h"
 
 namespace meniscus {
 
-/// Serves the session on 127.0.0.1 until a command ends it. port 0: any free one. `ready` gets the address of the page
-/// and the port. Draws on this thread, which has the session's GL context. Throws what Network throws, and GpuError
-/// after the pages were notified.
-void serve_session(PreviewSession& session, std::uint16_t port,
-                   const std::function<void(const std::string& url, std::uint16_t port)>& ready);
+struct ServeOptions {
+  std::uint16_t port = 0;  ///< 0: any free one
+  std::string token{};     ///< in the address; empty: a random one
+  /// Gets the address of the page, as soon as it can be opened.
+  std::function<void(const std::string& url, std::uint16_t port)> ready;
+};
+
+/// Makes the session, and tells meanwhile what it is doing, such as "Reading 1tii.pdb".
+using MakeSession = std::function<std::unique_ptr<PreviewSession>(const std::function<void(const std::string&)>& tell)>;
+
+/// Serves a session on 127.0.0.1 until a command ends it; pages can be opened while it is made. Makes and draws it on
+/// this thread, which has its GL context. Throws what Network throws, and after the pages were notified GpuError and
+/// what `make` throws.
+void serve_session(const ServeOptions& options, const MakeSession& make);
 
 }  // namespace meniscus

@@ -126,6 +126,7 @@ void DesktopWindow::swap() {
 }
 
 void DesktopWindow::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
+void DesktopWindow::stay() { glfwSetWindowShouldClose(window_, GLFW_FALSE); }
 void DesktopWindow::hide() { glfwHideWindow(window_); }
 bool DesktopWindow::closing() const { return glfwWindowShouldClose(window_); }
 

@@ -33,6 +33,8 @@ class DesktopWindow {
   void swap();
 
   void close();
+  /// It is not to be closed after all.
+  void stay();
   void hide();
   bool closing() const;
   glm::ivec2 pixels() const;  ///< 0 while minimised

@@ -24,6 +24,7 @@ void ExportPanel::draw() {
   };
   constexpr Format kFormats[] = {{"png", "picture (PNG)", ".png"},
                                  {"scene", "scene (JSON)", ".json"},
+                                 {"film", "film (MP4)", ".mp4"},
                                  {"povray", "POV-Ray scene", "_povray"},
                                  {"blender", "Blender file", ".mns"},
                                  {"camera", "camera (JSON)", "_camera.json"},
@@ -40,11 +41,14 @@ void ExportPanel::draw() {
   bool go = ImGui::InputText("##name", &name_, ImGuiInputTextFlags_EnterReturnsTrue);
   const std::string path = name_ + kFormats[format_].ending;
   go |= ImGui::Button(fmt::format("Write {}###write", path).c_str(), {-7.0f * ImGui::GetFontSize(), 0.0f});
+  Gui::mark("write");
   ImGui::SameLine();
   ImGui::Checkbox("replace", &replace_);
   tooltip("Replace a file of this name");
   const std::string word = kFormats[format_].word;
-  if (word == "png" || word == "scene") picture_wishes();
+  if (word == "film")
+    plain(link_.state()["frames"] > 1 ? "all frames, as many a second as they are played" : "one turn in 6 s");
+  if (word == "png" || word == "scene" || word == "film") picture_wishes();
   if (word == "scene") {
     if (ImGui::Button(fmt::format("Open {}###open", path).c_str())) link_.send({{"command", "open"}, {"path", path}});
     tooltip("A scene of this molecule; undo brings back what is shown now");
@@ -54,7 +58,7 @@ void ExportPanel::draw() {
   if (go && word == "scene") link_.send(wished({{"command", "save"}, {"path", path}, {"force", replace_}}));
   if (go && word != "scene") {
     const Json command{{"command", "export"}, {"format", word}, {"path", path}, {"force", replace_}, {"wait", false}};
-    link_.send(word == "png" ? wished(command) : command);
+    link_.send(word == "png" || word == "film" ? wished(command) : command);
   }
   progress();
 }
@@ -111,9 +115,12 @@ void ExportPanel::show_reply(const SessionReply& reply, double time) {
   const std::string word = command_word(reply.command);
   if (question_.take(reply, time) && question_.running()) return;
   if (word == "export_state" && !reply.reply.contains("path")) return;
-  line_is_fault_ = !reply.reply.value("ok", false) || reply.reply.contains("error");
-  if (line_is_fault_) line_ = sentence_of(reply.reply.value("error", "the command failed"), word);
-  if (line_is_fault_) return;
+  const bool failed = !reply.reply.value("ok", false) || reply.reply.contains("error");
+  if (failed) line_ = sentence_of(reply.reply.value("error", "the command failed"), word);
+  if (failed) line_is_fault_ = true;
+  // What the window sends by itself clears nothing.
+  if (failed || word == "end_step" || word == "resize" || word == "next_frame") return;
+  if (std::exchange(line_is_fault_, false)) line_.clear();
   if (word == "export" || word == "export_state" || word == "save") {
     line_ = "written: " + reply.reply.value("path", std::string());
     if (reply.reply.contains("note")) line_ += "; " + reply.reply["note"].get<std::string>();

@@ -217,12 +217,39 @@ std::array<std::string, 4> pick_lines(const nlohmann::json& pick) {
           kind == "cap" || kind == "shape" ? kind : kind + " patch", area};
 }
 
-void draw_help(float panel) {
+namespace {
+
+/// In the middle of the picture.
+void begin_in_the_middle(const char* name, float panel, ImGuiWindowFlags more) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({0.5f * (window.x - panel), 0.5f * window.y}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowBgAlpha(0.95f);
-  ImGui::Begin("help", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
+  ImGui::Begin(name, nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | more);
+}
+
+}  // namespace
+
+void draw_notice(float panel, const std::string& text) {
+  begin_in_the_middle("notice", panel, ImGuiWindowFlags_NoInputs);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::End();
+}
+
+std::optional<bool> draw_close_question(float panel) {
+  std::optional<bool> answer;
+  begin_in_the_middle("close", panel, ImGuiWindowFlags_NoMove);
+  ImGui::TextUnformatted("The figure was changed and is not saved.");
+  if (ImGui::Button("Close all the same (y)")) answer = true;
+  Gui::mark("close");
+  ImGui::SameLine();
+  if (ImGui::Button("Stay (n)")) answer = false;
+  Gui::mark("stay");
+  ImGui::End();
+  return answer;
+}
+
+void draw_help(float panel) {
+  begin_in_the_middle("help", panel, ImGuiWindowFlags_NoInputs);
   if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
     for (const KeyHelp& row : key_help()) {
       ImGui::TableNextColumn();

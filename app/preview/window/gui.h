@@ -82,6 +82,12 @@ std::array<std::string, 4> pick_lines(const nlohmann::json& pick);
 /// All keys and gestures, in the middle of the window beside a panel of this width.
 void draw_help(float panel);
 
+/// A line there while there is no picture yet.
+void draw_notice(float panel, const std::string& text);
+
+/// Asks there whether unsaved work may be lost: true to close, false to stay; nothing while there is no answer.
+std::optional<bool> draw_close_question(float panel);
+
 /// What the mouse points at, as the command "pick" answers; nothing for null or a miss.
 void draw_answer(const nlohmann::json& pick);
 

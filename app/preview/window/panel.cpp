@@ -26,6 +26,7 @@ using Json = nlohmann::json;
 
 constexpr float kLargestSliderProbe = 10.0f;  // Å; larger ones can be typed
 constexpr float kFooterLines = 2.3f;          // room for a fault
+constexpr float kMostOfWrite = 0.45f;         // of the window's height
 
 /// The scheme of this word; null: one that is not to be chosen.
 Json scheme_of(const Json& schemes, const std::string& word) {
@@ -43,9 +44,18 @@ void Panel::draw(float em) {
   ImGui::Begin("panel", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove);
   ImGui::PopStyleVar();
   const float footer = kFooterLines * ImGui::GetTextLineHeightWithSpacing();
-  ImGui::BeginChild("widgets", {0.0f, -footer});
+  // What writes is always in sight; on a small screen it scrolls, too.
+  const float write = link_.has_state() ? std::min(write_height_, kMostOfWrite * window.y) : 0.0f;
+  ImGui::BeginChild("widgets", {0.0f, -footer - write});
   if (link_.has_state()) widgets();
   ImGui::EndChild();
+  if (link_.has_state()) {
+    ImGui::BeginChild("write", {0.0f, write});
+    heading("Write");
+    exports_.draw();
+    write_height_ = ImGui::GetCursorPosY() + ImGui::GetStyle().ItemSpacing.y;
+    ImGui::EndChild();
+  }
   status();
   ImGui::End();
 }
@@ -59,8 +69,6 @@ void Panel::widgets() {
   view();
   look();
   if (link_.state()["frames"].get<int>() > 1) frames();
-  heading("Export this view");
-  exports_.draw();
   picked();
   timing();
 }
@@ -95,7 +103,7 @@ void Panel::coloring() {
   const Json& schemes = link_.choices()["schemes"];
   std::vector<std::string> words;
   for (const Json& one : schemes)
-    if (one["word"] != "kind") words.push_back(one["word"]);  // they have a switch of their own
+    if (one["word"] != "kind" && !one.contains("lacks")) words.push_back(one["word"]);  // kinds have a switch
   if (const auto word = chosen("##scheme", scheme, words)) link_.send({{"command", "color"}, {"scheme", *word}});
   if (const Json offered = scheme_of(schemes, scheme); offered.is_object() && offered["has_map"] == true) {
     label("Map");
@@ -217,6 +225,12 @@ std::string timing_line(const Json& stats, bool full) {
   return full ? line : line + fmt::format(", {:.1f} fps", stats["fps"].get<double>());
 }
 
+std::string working_line(const SessionLink& link) {
+  const SessionUpdate& news = link.news();
+  return fmt::format("{}, {:.0f} s ...", link.has_state() || news.stage.empty() ? "working" : news.stage,
+                     std::floor(news.busy_seconds.value_or(0.0)));
+}
+
 void Panel::picked() {
   heading("Picked");
   if (!pick_.value("hit", false)) {
@@ -256,7 +270,7 @@ void Panel::status() {
   const auto& busy = link_.news().busy_seconds;
   const std::string& reason = link_.news().fault;
   if (busy && *busy > kPatience)
-    plain(fmt::format("{}working, {:.0f} s ...", link_.has_state() ? "" : "the first picture: ", std::floor(*busy)));
+    plain(working_line(link_));
   else if (!reason.empty() || exports_.line_is_fault())
     fault(reason.empty() ? exports_.line() : reason);
   else if (!exports_.line().empty())

@@ -24,6 +24,7 @@ class Panel {
   /// An atom to tell about, as the command "pick" answers.
   void show_pick(const nlohmann::json& pick) { pick_ = pick; }
   ExportPanel& exports() { return exports_; }
+  const ExportPanel& exports() const { return exports_; }
 
  private:
   void widgets();
@@ -44,7 +45,11 @@ class Panel {
   ExportPanel exports_;
   nlohmann::json pick_ = nlohmann::json::object();
   std::string selection_;
+  float write_height_ = 0.0f;  ///< of what writes, as it was drawn last
 };
+
+/// What the session is doing, and for how long.
+std::string working_line(const SessionLink& link);
 
 /// How long the last picture took, as the command "stats" answers; how many a second only while it moves.
 std::string timing_line(const nlohmann::json& stats, bool full);

@@ -67,7 +67,13 @@ void SessionThread::run(const ForeignContext& sibling, const Make& make) {
   }
   try {
     const EglContext context(sibling);
-    const std::unique_ptr<PreviewSession> session = make(context);
+    const std::unique_ptr<PreviewSession> session = make(context, [this](const std::string& stage) {
+      {
+        const std::scoped_lock lock(mutex_);
+        news_.stage = stage;
+      }
+      wake_();
+    });
     work(LiveView(*session));
   } catch (...) {
     const std::scoped_lock lock(mutex_);
@@ -100,7 +106,7 @@ std::deque<SessionReply> SessionThread::next_commands(const LiveView& view) {
   wanted_ = Quality::draft;
   if (!next)
     posted_.wait(lock, [&] { return stop_ || !queue_.empty(); });
-  else if (next != Quality::draft && rests(lock, view, view.rest(*next)))
+  else if (*next > Quality::draft && rests(lock, view, view.rest(*next)))
     wanted_ = *next;
   busy_since_ = Clock::now();
   return std::exchange(queue_, {});
@@ -124,7 +130,7 @@ Change SessionThread::waiting_change() {
 
 void SessionThread::draw(LiveView& view) {
   const std::optional<Quality> drawn = view.drawn();
-  const Quality wanted = std::max(wanted_, view.at_once());
+  const Quality first = view.at_once(), wanted = first == Quality::balls ? first : std::max(wanted_, first);
   if (view.fault().empty() && (!drawn || *drawn < wanted)) {
     if (view.draw(wanted, [this] { return waiting_change(); }))
       offer(view.session());

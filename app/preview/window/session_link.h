@@ -40,6 +40,7 @@ struct SessionUpdate {
   bool at_rest = false;                ///< every command is done, and the full picture is drawn
   nlohmann::json state, stats;         ///< replies of the session to these words; null when nothing changed
   nlohmann::json choices;              ///< likewise; null before the first state
+  std::string stage;                   ///< what is done before there is a state
   std::string fault;                   ///< why this view could not be drawn; empty if it was
   std::optional<double> busy_seconds;  ///< how long it has been working by now
   bool quit = false;
@@ -48,9 +49,11 @@ struct SessionUpdate {
 /// Commands go in, replies and pictures come out. All functions are for one other thread, the one of the window.
 class SessionThread {
  public:
-  using Make = std::function<std::unique_ptr<PreviewSession>(const EglContext& context)>;
+  using Make = std::function<std::unique_ptr<PreviewSession>(const EglContext& context,
+                                                             const std::function<void(const std::string&)>& tell)>;
 
-  /// make: called on the thread with the context that is current there, which is beside `sibling` and stays. wake:
+  /// make: called on the thread with the context that is current there, which is beside `sibling` and stays; it tells
+  /// what it is doing, such as "Reading 1tii.pdb". wake:
   /// called from the thread when there are news.
   SessionThread(const ForeignContext& sibling, Make make, std::function<void()> wake);
   /// Waits for the frame at hand, and for commands that were posted.

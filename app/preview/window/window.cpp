@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -47,6 +48,8 @@ class PreviewWindow {
   WindowReport run();
 
  private:
+  bool may_end();
+  void answer(bool leaves);
   bool replaying() const { return !replay_done_; }
   glm::ivec2 picture_area() const;
   Json resize_command() const;
@@ -77,8 +80,9 @@ class PreviewWindow {
   LatencyMeter latency_;
   WindowReport report_;
   bool help_ = false, panel_shown_ = true;
-  int unsure_frames_ = 0;        // after a click, until ImGui has said whether that was into a field
-  bool typing_assumed_ = false;  // as long as that is unsure
+  bool asks_ = false, leaves_ = false;  // whether unsaved work may be lost, and that it may
+  int unsure_frames_ = 0;               // after a click, until ImGui has said whether that was into a field
+  bool typing_assumed_ = false;         // as long as that is unsure
   int redraws_ = kSettlingFrames;
   std::size_t next_ = 0;  // of options_.commands
   std::uint64_t first_number_ = 0;
@@ -90,7 +94,7 @@ class PreviewWindow {
 
 WindowReport PreviewWindow::run() {
   report_.context = window_.context();
-  while (!window_.closing()) {
+  while (!may_end()) {
     const bool happened = window_.wait(redraws_ > 0 ? 0.0 : patience());
     // While the mouse drags, only what comes of it is news.
     if (happened && !gestures_.dragging()) redraws_ = kSettlingFrames;
@@ -103,6 +107,22 @@ WindowReport PreviewWindow::run() {
   window_.hide();
   report_.latency = latency_.result();
   return std::move(report_);
+}
+
+/// Whether the window is to be closed, and the user was asked if that loses something.
+bool PreviewWindow::may_end() {
+  if (!window_.closing()) return false;
+  if (leaves_ || !link_.has_state() || !link_.state().value("unsaved", false)) return true;
+  window_.stay();
+  asks_ = true;
+  redraws_ = kSettlingFrames;
+  return false;
+}
+
+void PreviewWindow::answer(bool leaves) {
+  asks_ = false;
+  leaves_ = leaves;
+  if (leaves) window_.close();
 }
 
 glm::ivec2 PreviewWindow::picture_area() const {
@@ -151,7 +171,7 @@ void PreviewWindow::take_events() {
   const auto send_movements = [&] {
     for (const Json& command : std::exchange(movements, {})) link_.send(command);
   };
-  const bool list_open = Gui::list_open();
+  const bool list_open = Gui::list_open() || asks_;
   for (const InputEvent& event : window_.take_events()) {
     const bool elsewhere = list_open || event.position.x >= picture_area().x;
     // A click into a field, or out of it, counts for what is typed after it, though nothing has been drawn since.
@@ -160,6 +180,8 @@ void PreviewWindow::take_events() {
     const bool for_panel = unsure_frames_ > 0 ? typing_assumed_ : Gui::typing();
     // A letter that is a command must not turn up in the field that it opens.
     if (event.kind != InputEvent::Kind::text || for_panel) gui_.take(event);
+    // A file that takes long to read need not be waited for.
+    if (!link_.has_state() && (event.letter == 'q' || event.letter == 'Q')) window_.close();
     if (!link_.has_state() || replaying()) continue;
     gestures_.take(event, picture_area(), elsewhere, movements);
     if (gestures_.click()) take_click(*gestures_.click());
@@ -184,6 +206,11 @@ void PreviewWindow::take_pointer(const InputEvent& event, bool elsewhere) {
 }
 
 void PreviewWindow::take_key(const InputEvent& event) {
+  if (asks_) {
+    if (event.kind == InputEvent::Kind::text && (event.letter == 'y' || event.letter == 'Y')) answer(true);
+    if (event.kind == InputEvent::Kind::text && (event.letter == 'n' || event.letter == 'N')) answer(false);
+    return;
+  }
   const KeyMeaning meaning = event_meaning(event, link_.state());
   if (Gui::list_open() && meaning.action == FaceAction::leave) return gui_.close_lists();
   if (meaning.command) link_.send(*meaning.command);
@@ -220,7 +247,7 @@ void PreviewWindow::take_update() {
   if (!link_.update()) return;
   redraws_ = std::max(redraws_, gestures_.dragging() || replaying() ? 1 : kSettlingFrames);
   for (const SessionReply& reply : link_.replies()) take_reply(reply);
-  if (link_.news().quit) window_.close();
+  if (link_.news().quit) answer(true);
 }
 
 void PreviewWindow::take_reply(const SessionReply& reply) {
@@ -259,9 +286,12 @@ void PreviewWindow::draw() {
   gui_.begin();
   if (panel_shown_) panel_.draw(gui_.em());
   if (help_) draw_help(Panel::width(gui_.em()));
-  if (!gestures_.dragging() && !help_) draw_answer(hover_.answer());
+  if (!gestures_.dragging() && !help_ && !asks_) draw_answer(hover_.answer());
+  if (asks_)
+    if (const std::optional<bool> leaves = draw_close_question(Panel::width(gui_.em()))) answer(*leaves);
   const SharedPicture picture = link_.picture();
   const std::uint64_t shown = link_.news().shown;
+  if (!picture.texture && panel_shown_) draw_notice(Panel::width(gui_.em()), working_line(link_));
   glViewport(0, 0, window_.pixels().x, window_.pixels().y);
   glClearColor(1.0f, 1.0f, 1.0f, 1.0f);
   glClear(GL_COLOR_BUFFER_BIT);
@@ -278,10 +308,17 @@ void PreviewWindow::draw() {
 
 /// Tests wait for what is here instead of for some time, and click where widgets are.
 void PreviewWindow::write_state() const {
-  const Json state{
-      {"idle", redraws_ == 0},   {"settled", link_.settled()}, {"full", link_.settled() && link_.news().full},
-      {"typing", Gui::typing()}, {"letters", letters_},        {"pointed", hover_.answer()},
-      {"widgets", gui_.places()}};
+  const Json state{{"idle", redraws_ == 0},
+                   {"settled", link_.settled()},
+                   {"full", link_.settled() && link_.news().full},
+                   {"asks", asks_},
+                   {"unsaved", link_.has_state() && link_.state().value("unsaved", false)},
+                   {"line", panel_.exports().line()},
+                   {"stage", link_.has_state() ? "" : link_.news().stage},
+                   {"typing", Gui::typing()},
+                   {"letters", letters_},
+                   {"pointed", hover_.answer()},
+                   {"widgets", gui_.places()}};
   const std::string part = std::string(state_file_) + ".part";
   std::ofstream(part) << state.dump();
   std::error_code ignored;

@@ -1,18 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The socket: numbered questions with their replies, and one picture at a time.
 
-function new_socket() {
-  const address = new URL("socket", location.href);
-  address.protocol = "ws:";
-  return new WebSocket(address);
-}
-
-/// Does the server take connections?
-export const answers = () => new Promise((resolve) => {
-  const probe = new_socket();
-  probe.addEventListener("open", () => { probe.close(); resolve(true); });
-  probe.addEventListener("error", () => resolve(false));
-});
+/// "open" where the server lets us in, "refused" where it has another token by now, "gone" where there is none.
+export const answers = () => fetch(location.href, { cache: "no-store" })
+  .then((answer) => answer.ok ? "open" : "refused", () => "gone");
 
 /// Calls handlers[event](message) for what the server says of itself, and for "picture" with the bytes as well; asks for
 /// the next picture only when the last one is shown.
@@ -27,7 +18,9 @@ export class Connection {
 
   constructor(handlers) {
     this.#handlers = handlers;
-    this.#socket = new_socket();
+    const address = new URL("socket", location.href);
+    address.protocol = "ws:";
+    this.#socket = new WebSocket(address);
     this.#socket.binaryType = "arraybuffer";
     this.#open = new Promise((resolve) => this.#socket.addEventListener("open", resolve));
     this.#socket.addEventListener("message", (event) => this.#receive(event.data));

@@ -35,7 +35,8 @@ function plane_range(plane, state) {
   return { axis, sign, min, max, step, value: Number(bound) };
 }
 
-/// Shows what the figure has, each with its controls; command(word, values) changes it. Returns show(state).
+/// Shows what the figure has, each with its controls; command(word, values) changes it. Returns show(state), and
+/// forget_fault(), which takes back what was said of the atoms.
 export function figure_controls(command, say) {
   let known = "";  // what the chips show: they are made anew when there are others, not when a slider moves
 
@@ -89,8 +90,8 @@ export function figure_controls(command, say) {
 
   let latest = null;
   const chip = (what, of, index, ...more) =>
-    element("li", {}, element("span", { textContent: what, title: what }), ...more,
-      remove_button(what, () => command("remove", { of, index })));
+    element("li", {}, element("span", { textContent: what }),
+      remove_button(what, () => command("remove", { of, index })), ...more);
 
   /// An object with its colour, its opacity if that is one number, and a surface's cut along the view.
   function object_chip(object, index) {
@@ -120,7 +121,7 @@ export function figure_controls(command, say) {
     const list = [];
     if (state.show !== null) {
       const what = `surface of ${state.show}`;
-      list.push(element("li", {}, element("span", { textContent: what, title: what }),
+      list.push(element("li", {}, element("span", { textContent: what }),
         remove_button(what, () => command("show"))));
     }
     state.representations.forEach(({ as, selection }, n) => list.push(chip(`${as}: ${selection}`, "representations", n)));
@@ -163,7 +164,7 @@ export function figure_controls(command, say) {
     });
   }
 
-  return function show(state) {
+  function show(state) {
     latest = state;
     const shape = JSON.stringify([state.show, state.representations, state.objects.map((o) => [o.representation, o.selection]), state.color.rules, state.opacities.map((o) => o.selection),
       state.cuts.map((plane) => plane.match(kPlane)?.slice(1, 3) ?? plane), state.views]);
@@ -191,5 +192,7 @@ export function figure_controls(command, say) {
     $("legend-place").value = state.legend.place;
     $("legend-fault").textContent = state.legend.fault ?? "";
     $("legend-fault").hidden = !state.legend.fault;
-  };
+  }
+
+  return { show, forget_fault: () => fault("") };
 }

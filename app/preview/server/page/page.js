@@ -26,6 +26,7 @@ const server = new Connection({
     await fit();  // before a picture is asked for, which would have another size
   },
   role: (message) => { set_role(message.controls); fit(); },
+  progress: (message) => say_working(message.what),
   error: (message) => { apply_state(message.state); say(message.error, true); },
   ended: (message) => { end(message.error ?? "The preview has ended.", Boolean(message.error)); },
   lost: () => {
@@ -36,7 +37,7 @@ const server = new Connection({
 
 const kStep = 700;  // ms without a command, after which the next is a step of its own for undo
 const tells_only = new Set(["pick", "export", "export_state", "cancel_export", "save", "render_command", "end_step", "undo", "redo"]);
-const changes_state = new Set(["key", "save_view", "forget_view", "play", "pause"]);
+const changes_state = new Set(["key", "save_view", "forget_view", "play", "pause", "save"]);
 let last_change = 0;
 
 /// What an error says, without the word of its command, which is a program's and no reader's.
@@ -57,6 +58,7 @@ async function command(word, values = {}, refuse = (text) => say(text, true)) {
   newest = reply.revision ?? newest;
   note_rest();
   if (!reply.ok && reply.error) refuse(sentence_of(reply.error, word));
+  else if (reply.ok && word !== "resize") forget_errors();
   if (reply.ok && reply.revision === undefined && changes_state.has(word))
     server.ask({ command: "state" }).then((next) => { if (next.ok) apply_state(next); });  // there is no new picture
   return reply.ok ? reply : null;
@@ -71,7 +73,19 @@ $("take").addEventListener("click", () => server.request("control"));
 // Messages
 
 let message_timer = 0;
+let working = null;  // what is done before the first picture, and since when
+const kAgain = "meniscus connected again";  // in the session's storage
 say("The first picture …", false, true);
+setInterval(() => { if (working) say_working(working.what); }, 1000);
+
+/// What takes long, and how long it has by now.
+function say_working(what) {
+  const now = performance.now();
+  if (working?.what !== what) working = { what, since: now };
+  const seconds = Math.floor((now - working.since) / 1000);
+  if ($("message").textContent !== `${what} …`) $("message").textContent = `${what} …`;
+  $("message").dataset.seconds = seconds < 1 ? "" : ` ${seconds} s`;  // which nobody wants to hear each time
+}
 
 /// A line over the picture, for some seconds or until another takes its place by say_anew().
 function say(text, is_error = false, stays = false) {
@@ -79,6 +93,7 @@ function say(text, is_error = false, stays = false) {
   const { classList } = box;
   if (classList.contains("stays") && (classList.contains("error") || !is_error)) return;
   box.textContent = text;
+  delete box.dataset.seconds;
   box.classList.toggle("error", is_error);
   box.classList.toggle("stays", stays);
   box.hidden = !text;
@@ -86,15 +101,30 @@ function say(text, is_error = false, stays = false) {
   if (!stays) message_timer = setTimeout(() => { box.hidden = true; }, 6000);
 }
 
+/// What was wrong with an earlier command, once another one has worked.
+function forget_errors() {
+  const { classList } = $("message");
+  if (classList.contains("error") && !classList.contains("stays")) $("message").hidden = true;
+  figure.forget_fault();
+}
+
 /// A fresh page, once the server answers again.
 async function connect_again() {
-  do await new Promise((resolve) => setTimeout(resolve, 2000));
-  while (!await answers());
+  let answer = "gone";
+  while (answer === "gone") {
+    await new Promise((resolve) => setTimeout(resolve, 2000));
+    answer = await answers();
+  }
+  if (answer === "refused")
+    return end("The preview was started again under another address, which the terminal shows.", true);
+  sessionStorage.setItem(kAgain, "yes");
+  state = null;  // what is gone cannot be lost
   location.reload();
 }
 
 /// The last word.
 function end(text, is_error) {
+  working = null;
   say_anew("");
   say(text, is_error, true);
   $("controls").disabled = true;
@@ -127,7 +157,13 @@ async function show_picture(message, bytes) {
   context.imageSmoothingQuality = "high";
   context.drawImage(bitmap, 0, 0, width, height);
   bitmap.close();
-  if (!shown) say_anew("");
+  if (message.balls) {
+    say_working(`Computing the surface of ${message.state.atoms.toLocaleString("en")} atoms`);
+  } else if (!shown || working) {
+    working = null;
+    say_anew(sessionStorage.getItem(kAgain) ? "Connected again." : "");
+    sessionStorage.removeItem(kAgain);
+  }
   full_picture = message.full ? blob : null;
   shown = message;
   note_rest();
@@ -170,7 +206,7 @@ new ResizeObserver(fit).observe(stage);
 
 // State
 
-const show_figure = figure_controls(command, (text) => say(text));
+const figure = figure_controls(command, (text) => say(text));
 
 /// Unless somebody is at it: what is typed, or dragged ahead of the pictures, stays.
 function set_value(element, value) {
@@ -195,7 +231,7 @@ function apply_state(next) {
   set_value($("range"), next.color.range ?? "");
   $("map").options[0].text = next.color.own_map ? "the file's" : "its own";
   set_value($("preset"), next.preset);
-  show_figure(next);
+  figure.show(next);
   take_wishes(next);
   $("kinds").checked = next.patch_kinds;
   $("kinds-key").hidden = !(next.patch_kinds || next.color.scheme === "kind");
@@ -217,9 +253,10 @@ function apply_state(next) {
 function fill_choices(choices) {
   if (!choices.ok) return;
   actions = choices.actions;
-  for (const { word, has_map, description } of choices.schemes) {
-    const option = new Option(word, word);
+  for (const { word, has_map, description, lacks } of choices.schemes) {
+    const option = new Option(lacks ? `${word}: the file ${lacks}` : word, word);
     option.title = description;
+    option.disabled = Boolean(lacks);
     $("scheme").add(option);
     if (has_map) numbered.add(word);
   }
@@ -339,6 +376,9 @@ follow_pointer(canvas, {
 
 // Saving
 
+/// The server keeps the figure, but nobody may come back to it.
+window.addEventListener("beforeunload", (event) => { if (controls && state?.unsaved) event.preventDefault(); });
+
 function download(blob, name) {
   const link = document.createElement("a");
   link.href = URL.createObjectURL(blob);
@@ -359,7 +399,7 @@ $("save-path").addEventListener("click", () => {
 $("export-form").addEventListener("submit", async (event) => {
   event.preventDefault();
   const format = event.submitter?.value ?? "png";
-  const ending = { png: ".png", povray: "", blender: ".mns" }[format];
+  const ending = { png: ".png", film: ".mp4", povray: "", blender: ".mns" }[format];
   const reply = await command("export", { format, path: $("export-name").value + ending, force: $("export-force").checked,
     wait: false, ...wishes() });
   if (reply) follow_export();
@@ -378,6 +418,7 @@ async function follow_export() {
   }
   $("job").hidden = true;
   for (const button of document.querySelectorAll("#export-form button")) button.disabled = false;
+  server.ask({ command: "state" }).then((next) => { if (next.ok) apply_state(next); });
   if (told.error) say(sentence_of(told.error, "export"), true);
   else if (told.path) say([`Written: ${told.path}`, told.note, told.render_with && `render it with: ${told.render_with}`]
     .filter(Boolean).join("; "));
