@@ -166,7 +166,7 @@ ROWS = {
     "--color-title": ("Heat", "legend"), "--color-unit": ("K", "legend"), "--missing-color": ("red", "some numbers"),
     "--size": ("48x30", "plain"), "--dpi": ("90", "plain"), "--width": ("5mm", "plain"), "--height": ("5mm", "plain"),
     "--camera": ("{camera.json}", "plain"), "--projection": ("orthographic", "plain"), "--view": ("top", "plain"),
-    "--turn": ("y40", "plain"), "--zoom-to": ("chain B", "plain"), "--preset": ("soft", "plain"),
+    "--turn": ("y40", "plain"), "--zoom-to": ("chain B", "plain"), "--look-into": ("chain B", "plain"), "--preset": ("soft", "plain"),
     "--light": ("1,0,1", "plain"), "--light-strength": ("3", "plain"), "--ambient": ("0.1", "plain"),
     "--roughness": ("0.9", "plain"), "--specular": ("0.9", "plain"), "--shininess": ("9", "shiny"),
     "--ambient-occlusion": ("0.5", "plain"), "--ambient-occlusion-radius": ("3", "shade"), "--silhouettes": ("3", "plain"),
