@@ -68,7 +68,7 @@ def atoms_seen(path):
 def share_seen(meniscus, folder, file, ligand, drawn, size, more):
     """Of the pixels that the ligand has when it is drawn alone by the same camera; and the notes of the program."""
     camera, together, alone = folder / "camera.json", folder / "together.exr", folder / "alone.exr"
-    usual = ["--force", "--aovs", "--samples", "1", "--size", f"{size}x{size}", "--select", "polymer", drawn, ligand]
+    usual = ["--force", "--aovs", "--samples", "1", "--preset", "flat", "--size", f"{size}x{size}", "--select", "polymer", drawn, ligand]
     made = run(meniscus, "render", file, "-o", together, *usual, "--zoom-to", ligand, "--save-camera", camera, *more)
     if made.returncode == 0:
         made_alone = run(meniscus, "render", file, "-o", alone, *usual, "--hide-surface", "--camera", camera)
