@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/reports/patch_report.h"
 #include "core/scene/area_columns.h"
 #include "core/scene/molecule.h"
 
@@ -24,6 +25,7 @@ struct SurfaceReport {
   const MoleculeRequest& options;
   const std::vector<AreaColumn>& columns;
   const std::optional<ContextNote>& context;
+  const std::optional<PatchReport>& patches;
 };
 
 /// Indented, ends with a line feed.
