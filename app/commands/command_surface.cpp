@@ -20,9 +20,8 @@ bool is_stdout(const std::string& path) { return path == "-"; }
 
 std::vector<std::string> tables_of(const SurfaceCommand& command) {
   std::vector<std::string> paths;
-  for (const std::string& path :
-       {command.series_csv, command.atom_csv, command.residue_csv, command.cavity_csv, command.gradient_csv,
-        command.patch_csv})
+  for (const std::string& path : {command.series_csv, command.atom_csv, command.residue_csv, command.cavity_csv,
+                                  command.gradient_csv, command.patch_csv})
     if (!path.empty()) paths.push_back(path);
   return paths;
 }

@@ -128,7 +128,9 @@ const std::vector<Need>& needs() {
        [](const Asked& asked) { return !asked.given("--hide-surface"); },
        "the surface is hidden, and shapes beside it are neither cut nor films"},
       {{"--cap-color", "--cap-hatching"},
-       [](const Asked& asked) { return asked.any({"--clip", "--look-into"}); },
+       [](const Asked& asked) {
+         return asked.any({"--clip", "--look-into"});
+       },
        "nothing is cut, so there are no caps; add --clip PLANE"},
       {{"--film-opacity"},
        [](const Asked& asked) { return asked.given("--opacity"); },

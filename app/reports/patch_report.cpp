@@ -54,8 +54,8 @@ nlohmann::ordered_json patch_json(const PatchReport& report, const Structure& st
 }
 
 std::string patch_table(const PatchReport& report, const Structure& structure) {
-  std::string text = fmt::format("\n{:>9} {:>14} {:>9}  residues of {}\n", "patch", "area Å²", "atoms",
-                                 in_quotes(report.selection));
+  std::string text =
+      fmt::format("\n{:>9} {:>14} {:>9}  residues of {}\n", "patch", "area Å²", "atoms", in_quotes(report.selection));
   for (std::size_t n = 0; n < report.patches.size(); ++n) {
     const AtomPatch& patch = report.patches[n];
     text += fmt::format("{:>9} {:>13.3f} {:>9}  {}\n", n + 1, patch.area, patch.atoms.size(),

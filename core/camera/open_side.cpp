@@ -241,7 +241,8 @@ OpenDepth open_depth(std::span<const Ball> seen, std::span<const Ball> all, cons
     if (!std::isfinite(hit)) continue;
     double covered = -std::numeric_limits<double>::infinity();
     for (const Ball& ball : others)
-      if (const auto at = crossing(ray, ball); at && (*at)[0] < hit) covered = std::max(covered, std::min(hit, (*at)[1]));
+      if (const auto at = crossing(ray, ball); at && (*at)[0] < hit)
+        covered = std::max(covered, std::min(hit, (*at)[1]));
     depths.push_back(std::isfinite(covered) ? glm::dot(ray.origin + covered * ray.direction, forward) : nearest);
   }
   OpenDepth open{nearest, 1.0, false};

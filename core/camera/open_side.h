@@ -17,9 +17,9 @@ ViewBasis open_side(std::span<const Ball> seen, std::span<const Ball> all);
 
 /// Where a plane that faces the viewer has to be.
 struct OpenDepth {
-  double depth = 0.0;      ///< Å, along the view's forward axis: what is before it is cut away
-  double seen = 1.0;       ///< share of what a picture of `seen` alone would show that is seen then
-  bool is_limited = false; ///< by those of `seen` that are among `all`
+  double depth = 0.0;       ///< Å, along the view's forward axis: what is before it is cut away
+  double seen = 1.0;        ///< share of what a picture of `seen` alone would show that is seen then
+  bool is_limited = false;  ///< by those of `seen` that are among `all`
 };
 
 /// The plane nearest to the viewer behind which the others hide at most a twentieth of what a picture of `seen` alone

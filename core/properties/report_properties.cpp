@@ -34,7 +34,8 @@ constexpr auto kTable = std::to_array<Property>({
          "Report contiguous areas of these atoms, such as 'hydrophobicity > 1.5' or 'charge < -0.3'")
         .in(kOutput)
         .in_short_help(),
-    new_file("report.csv_patches", "--csv-patches", "FILE", "Write one row per patch of --patches. -: to standard output")
+    new_file("report.csv_patches", "--csv-patches", "FILE",
+             "Write one row per patch of --patches. -: to standard output")
         .in(kOutput),
     number("report.least_patch", "--min-patch", "Å²", "Smallest area of a patch that is listed")
         .from(0, 1e9)

@@ -81,9 +81,8 @@ Cut parse_cut(std::string_view text) {
   std::erase(tight, ' ');
   const std::size_t sign = tight.find_first_of("<>");
   const auto refuse = [&](const char* why) {
-    return RequestError(
-        fmt::format("{} is not a plane: {}; write one such as x<20, 1,1,0>35, depth>0.5 or before ligand",
-                    in_quotes(text), why));
+    return RequestError(fmt::format(
+        "{} is not a plane: {}; write one such as x<20, 1,1,0>35, depth>0.5 or before ligand", in_quotes(text), why));
   };
   if (sign == std::string::npos) throw refuse("there is no < or >");
   const std::optional<glm::dvec3> direction = parse_direction(std::string_view(tight).substr(0, sign));

@@ -99,14 +99,14 @@ std::vector<std::string> idle_cuts(const FigureRequest& request, const Figure& f
   if (request.cuts.empty() && std::ranges::none_of(request.objects, of_objects)) return sentences;
   const std::vector<Ball> balls = placed_balls(figure.molecule.objects);
   if (!request.hides_surface && !balls.empty())
-    sentences = idle_cuts(request.cuts, figure.beside.cut_atoms, {camera, balls, shown_balls(figure.molecule.objects)},
-                          balls);
+    sentences =
+        idle_cuts(request.cuts, figure.beside.cut_atoms, {camera, balls, shown_balls(figure.molecule.objects)}, balls);
   for (std::size_t n = 0; n < figure.beside.objects.size(); ++n) {
     const FigureObject& object = figure.beside.objects[n];
     if (!object.surface || object.surface->surface.atoms.empty()) continue;
     const std::vector<Ball> shown = shown_balls({&*object.surface, 1});
-    for (const std::string& sentence : idle_cuts(request.objects[n].cuts, object.cut_atoms, {camera, balls, shown},
-                                                 object.surface->surface.atoms))
+    for (const std::string& sentence :
+         idle_cuts(request.objects[n].cuts, object.cut_atoms, {camera, balls, shown}, object.surface->surface.atoms))
       sentences.push_back(fmt::format("{}, of object {}", sentence, n + 1));
   }
   return sentences;
@@ -124,8 +124,7 @@ std::vector<PictureObject> picture_objects(const Surface& surface, const Colorin
     whole.thickens = request.thickens;
     std::vector<Ball> own;
     if (uses_atoms(request.cuts)) own = shown_balls(surface.atoms, coloring);
-    whole.clip =
-        clip_planes(request.cuts, beside ? beside->cut_atoms : CutAtoms(), {camera, atoms, own});
+    whole.clip = clip_planes(request.cuts, beside ? beside->cut_atoms : CutAtoms(), {camera, atoms, own});
   }
   if (beside && !beside->shapes.empty()) {
     PictureObject& shapes = shown.emplace_back();
