@@ -43,8 +43,8 @@ constexpr auto kTable = of_commands(
             .in(kCamera, kShared | live)
             .in_short_help(),
         text("camera.look_into", "--look-into", "EXPR",
-             "Look at these atoms from the side where they are hidden least, with the surface cut open before them. "
-             "Short for --zoom-to EXPR --view open --clip 'before EXPR'")
+             "Look at these atoms from the open side, with the surface cut before them. Short for --zoom-to EXPR "
+             "--view open --clip 'before EXPR'")
             .in(kCamera)
             .in_short_help()
             .of(kForFigures)

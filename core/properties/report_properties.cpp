@@ -31,7 +31,8 @@ constexpr auto kTable = std::to_array<Property>({
              "position; -: to standard output")
         .in(kOutput),
     text("report.patches", "--patches", "EXPR",
-         "Report contiguous areas of these atoms, such as 'hydrophobicity > 1.5' or 'charge < -0.3'")
+         "Report contiguous areas of these atoms, the largest first. EXPR such as 'hydrophobicity > 1.5' or 'charge < "
+         "-0.3'")
         .in(kOutput)
         .in_short_help(),
     new_file("report.csv_patches", "--csv-patches", "FILE",
