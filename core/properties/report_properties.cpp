@@ -31,7 +31,7 @@ constexpr auto kTable = std::to_array<Property>({
              "position; -: to standard output")
         .in(kOutput),
     text("report.patches", "--patches", "EXPR",
-         "Report contiguous areas of these atoms, the largest first. EXPR such as 'hydrophobicity > 1.5' or 'charge < "
+         "Report contiguous areas of these atoms, the largest first. Such as 'hydrophobicity > 1.5' or 'charge < "
          "-0.3'")
         .in(kOutput)
         .in_short_help(),
