@@ -20,8 +20,8 @@ bool is_stdout(const std::string& path) { return path == "-"; }
 
 std::vector<std::string> tables_of(const SurfaceCommand& command) {
   std::vector<std::string> paths;
-  for (const std::string& path :
-       {command.series_csv, command.atom_csv, command.residue_csv, command.cavity_csv, command.gradient_csv})
+  for (const std::string& path : {command.series_csv, command.atom_csv, command.residue_csv, command.cavity_csv,
+                                  command.gradient_csv, command.patch_csv})
     if (!path.empty()) paths.push_back(path);
   return paths;
 }
@@ -39,7 +39,7 @@ void check_outputs(const SurfaceCommand& command) {
   if (std::ranges::count_if(paths, is_stdout) + command.json > 1)
     throw UsageError(
         "standard output holds one thing at a time: --json, or one of --csv-series, --csv, --csv-residues, "
-        "--csv-cavities, --gradients with -");
+        "--csv-cavities, --csv-patches, --gradients with -");
   if (!command.plot.empty()) paths.push_back(command.plot);
   if (!command.gradient_csv.empty()) {
     const Division& division = command.scene.molecule.division;
@@ -61,6 +61,8 @@ void check_outputs(const SurfaceCommand& command) {
           "--csv-cavities needs all frames of the run, because cavities keep their numbers from frame to frame; leave "
           "--only out");
   }
+  if (!command.patch_csv.empty() && !command.patches)
+    throw UsageError("--csv-patches needs --patches EXPR, such as 'hydrophobicity > 1.5'");
   for (const std::string& path : paths)
     if (!is_stdout(path)) check_output(path, command.existing());
 }
@@ -73,6 +75,7 @@ void add_surface(CLI::App& command) {
       "  meniscus surface 1tii.pdb --csv atoms.csv --csv-residues residues.csv   areas of each\n"
       "  meniscus surface 1tii.pdb --by chain              each chain as if it were alone\n"
       "  meniscus surface 1tii.pdb --select 'chain D' --context 'chain E'   area of D, and what E buries of it\n"
+      "  meniscus surface 1tii.pdb --patches 'hydrophobicity > 1.5'   contiguous hydrophobic areas\n"
       "  meniscus surface 1tii.pdb --cavities only         cavities, and what is inside them\n"
       "  meniscus surface 1tii.pdb --gradients forces.csv  derivatives of areas and volumes by positions\n"
       "  meniscus surface 1tii.pdb --surface sas --csv -   solvent-accessible areas of atoms on standard output\n"
@@ -100,6 +103,9 @@ void add_surface(CLI::App& command) {
   options.add("report.plot", state.plot);
   options.add("report.gradients", state.gradient_csv);
   options.add_selection("report.context", state.context);
+  options.add_selection("report.patches", state.patches);
+  options.add("report.csv_patches", state.patch_csv);
+  options.add("report.least_patch", state.least_patch);
   command.callback([declared] {
     declared->options.take();
     // Parts of surfaces are cut out by planes.

@@ -52,8 +52,10 @@ blender::SequenceManifest manifest_of(FigureRun& run) {
   return manifest;
 }
 
-blender::CutFile cut_file(const SceneCommand& command, const Camera& camera, std::span<const SurfaceObject> objects) {
-  return {surface_planes(command.scene.figure, camera, objects), command.scene.figure.cap};
+blender::CutFile cut_file(const SceneCommand& command, const FigureFrame& frame) {
+  const Figure& figure = frame.figure;
+  return {surface_planes(command.scene.figure, figure.beside.cut_atoms, frame.camera, figure.molecule.objects),
+          command.scene.figure.cap};
 }
 
 // Cut, with caps. Throws RequestError if nothing is left, unless it may be.
@@ -235,7 +237,7 @@ void export_to_blender(const SceneCommand& asked) {
       balls.insert(balls.end(), beside.begin(), beside.end());
       tolerance = tolerance_of(scene.mesh, scene.picture.size(), frame.camera, balls);
     }
-    const blender::CutFile cut = cut_file(command, frame.camera, molecule.objects);
+    const blender::CutFile cut = cut_file(command, frame);
     FigureMeshes meshes;
     mesh_figure(command, frame, cut, tolerance, !sequence, meshes);
     const std::string left_out = add_numbers(command, numbers, molecule.structure, meshes.objects);

@@ -62,8 +62,9 @@ path_tracers::SceneItem item_of(const SurfaceObject& object, std::span<const Cli
   return path_tracers::surface_item(object, shown.mesh, origin, caps);
 }
 
-void add_surface(const Scene& asked, std::vector<SurfaceObject> objects, double tolerance, path_tracers::Scene& scene) {
-  const std::vector<ClipPlane> planes = surface_planes(asked.figure, scene.camera, objects);
+void add_surface(const Scene& asked, Figure figure, double tolerance, path_tracers::Scene& scene) {
+  std::vector<SurfaceObject>& objects = figure.molecule.objects;
+  const std::vector<ClipPlane> planes = surface_planes(asked.figure, figure.beside.cut_atoms, scene.camera, objects);
   if (!planes.empty()) settle_copies(objects);
   for (const SurfaceObject& object : objects)
     scene.items.push_back(item_of(object, planes, asked.figure.cap, tolerance, scene.origin));
@@ -132,7 +133,7 @@ void run(const PathTracerCommand& command) {
     const std::vector<Atom> atoms = shown_atoms(figure.molecule.structure);
     scene.items.push_back(path_tracers::shapes_item(atoms, figure.beside.shapes, scene.origin));
     add_more(asked, figure, atoms, tolerance, scene);
-    if (!asked.figure.hides_surface) add_surface(asked, std::move(figure.molecule.objects), tolerance, scene);
+    if (!asked.figure.hides_surface) add_surface(asked, std::move(figure), tolerance, scene);
     const path_tracers::SceneReport report = write_scene(
         scene, target_of(command, run.is_run() ? fmt::format("surface_{:05}", frame.number) : std::string("surface")));
     return [&, report, tolerance] {

@@ -146,7 +146,7 @@ povray::SceneReport write_figure(const Scene& asked, povray::SceneOptions option
       more_objects(figure, asked.figure, frame.camera, placed_balls(objects), sequence != nullptr);
   const std::span<const SurfaceObject> surface =
       asked.figure.hides_surface ? std::span<const SurfaceObject>{} : objects;
-  options.cut.planes = surface_planes(asked.figure, frame.camera, objects);
+  options.cut.planes = surface_planes(asked.figure, frame.figure.beside.cut_atoms, frame.camera, objects);
   options.atom_names = comment_names(asked, figure.molecule.structure);
   if (sequence)
     return sequence->write_frame(frame.place, {surface, options.cut, &figure.beside.shapes, more, options.atom_names});

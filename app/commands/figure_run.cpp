@@ -75,7 +75,8 @@ void FigureRun::tell_idle_cuts() const {
   const SurfaceRequest& surface = scene().molecule.surface;
   std::vector<Ball> balls = grown(balls_of(structure()), growth_of(surface.kind, surface.probe_radius));
   if (!structure().instances.empty()) balls = reaching_balls(balls, structure().instances);
-  for (const std::string& sentence : idle_cuts(scene().figure.cuts, camera, balls, balls))
+  const CutAtoms atoms = cut_atoms(scene().figure.cuts, structure());
+  for (const std::string& sentence : idle_cuts(scene().figure.cuts, atoms, {camera, balls, balls}, balls))
     say(command_, fmt::format("note: --clip {}, in the first frame of the run", sentence));
 }
 

@@ -10,7 +10,7 @@
 
 #include "app/options/scene_options.h"
 #include "app/reports/run_frames.h"
-#include "app/reports/surface_report.h"
+#include "app/reports/csv_tables.h"
 #include "core/scene/frame_run.h"
 #include "core/scene/molecule.h"
 #include "core/structure/structure.h"

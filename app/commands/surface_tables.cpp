@@ -32,7 +32,7 @@ namespace {
 /// What is known of a molecule, or of a frame before its place among the others matters.
 struct SurfaceNumbers {
   std::vector<SeriesValue> values;
-  std::string printed, atom_header, atoms, residue_header, residues, gradient_header, gradients;
+  std::string printed, atom_header, atoms, residue_header, residues, gradient_header, gradients, patches;
   std::vector<Cavity> cavities;
   std::vector<std::string> lining;  ///< of each
 };
@@ -49,6 +49,7 @@ class SurfaceTables {
         residues_(command.residue_csv, command.existing()),
         gradients_(command.gradient_csv, command.existing()),
         cavities_(command.cavity_csv, command.existing()),
+        patches_(command.patch_csv, command.existing()),
         tracks_(command.scene.molecule.surface.probe_radius) {
     if (!command.plot.empty()) plot_.emplace(command.plot, command.existing());
   }
@@ -85,7 +86,10 @@ class SurfaceTables {
       context = ContextNote{command_.context->text(), areas.atoms};
       std::move(areas.columns.begin(), areas.columns.end(), std::back_inserter(columns));
     }
-    if (!command_.prints_csv()) numbers.printed = printed({molecule, command_.scene.molecule, columns, context}, note);
+    std::optional<PatchReport> patches;
+    if (command_.patches) patches = patch_report(molecule, *command_.patches, command_.least_patch);
+    if (!command_.prints_csv())
+      numbers.printed = printed({molecule, command_.scene.molecule, columns, context, patches}, note);
     if (series_.is_wanted() || plot_) numbers.values = series_values(molecule, columns);
     const std::string prefix = prefix_of(note), more_columns = note ? std::string(kFrameColumns) + "," : std::string();
     if (atoms_.is_wanted()) {
@@ -96,6 +100,7 @@ class SurfaceTables {
       numbers.residue_header = more_columns + residue_csv_header(columns);
       numbers.residues = residue_csv_rows(molecule.structure, columns, prefix);
     }
+    if (patches_.is_wanted()) numbers.patches = patch_csv_rows(*patches, molecule.structure, prefix);
     if (gradients_.is_wanted()) {
       const std::vector<GradientColumn> gradients = gradient_columns(molecule.structure, molecule.objects, kind);
       numbers.gradient_header = more_columns + gradient_csv_header(gradients);
@@ -123,6 +128,7 @@ class SurfaceTables {
     atoms_.write(numbers.atom_header, numbers.atoms);
     residues_.write(numbers.residue_header, numbers.residues);
     gradients_.write(numbers.gradient_header, numbers.gradients);
+    patches_.write((note ? std::string(kFrameColumns) + "," : std::string()) + patch_csv_header(), numbers.patches);
     if (note) follow(numbers, *note);
     return {};
   }
@@ -146,7 +152,7 @@ class SurfaceTables {
       plot_->write(plot_svg(plot()));
       plot_->commit();
     }
-    for (GrowingTable* table : {&series_, &atoms_, &residues_, &gradients_, &cavities_}) table->commit();
+    for (GrowingTable* table : {&series_, &atoms_, &residues_, &gradients_, &cavities_, &patches_}) table->commit();
     print_now(held_);
   }
 
@@ -174,7 +180,7 @@ class SurfaceTables {
   }
 
   const SurfaceCommand& command_;
-  GrowingTable series_, atoms_, residues_, gradients_, cavities_;
+  GrowingTable series_, atoms_, residues_, gradients_, cavities_, patches_;
   CavityTracks tracks_;
   std::optional<OutputFile> plot_;
   std::vector<FrameNote> plotted_;
@@ -188,7 +194,9 @@ void print_surface(const SurfaceCommand& asked) {
   check_outputs(asked);
   SurfaceCommand command = asked;
   command.scene.frames.context = command.context;
-  settle_selections(command.scene.molecule, command.scene.frames);
+  OtherSelections others;
+  if (command.patches) others.of_atoms.push_back(&*command.patches);
+  settle_selections(command.scene.molecule, command.scene.frames, others);
   SurfaceTables(command).make();
 }
 

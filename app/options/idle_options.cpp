@@ -91,6 +91,9 @@ const std::vector<Need>& needs() {
        [](const Asked& asked) { return !asked.has("--stride") || asked.is_run(); },
        "there is no run of frames; add --trajectory FILE, or --frames all for the models of FILE",
        true},
+      {{"--min-patch"},
+       [](const Asked& asked) { return asked.given("--patches"); },
+       "it is about patches; add --patches EXPR"},
       {{"--jobs", "--progress"},
        [](const Asked& asked) { return !asked.has("--stride") || asked.is_run(); },
        "there is no run of frames"},
@@ -125,7 +128,9 @@ const std::vector<Need>& needs() {
        [](const Asked& asked) { return !asked.given("--hide-surface"); },
        "the surface is hidden, and shapes beside it are neither cut nor films"},
       {{"--cap-color", "--cap-hatching"},
-       [](const Asked& asked) { return asked.given("--clip"); },
+       [](const Asked& asked) {
+         return asked.any({"--clip", "--look-into"});
+       },
        "nothing is cut, so there are no caps; add --clip PLANE"},
       {{"--film-opacity"},
        [](const Asked& asked) { return asked.given("--opacity"); },

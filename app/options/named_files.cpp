@@ -21,9 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 13> kOutputs{
-    "--output",       "--save-scene", "--save-camera", "--legend-file", "--csv",    "--csv-series", "--csv-cavities",
-    "--csv-residues", "--plot",       "--gradients",   "--mesh",        "--figure", "--record"};
+constexpr std::array<std::string_view, 14> kOutputs{
+    "--output",       "--save-scene",  "--save-camera", "--legend-file", "--csv",  "--csv-series", "--csv-cavities",
+    "--csv-residues", "--csv-patches", "--plot",        "--gradients",   "--mesh", "--figure",     "--record"};
 
 /// Of a bundle the files that it was made of, too.
 void protect(const fs::path& path) {

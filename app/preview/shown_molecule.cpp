@@ -186,6 +186,11 @@ ShownMolecule::Made ShownMolecule::made(const PreviewFigure& figure, Renewal ren
     made.beside.reset();
   else if (renewal >= Renewal::colors)
     made.beside = beside_of(*made.marked, figure, renewal == Renewal::colors, beside_);
+  if (uses_atoms(figure.figure.cuts)) {
+    BesideSurface beside = made.beside ? *made.beside : BesideSurface{};
+    beside.cut_atoms = cut_atoms(figure.figure.cuts, made.marked ? *made.marked : frame_structure());
+    made.beside = std::make_shared<const BesideSurface>(std::move(beside));
+  }
   if (figure.figure.hides_surface && (!made.beside || made.beside->empty()))
     throw RequestError("without the surface nothing would be shown; draw something beside it first");
   if (renewal == Renewal::colors || renewal == Renewal::shapes)
@@ -285,7 +290,10 @@ Camera ShownMolecule::overview(const PreviewState& state) const {
 
 std::vector<std::string> ShownMolecule::idle_among(std::span<const Cut> cuts, const PreviewFigure& figure) const {
   if (figure.figure.hides_surface) return {};
-  return idle_cuts(cuts, figure.camera, reach(), reach());  // with all copies, if there are any
+  // With all copies, if there are any; then there are no cuts by atoms.
+  const std::vector<Ball> shown = structure_.instances.empty() ? shown_balls(balls_, coloring(figure)) : balls_;
+  const CutAtoms atoms = cut_atoms(cuts, marked_ ? *marked_ : frame_structure());
+  return idle_cuts(cuts, atoms, {figure.camera, reach(), shown}, reach());
 }
 
 void require_copies_apart(const Structure& structure, const PreviewState& state, double reach) {

@@ -225,7 +225,8 @@ std::string export_povray(const ExportedView& view, const ExportTarget& target, 
   options.film = figure.thickens;
   options.cut.style = figure.cap;
   const std::vector<SurfaceObject> surfaces = complete_surfaces(view, watch).first;
-  options.cut.planes = surface_planes(figure, view.figure.camera, surfaces);
+  options.cut.planes =
+      surface_planes(figure, view.beside ? view.beside->cut_atoms : CutAtoms(), view.figure.camera, surfaces);
   watch("writing", 0.0);
   return write_scene(surfaces, view.figure.camera, options, target.path).command;
 }

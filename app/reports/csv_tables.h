@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "app/reports/surface_report.h"
 #include "core/base/output_file.h"
 #include "core/queries/cavity_tracks.h"
 #include "core/queries/surface_object.h"
@@ -18,6 +17,12 @@
 #include "core/structure/structure.h"
 
 namespace meniscus {
+
+/// Which frame of a trajectory it is, and its time in ps if that is known.
+struct FrameNote {
+  std::uint64_t frame = 0;
+  std::optional<double> time;
+};
 
 /// A row for each atom used, in file order: index,model,chain,residue,number,icode,name,element,class,radius and the
 /// columns. `index` is the place in the file, from 0; radius in Å, areas in Å². RFC 4180 with plain line feeds: text

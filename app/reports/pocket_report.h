@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/reports/surface_report.h"
+#include "app/reports/csv_tables.h"
 #include "core/queries/cavity_tracks.h"
 #include "core/scene/molecule_pockets.h"
 #include "core/structure/structure.h"

@@ -205,6 +205,7 @@ Json report_object(const SurfaceReport& report) {
   for (const AddedFile& added : structure.added) json["added"].push_back(added_json(added));
   for (const AreaColumn& column : report.columns) json[column.name] = column.total;
   if (report.context) json["context"] = {{"selection", report.context->selection}, {"atoms", report.context->atoms}};
+  if (report.patches) json["patches"] = patch_json(*report.patches, structure);
   json["components"] = component_list(report.molecule.objects);
   json["groups"] = group_list(report);
   const RadiiChange change = change_of_radii(report.molecule.objects);
@@ -275,7 +276,8 @@ std::string report_table(const SurfaceReport& report) {
   for (const StageTime& stage : report.molecule.stages)
     fmt::format_to(out, "time          {:>9.2f} ms  {}\n", stage.milliseconds, stage.name);
   text += chain_table(report);
-  return text + (objects.size() > 1 ? object_table(report) : component_table(objects.front().surface));
+  text += objects.size() > 1 ? object_table(report) : component_table(objects.front().surface);
+  return report.patches ? text + patch_table(*report.patches, structure) : text;
 }
 
 }  // namespace meniscus

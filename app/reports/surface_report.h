@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "app/reports/csv_tables.h"
+#include "app/reports/patch_report.h"
 #include "core/scene/area_columns.h"
 #include "core/scene/molecule.h"
 
@@ -24,17 +26,12 @@ struct SurfaceReport {
   const MoleculeRequest& options;
   const std::vector<AreaColumn>& columns;
   const std::optional<ContextNote>& context;
+  const std::optional<PatchReport>& patches;
 };
 
 /// Indented, ends with a line feed.
 std::string report_json(const SurfaceReport& report);
 std::string report_table(const SurfaceReport& report);
-
-/// Which frame of a trajectory it is, and its time in ps if that is known.
-struct FrameNote {
-  std::uint64_t frame = 0;
-  std::optional<double> time;
-};
 
 /// The object of report_json in one line that begins with "frame" and "time" (null if unknown).
 std::string report_json_line(const SurfaceReport& report, const FrameNote& note);

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Casts rays from points on balls in directions all around, and counts those that meet no other ball.
+// Casts rays from balls, all around or towards a viewer, and finds those that meet no other ball.
 #include "core/camera/open_side.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <iterator>
+#include <limits>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include "core/math/spiral.h"
 
@@ -21,15 +25,27 @@ namespace {
 constexpr double kClosed = 0.4;
 constexpr std::size_t kTriedSides = 500, kPoints = 500, kPointsOfBall = 12;
 
-std::tuple<double, double, double, double> key_of(const Ball& ball) {
-  return {ball.center.x, ball.center.y, ball.center.z, ball.radius};
-}
+/// Atoms by their centres: radii depend on the kind of surface.
+class Centers {
+ public:
+  explicit Centers(std::span<const Ball> balls) {
+    for (const Ball& ball : balls) keys_.insert(key_of(ball));
+  }
+  bool has(const Ball& ball) const { return keys_.contains(key_of(ball)); }
 
-std::vector<Ball> without(std::span<const Ball> all, std::span<const Ball> seen) {
-  std::set<std::tuple<double, double, double, double>> keys;
-  for (const Ball& ball : seen) keys.insert(key_of(ball));
+ private:
+  static std::tuple<double, double, double> key_of(const Ball& ball) {
+    return {ball.center.x, ball.center.y, ball.center.z};
+  }
+  std::set<std::tuple<double, double, double>> keys_;
+};
+
+/// Those of `all` that are not of `seen`, as wide as their surface.
+std::vector<Ball> others_of(std::span<const Ball> seen, std::span<const Ball> all) {
+  const Centers own(seen);
   std::vector<Ball> others;
-  std::ranges::copy_if(all, std::back_inserter(others), [&](const Ball& ball) { return !keys.contains(key_of(ball)); });
+  for (const Ball& ball : all)
+    if (!own.has(ball)) others.push_back({ball.center, ball.radius + kClosed});
   return others;
 }
 
@@ -101,8 +117,7 @@ glm::dvec3 longest_across(const glm::dvec3& toward, std::span<const Ball> balls)
 }  // namespace
 
 ViewBasis open_side(std::span<const Ball> seen, std::span<const Ball> all) {
-  std::vector<Ball> others = without(all, seen);
-  for (Ball& ball : others) ball.radius += kClosed;
+  const std::vector<Ball> others = others_of(seen, all);
   const std::vector<glm::dvec3> points = points_on(seen);
   Ball around{glm::dvec3(0.0), 0.0};
   for (const Ball& ball : seen) around.center += ball.center / static_cast<double>(seen.size());
@@ -119,6 +134,127 @@ ViewBasis open_side(std::span<const Ball> seen, std::span<const Ball> all) {
   }
   const glm::dvec3 right = longest_across(best, seen);
   return {right, glm::cross(best, right), -best};
+}
+
+namespace {
+
+/// Of the ball's radius: what is drawn of atoms that are to be seen, sticks as a rule, is narrower than they are.
+constexpr double kDrawn = 0.6;
+constexpr double kHiddenShare = 0.05;
+constexpr int kRaysAcross = 45;
+
+/// Where a ray enters and leaves a ball, Å from its origin; nothing: it does not meet it.
+std::optional<std::array<double, 2>> crossing(const Ray& ray, const Ball& ball) {
+  const glm::dvec3 from = ball.center - ray.origin;
+  const double along = glm::dot(from, ray.direction);
+  const double half = ball.radius * ball.radius - (glm::dot(from, from) - along * along);
+  if (half <= 0.0 || along + std::sqrt(half) <= 0.0) return {};
+  return std::array{along - std::sqrt(half), along + std::sqrt(half)};
+}
+
+/// The part of a picture that some balls fill, on the plane through the camera's target.
+class Window {
+ public:
+  Window(std::span<const Ball> balls, const Camera& camera)
+      : camera_(camera),
+        basis_(view_basis(camera)),
+        distance_(std::max(1e-6, glm::dot(camera.target - camera.position, basis_.forward))) {
+    for (const Ball& ball : balls) {
+      const std::optional<Square> square = square_around(ball);
+      if (!square) continue;
+      low_ = glm::min(low_, square->middle - square->half);
+      high_ = glm::max(high_, square->middle + square->half);
+    }
+  }
+
+  /// Whether rays() may meet it.
+  bool may_meet(const Ball& ball) const {
+    if (glm::dot(ball.center - camera_.position, basis_.forward) < -ball.radius) return false;
+    const std::optional<Square> square = square_around(ball);
+    return !square || glm::all(glm::lessThan(low_, square->middle + square->half) &&
+                               glm::lessThan(square->middle - square->half, high_));
+  }
+
+  std::vector<Ray> rays() const {
+    std::vector<Ray> rays;
+    for (int row = 0; low_.x < high_.x && row < kRaysAcross; ++row) {
+      for (int column = 0; column < kRaysAcross; ++column) {
+        const glm::dvec2 at =
+            low_ + (high_ - low_) * (glm::dvec2(column, row) + 0.5) / static_cast<double>(kRaysAcross);
+        const glm::dvec3 across = at.x * basis_.right + at.y * basis_.up;
+        if (camera_.projection == Projection::perspective)
+          rays.push_back({camera_.position, glm::normalize(across + distance_ * basis_.forward)});
+        else
+          rays.push_back({camera_.position + across, basis_.forward});
+      }
+    }
+    return rays;
+  }
+
+ private:
+  struct Square {
+    glm::dvec2 middle;
+    double half;
+  };
+
+  /// Which holds what the picture has of the ball; nothing: that has no end.
+  std::optional<Square> square_around(const Ball& ball) const {
+    const glm::dvec3 from = ball.center - camera_.position;
+    const glm::dvec2 across(glm::dot(from, basis_.right), glm::dot(from, basis_.up));
+    if (camera_.projection == Projection::orthographic) return Square{across, ball.radius};
+    const double depth = glm::dot(from, basis_.forward), front = depth - ball.radius;
+    if (front <= 0.0) return {};
+    // As a box around the ball.
+    const double near_scale = distance_ / front, middle_scale = distance_ / depth;
+    const double shift = (near_scale - middle_scale) * std::max(std::abs(across.x), std::abs(across.y));
+    return Square{middle_scale * across, near_scale * ball.radius + shift};
+  }
+
+  Camera camera_;
+  ViewBasis basis_;
+  double distance_;
+  glm::dvec2 low_{std::numeric_limits<double>::infinity()}, high_{-std::numeric_limits<double>::infinity()};
+};
+
+}  // namespace
+
+OpenDepth open_depth(std::span<const Ball> seen, std::span<const Ball> all, const Camera& camera) {
+  std::vector<Ball> drawn(seen.begin(), seen.end());
+  for (Ball& ball : drawn) ball.radius *= kDrawn;
+  const Window window(drawn, camera);
+  std::vector<Ball> others = others_of(seen, all);
+  std::erase_if(others, [&](const Ball& ball) { return !window.may_meet(ball); });
+  const glm::dvec3 forward = view_basis(camera).forward;
+  double nearest = std::numeric_limits<double>::infinity(), limit = nearest;
+  const Centers own(seen);
+  for (const Ball& ball : all) {
+    const double front = glm::dot(ball.center, forward) - ball.radius;
+    nearest = std::min(nearest, front);
+    if (own.has(ball)) limit = std::min(limit, front);
+  }
+  // Of each ray that meets something to be seen, the depth to which what is before it has to go.
+  std::vector<double> depths;
+  for (const Ray& ray : window.rays()) {
+    double hit = std::numeric_limits<double>::infinity();
+    for (const Ball& ball : drawn)
+      if (const auto at = crossing(ray, ball)) hit = std::min(hit, (*at)[0]);
+    if (!std::isfinite(hit)) continue;
+    double covered = -std::numeric_limits<double>::infinity();
+    for (const Ball& ball : others)
+      if (const auto at = crossing(ray, ball); at && (*at)[0] < hit)
+        covered = std::max(covered, std::min(hit, (*at)[1]));
+    depths.push_back(std::isfinite(covered) ? glm::dot(ray.origin + covered * ray.direction, forward) : nearest);
+  }
+  OpenDepth open{nearest, 1.0, false};
+  if (depths.empty()) return open;
+  std::ranges::sort(depths);
+  const auto needed = static_cast<std::size_t>(std::ceil((1.0 - kHiddenShare) * static_cast<double>(depths.size())));
+  open.depth = std::max(nearest, depths[needed - 1]);
+  open.is_limited = open.depth > limit;
+  open.depth = std::min(open.depth, limit);
+  open.seen = static_cast<double>(std::ranges::upper_bound(depths, open.depth) - depths.begin()) /
+              static_cast<double>(depths.size());
+  return open;
 }
 
 }  // namespace meniscus

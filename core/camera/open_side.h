@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The side from which some atoms are hidden least by the others: into a pocket, at a ligand.
+// The side from which some atoms are hidden least by the others, and how much must be cut away for them to be seen.
 #pragma once
 
 #include <span>
@@ -14,5 +14,17 @@ namespace meniscus {
 /// points on the balls of `seen` are free of the others, or, where several have as many, along which the covered points
 /// lie least deep. Points and directions are samples: about 500 of each.
 ViewBasis open_side(std::span<const Ball> seen, std::span<const Ball> all);
+
+/// Where a plane that faces the viewer has to be.
+struct OpenDepth {
+  double depth = 0.0;       ///< Å, along the view's forward axis: what is before it is cut away
+  double seen = 1.0;        ///< share of what a picture of `seen` alone would show that is seen then
+  bool is_limited = false;  ///< by those of `seen` that are among `all`
+};
+
+/// The plane nearest to the viewer behind which the others hide at most a twentieth of what a picture of `seen` alone
+/// would show. It cuts none of those of `seen` whose centres are among `all`; so it may be nearer, and more be hidden.
+/// seen: at least one ball. Rays are samples: about 2000.
+OpenDepth open_depth(std::span<const Ball> seen, std::span<const Ball> all, const Camera& camera);
 
 }  // namespace meniscus

@@ -42,6 +42,13 @@ constexpr auto kTable = of_commands(
             .initially("all that --show leaves")
             .in(kCamera, kShared | live)
             .in_short_help(),
+        text("camera.look_into", "--look-into", "EXPR",
+             "Look at these atoms from the open side, with the surface cut before them. Short for --zoom-to EXPR "
+             "--view open --clip 'before EXPR'")
+            .in(kCamera)
+            .in_short_help()
+            .of(kForFigures)
+            .excludes("camera.from|camera.view|camera.zoom_to"),
         file("camera.path", "--camera-path", "FILE", "JSON file of key frames (frame, camera) of a moving camera")
             .in(kCamera, kShared)
             .of(kForFigures & ~for_preview)

@@ -155,7 +155,8 @@ constexpr auto kTable = of_commands(
             .in(kFigure, kSeen | live | of_surfaces),
         text("surface.clip", "--clip", "PLANE",
              "Cut by a plane with exact caps: x<20, 1,1,0>35 or depth>0.5. The part where this holds is kept. depth "
-             "runs along the line of sight from 0 (nearest) to 1 (farthest). Repeatable; all apply")
+             "runs along the line of sight from 0 (nearest) to 1 (farthest). 'through EXPR' goes through the middle of "
+             "these atoms, 'before EXPR' is as deep as it must be for them to be seen. Repeatable; all apply")
             .in(kFigure, kSeen | live | repeatable | of_surfaces)
             .in_short_help(),
         text("surface.cap_color", "--cap-color", "COLOR",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parses cutting planes, and measures depths along the view.
+// Parses cutting planes, and measures depths along the view and where atoms are.
 #include "core/scene/cut.h"
 
 #include <algorithm>
@@ -13,6 +13,10 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/camera/open_side.h"
+#include "core/queries/copies.h"
+#include "core/scene/copied_atoms.h"
+#include "core/scene/representations.h"
 
 namespace meniscus {
 namespace {
@@ -44,25 +48,53 @@ std::optional<glm::dvec3> parse_direction(std::string_view text) {
   return direction;
 }
 
+/// The words before an expression, and where they put the plane.
+struct PlaceWord {
+  std::string_view word;
+  Cut::Place place;
+};
+constexpr PlaceWord kPlaceWords[] = {{"through", Cut::Place::through}, {"before", Cut::Place::before}};
+
+/// Nothing where the text does not begin with one of the words.
+std::optional<Cut> parse_cut_by_atoms(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+  for (const auto& [word, place] : kPlaceWords) {
+    if (!text.starts_with(word)) continue;
+    const std::string_view atoms = text.substr(word.size());
+    if (!atoms.empty() && atoms.front() != ' ' && atoms.front() != '(') continue;
+    if (atoms.find_first_not_of(' ') == std::string_view::npos)
+      throw RequestError(fmt::format("{} is not a plane: name the atoms, such as {} ligand", in_quotes(text), word));
+    Cut cut;
+    cut.keeps_less = false;
+    cut.place = place;
+    cut.atoms = parse_selection(atoms.substr(atoms.find_first_not_of(' ')));
+    return cut;
+  }
+  return {};
+}
+
 }  // namespace
 
 Cut parse_cut(std::string_view text) {
+  if (std::optional<Cut> cut = parse_cut_by_atoms(text)) return *std::move(cut);
   std::string tight(text);
   std::erase(tight, ' ');
   const std::size_t sign = tight.find_first_of("<>");
   const auto refuse = [&](const char* why) {
-    return RequestError(
-        fmt::format("{} is not a plane: {}; write one such as x<20, 1,1,0>35 or depth>0.5", in_quotes(text), why));
+    return RequestError(fmt::format(
+        "{} is not a plane: {}; write one such as x<20, 1,1,0>35, depth>0.5 or before ligand", in_quotes(text), why));
   };
   if (sign == std::string::npos) throw refuse("there is no < or >");
   const std::optional<glm::dvec3> direction = parse_direction(std::string_view(tight).substr(0, sign));
   if (!direction) throw refuse("expected x, y, z, depth or a direction of three numbers before < or >");
   const std::optional<double> bound = parse_number(std::string_view(tight).substr(sign + 1));
   if (!bound) throw refuse("expected one number after < or >");
-  return {*direction, tight[sign] == '<', *bound};
+  return {*direction, tight[sign] == '<', *bound, Cut::Place::bound, {}};
 }
 
 std::string cut_text(const Cut& cut) {
+  for (const auto& [word, place] : kPlaceWords)
+    if (cut.place == place) return fmt::format("{} {}", word, cut.atoms->text());
   const glm::dvec3& d = cut.direction;
   std::string axis = fmt::format("{},{},{}", d.x, d.y, d.z);
   if (d == glm::dvec3(0.0)) axis = "depth";
@@ -91,17 +123,90 @@ ClipPlane clip_plane(const Cut& cut, const Camera& camera, std::span<const Ball>
   return {normal / length, offset / length};
 }
 
-std::vector<ClipPlane> clip_planes(std::span<const Cut> cuts, const Camera& camera, std::span<const Ball> atoms) {
+CutAtoms cut_atoms(std::span<const Cut> cuts, const Structure& structure) {
+  if (!uses_atoms(cuts)) return {};
+  CutAtoms chosen(cuts.size());
+  const std::vector<Atom> atoms = shown_atoms(structure);
+  for (std::size_t n = 0; n < cuts.size(); ++n) {
+    if (!cuts[n].atoms) continue;
+    std::vector<bool> picked = cuts[n].atoms->evaluate(atoms);
+    if (std::ranges::find(picked, true) == picked.end())
+      throw RequestError(fmt::format("{} {}: selects none of the {} atoms that are shown; {}", option_name("clip"),
+                                     in_quotes(cut_text(cuts[n])), with_thousands(atoms.size()),
+                                     cuts[n].atoms->why_none(atoms)));
+    for (std::size_t a = structure.atoms.size(); a < atoms.size(); ++a)
+      if (picked[a]) chosen[n].push_back({atoms[a].position, atoms[a].radius});
+    picked.resize(structure.atoms.size());
+    const std::vector<Ball> own = standing_balls(structure, picked);
+    chosen[n].insert(chosen[n].end(), own.begin(), own.end());
+  }
+  return chosen;
+}
+
+bool uses_atoms(std::span<const Cut> cuts) {
+  return std::ranges::any_of(cuts, [](const Cut& cut) { return cut.atoms.has_value(); });
+}
+
+namespace {
+
+/// A plane that faces the viewer, before which all is cut away.
+ClipPlane facing_plane(const Camera& camera, double depth) { return {-view_basis(camera).forward, -depth}; }
+
+double middle_depth(std::span<const Ball> balls, const Camera& camera) {
+  glm::dvec3 middle(0.0);
+  for (const Ball& ball : balls) middle += ball.center / static_cast<double>(balls.size());
+  return glm::dot(middle, view_basis(camera).forward);
+}
+
+}  // namespace
+
+std::vector<ClipPlane> clip_planes(std::span<const Cut> cuts, const CutAtoms& cut_atoms, const CutView& view) {
+  const Camera& camera = view.camera;
   std::vector<ClipPlane> planes;
-  for (const Cut& cut : cuts) planes.push_back(clip_plane(cut, camera, atoms));
+  for (std::size_t n = 0; n < cuts.size(); ++n) {
+    if (cuts[n].place == Cut::Place::through)
+      planes.push_back(facing_plane(camera, middle_depth(cut_atoms.at(n), camera)));
+    else if (cuts[n].place == Cut::Place::before)
+      planes.push_back(facing_plane(camera, open_depth(cut_atoms.at(n), view.shown, camera).depth));
+    else
+      planes.push_back(clip_plane(cuts[n], camera, view.atoms));
+  }
   return planes;
 }
 
-std::vector<std::string> idle_cuts(std::span<const Cut> cuts, const Camera& camera, std::span<const Ball> atoms,
+std::vector<Ball> shown_balls(std::span<const Ball> atoms, const Coloring& coloring) {
+  std::vector<Ball> shown;
+  for (std::uint32_t a = 0; a < atoms.size(); ++a)
+    if (coloring.shows(a)) shown.push_back(atoms[a]);
+  return shown;
+}
+
+std::vector<Ball> shown_balls(std::span<const SurfaceObject> objects) {
+  std::vector<Ball> shown;
+  for (const SurfaceObject& object : objects) {
+    const std::vector<Ball> own = shown_balls(object.surface.atoms, object.coloring);
+    for (const RigidMotion& motion : object.copies)
+      for (const Ball& ball : own) shown.push_back(moved(ball, motion));
+  }
+  return shown;
+}
+
+std::vector<std::string> idle_cuts(std::span<const Cut> cuts, const CutAtoms& cut_atoms, const CutView& view,
                                    std::span<const Ball> balls) {
   std::vector<std::string> sentences;
-  for (const Cut& cut : cuts) {
-    const ClipPlane plane = clip_plane(cut, camera, atoms);
+  const std::vector<ClipPlane> planes = clip_planes(cuts, cut_atoms, view);
+  for (std::size_t n = 0; n < cuts.size(); ++n) {
+    const Cut& cut = cuts[n];
+    const ClipPlane& plane = planes[n];
+    if (cut.place == Cut::Place::before) {
+      const OpenDepth open = open_depth(cut_atoms.at(n), view.shown, view.camera);
+      if (open.is_limited)
+        sentences.push_back(fmt::format(
+            "{} leaves them {:.0f} % hidden: they are part of the surface, so the plane is before all of them; with {} "
+            "without them, and {}, it goes deeper",
+            cut_text(cut), 100.0 * (1.0 - open.seen), option_name("select"), option_name("sticks")));
+      continue;
+    }
     double least = std::numeric_limits<double>::infinity(), most = -least;
     for (const Ball& ball : balls) {
       const double along = glm::dot(plane.normal, ball.center);
@@ -111,6 +216,7 @@ std::vector<std::string> idle_cuts(std::span<const Cut> cuts, const Camera& came
     const bool keeps_all = most <= plane.offset;
     if (!keeps_all && least < plane.offset) continue;
     std::string where = "0 is its nearest point, 1 its farthest";
+    if (cut.place == Cut::Place::through) where = "the atoms are beyond it";
     if (cut.direction != glm::dvec3(0.0)) {
       // The plane's normal has the length 1, and points to what is cut away.
       const double scale = glm::length(cut.direction) * (cut.keeps_less ? 1.0 : -1.0);

@@ -70,6 +70,7 @@ BesideSurface make_beside(const Structure& structure, const FigureRequest& reque
   BesideSurface beside;
   if (!request.representations.empty()) beside.shapes = shown_shapes(structure, request.representations, scheme);
   beside.objects = make_objects(request.objects, structure, request.representations.requests.size(), scheme);
+  beside.cut_atoms = cut_atoms(request.cuts, structure);
   return beside;
 }
 
@@ -86,10 +87,10 @@ Figure make_figure(Molecule molecule, const FigureRequest& request) {
   return figure;
 }
 
-std::vector<ClipPlane> surface_planes(const FigureRequest& request, const Camera& camera,
+std::vector<ClipPlane> surface_planes(const FigureRequest& request, const CutAtoms& cut_atoms, const Camera& camera,
                                       std::span<const SurfaceObject> objects) {
   if (request.cuts.empty()) return {};
-  return clip_planes(request.cuts, camera, placed_balls(objects));
+  return clip_planes(request.cuts, cut_atoms, {camera, placed_balls(objects), shown_balls(objects)});
 }
 
 std::vector<std::string> idle_cuts(const FigureRequest& request, const Figure& figure, const Camera& camera) {
@@ -97,11 +98,15 @@ std::vector<std::string> idle_cuts(const FigureRequest& request, const Figure& f
   const auto of_objects = [](const FigureObjectRequest& object) { return !object.cuts.empty(); };
   if (request.cuts.empty() && std::ranges::none_of(request.objects, of_objects)) return sentences;
   const std::vector<Ball> balls = placed_balls(figure.molecule.objects);
-  if (!request.hides_surface && !balls.empty()) sentences = idle_cuts(request.cuts, camera, balls, balls);
+  if (!request.hides_surface && !balls.empty())
+    sentences =
+        idle_cuts(request.cuts, figure.beside.cut_atoms, {camera, balls, shown_balls(figure.molecule.objects)}, balls);
   for (std::size_t n = 0; n < figure.beside.objects.size(); ++n) {
-    const std::optional<SurfaceObject>& surface = figure.beside.objects[n].surface;
-    if (!surface || surface->surface.atoms.empty()) continue;
-    for (const std::string& sentence : idle_cuts(request.objects[n].cuts, camera, balls, surface->surface.atoms))
+    const FigureObject& object = figure.beside.objects[n];
+    if (!object.surface || object.surface->surface.atoms.empty()) continue;
+    const std::vector<Ball> shown = shown_balls({&*object.surface, 1});
+    for (const std::string& sentence :
+         idle_cuts(request.objects[n].cuts, object.cut_atoms, {camera, balls, shown}, object.surface->surface.atoms))
       sentences.push_back(fmt::format("{}, of object {}", sentence, n + 1));
   }
   return sentences;
@@ -117,7 +122,9 @@ std::vector<PictureObject> picture_objects(const Surface& surface, const Colorin
     whole.coloring = &coloring;
     whole.cap = request.cap;
     whole.thickens = request.thickens;
-    whole.clip = clip_planes(request.cuts, camera, atoms);
+    std::vector<Ball> own;
+    if (uses_atoms(request.cuts)) own = shown_balls(surface.atoms, coloring);
+    whole.clip = clip_planes(request.cuts, beside ? beside->cut_atoms : CutAtoms(), {camera, atoms, own});
   }
   if (beside && !beside->shapes.empty()) {
     PictureObject& shapes = shown.emplace_back();

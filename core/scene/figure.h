@@ -35,10 +35,12 @@ struct FigureRequest {
   }
 };
 
-/// What is drawn beside the molecule's surface, ready to be drawn. Atoms are places in shown_atoms().
+/// What is drawn beside the molecule's surface, ready to be drawn, and what its cuts go by. Atoms are places in
+/// shown_atoms().
 struct BesideSurface {
   ColoredShapes shapes;               ///< of FigureRequest::representations
   std::vector<FigureObject> objects;  ///< one for each of FigureRequest::objects
+  CutAtoms cut_atoms;                 ///< of FigureRequest::cuts
 
   bool empty() const { return shapes.empty() && objects.empty(); }
   /// For framing.
@@ -65,15 +67,17 @@ void color_beside(const Structure& structure, const FigureRequest& request, cons
 /// The molecule with what is drawn beside it. Throws as make_beside does.
 Figure make_figure(Molecule molecule, const FigureRequest& request);
 
-/// The planes that cut the surface, seen by this camera. objects: of all the surface, with their copies.
-std::vector<ClipPlane> surface_planes(const FigureRequest& request, const Camera& camera,
+/// The planes that cut the surface, seen by this camera. cut_atoms: of request.cuts. objects: of all the surface, with
+/// their copies.
+std::vector<ClipPlane> surface_planes(const FigureRequest& request, const CutAtoms& cut_atoms, const Camera& camera,
                                       std::span<const SurfaceObject> objects);
 
 /// A sentence for each cut of the molecule's surface, and of those beside it, that takes nothing away or leaves
 /// nothing.
 std::vector<std::string> idle_cuts(const FigureRequest& request, const Figure& figure, const Camera& camera);
 
-/// What a picture shows of one surface: cut and seen through as asked, and what is drawn beside it (nullptr: nothing).
+/// What a picture shows of one surface: cut and seen through as asked, and what is drawn beside it (nullptr: nothing,
+/// and no cuts by atoms).
 /// atoms: of all that the picture shows, for cuts along the view. All must stay. Throws RequestError if there is
 /// nothing to be shown.
 std::vector<PictureObject> picture_objects(const Surface& surface, const Coloring& coloring,

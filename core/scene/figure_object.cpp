@@ -96,6 +96,7 @@ std::vector<FigureObject> make_objects(std::span<const FigureObjectRequest> obje
           shapes_of_atoms(all, *request.shapes, selected, *structure.shown_bonds, {request.radius, request.radius});
     else
       object.surface = surface_of(request, all, selected);
+    object.cut_atoms = cut_atoms(request.cuts, structure);
   }
   color_objects(objects, structure, scheme, made);
   return made;
@@ -131,7 +132,9 @@ PictureObject picture_object(const FigureObject& object, const FigureObjectReque
   shown.coloring = &object.surface->coloring;
   shown.cap = request.cap;
   shown.thickens = request.thickens;
-  shown.clip = clip_planes(request.cuts, camera, balls);
+  std::vector<Ball> own;
+  if (uses_atoms(request.cuts)) own = shown_balls(shown.surface->atoms, *shown.coloring);
+  shown.clip = clip_planes(request.cuts, object.cut_atoms, {camera, balls, own});
   return shown;
 }
 

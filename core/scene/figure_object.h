@@ -42,6 +42,7 @@ struct FigureObjectRequest {
 struct FigureObject {
   std::optional<SurfaceObject> surface;
   ColoredShapes shapes;
+  CutAtoms cut_atoms;  ///< of FigureObjectRequest::cuts
 };
 
 /// Makes read_structure mark the atoms of the objects, behind those it marks already. Throws RequestError for more than

@@ -34,11 +34,17 @@ struct Expressions {
     add(molecule.color);
   }
 
+  void add(std::vector<Cut>& cuts) {
+    for (Cut& cut : cuts) add(cut.atoms, of_surface);
+  }
+
   void add(FigureRequest& figure) {
     add(figure.representations);
+    add(figure.cuts);
     for (FigureObjectRequest& object : figure.objects) {
       of_file.push_back(&object.atoms);
       add(object.show, of_surface);
+      add(object.cuts);
       if (object.color) add(*object.color);
       for (OpacityRule& rule : object.opacities) add(rule.atoms, of_surface);
     }

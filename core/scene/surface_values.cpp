@@ -180,6 +180,13 @@ Written write_cuts(const Property&, const Scene& scene) {
   return texts;
 }
 
+/// Is written as what it stands for.
+void read_look_into(const Property&, Texts texts, Scene& scene) {
+  scene.picture.zoom_to = parse_selection(texts.back());
+  scene.picture.direction = parse_view_direction("open");
+  scene.figure.cuts.push_back(parse_cut(fmt::format("before {}", texts.back())));
+}
+
 void read_cap_color(const Property&, Texts texts, Scene& scene) {
   std::optional<glm::vec3>& color = scene.figure.cap.color;
   color.reset();
@@ -279,6 +286,7 @@ constexpr auto kSurfaceRows = std::to_array<SceneValue>({
     plain(
         "surface.film_opacity", [](auto& s) -> auto& { return s.figure.thickens; }),
     {"surface.clip", read_cuts, write_cuts},
+    {"camera.look_into", read_look_into, [](const Property&, const Scene&) { return Written(); }},
     {"surface.cap_color", read_cap_color, write_cap_color},
     plain(
         "surface.cap_hatching", [](auto& s) -> auto& { return s.figure.cap.hatching; }),

@@ -113,6 +113,16 @@ struct DividerScratch {
     double middle;
   };
   std::vector<Course> courses;  // by contact
+
+  /// What a contact has of a border, between two parameters of the border.
+  struct Line {
+    std::uint32_t border, contact;
+    bool is_backwards;  ///< the half of the border that the face has
+    double from, to;
+  };
+  bool keeps_lines = false;
+  std::vector<Line> lines;                                // of all borders of the patch
+  std::vector<std::array<std::uint32_t, 2>> bisected_by;  // contacts that have a line of their bisector
 };
 
 /// Where the probe's centre is seen from the atom's centre, there it touches: the patch and the accessible part of the
@@ -158,6 +168,8 @@ class AreaDivider {
   enum class Cuts { beyond_touching, all };
   const std::vector<double>& divide(const ConcavePatch& patch, Cuts cuts, DividerScratch& w) const {
     w.area.assign(patch.contact_count, 0.0);
+    w.lines.clear();
+    w.bisected_by.clear();
     if (patch.face_count == 0) return w.area;
     w.contacts.clear();
     for (std::uint32_t n = 0; n < patch.contact_count; ++n)
@@ -220,8 +232,17 @@ class AreaDivider {
         for (std::size_t j = 0; j < w.contacts.size(); ++j)
           if (j != k && !(is_short && surely_farther(j, k, w))) w.cell.keep(circle, w.contacts[j] - w.contacts[k], 0.0);
         for (const auto& [from, to] : w.cell.kept()) w.area[k] += area_swept_from(w.contacts[k], circle, from, to);
+        if (w.keeps_lines) keep_lines(border_of(half), is_backwards(half), std::abs(arc.sweep), k, w);
       }
     });
+  }
+
+  // The face is seen from inside, so its walk is the reverse of the half-border's.
+  static void keep_lines(std::uint32_t border, bool is_backwards, double sweep, std::size_t contact,
+                         DividerScratch& w) {
+    for (const auto& [from, to] : w.cell.kept())
+      w.lines.push_back({border, static_cast<std::uint32_t>(contact), is_backwards, is_backwards ? from : sweep - to,
+                         is_backwards ? to : sweep - from});
   }
 
   static void follow_contacts(const SphereCircle& circle, const SphereArc& arc, DividerScratch& w) {
@@ -316,10 +337,13 @@ class AreaDivider {
     for (const std::uint32_t n : w.planes)
       if (n != between && !surely_within(circle, s_.planes[n], patch.center, w))
         keep_within(circle, s_.planes[n], patch.center, w);
+    double length = 0.0;
     for (const auto& [from, to] : common.kept()) {
+      length += to - from;
       w.area[k] += area_swept_from(w.contacts[k], circle, from, to);
       w.area[j] -= area_swept_from(w.contacts[j], circle, from, to);
     }
+    if (w.keeps_lines && length > kClear) w.bisected_by.push_back({j, k});
   }
 
   void keep_within(const SphereCircle& circle, const Plane& plane, const glm::dvec3& center, DividerScratch& w) const {
@@ -355,7 +379,104 @@ class AreaDivider {
   std::vector<AtomAreas> areas_;
 };
 
+/// Lists shares, and finds which of them meet: those of one patch where it is divided, those of two where they have a
+/// part of a border in common.
+class ShareLister {
+ public:
+  explicit ShareLister(const Surface& surface) : s_(surface), ends_(surface.borders.size()) {}
+
+  AtomShares run() {
+    for (const ConvexPatch& patch : s_.convex) add(patch);
+    for (const ToroidalPatch& patch : s_.toroidal) add(patch);
+    scratch_.keeps_lines = true;
+    for (const ConcavePatch& patch : s_.concave) add(patch);
+    for (const std::array<std::vector<Line>, 2>& sides : ends_)
+      for (const Line& left : sides[0])
+        for (const Line& right : sides[1])
+          if (std::min(left.to, right.to) - std::max(left.from, right.from) > kClear) meet(left.share, right.share);
+    return std::move(shares_);
+  }
+
+ private:
+  /// What a share has of a border.
+  struct Line {
+    std::uint32_t share;
+    double from, to;
+  };
+
+  std::uint32_t add_share(std::uint32_t atom, double area) {
+    shares_.shares.push_back({atom, area});
+    return static_cast<std::uint32_t>(shares_.shares.size() - 1);
+  }
+
+  void meet(std::uint32_t a, std::uint32_t b) { shares_.meetings.push_back({a, b}); }
+
+  void add_line(HalfBorder half, const Line& line) { ends_[border_of(half)][is_backwards(half)].push_back(line); }
+
+  void add(const ConvexPatch& patch) {
+    for (const Face& face : faces_of(s_, patch)) {
+      const std::uint32_t share = add_share(patch.atom, face.area);
+      for_each_half_border(s_, face, [&](HalfBorder half) {
+        add_line(half, {share, 0.0, s_.borders[border_of(half)].sweep});
+      });
+    }
+  }
+
+  void add(const ToroidalPatch& patch) {
+    const std::array<double, 2> contact = contact_tube_angles(s_, patch);
+    const double middle = 0.5 * (contact[0] + contact[1]);
+    for (std::uint32_t n = 0; n < patch.face_count; ++n) {
+      const auto [low, high] = tube_range(s_, patch, n);
+      const double cut = std::clamp(middle, low, high);
+      const std::array<std::uint32_t, 2> half{add_share(patch.atom[0], toroidal_area(s_, patch, low, cut)),
+                                              add_share(patch.atom[1], toroidal_area(s_, patch, cut, high))};
+      if (low < cut && cut < high) meet(half[0], half[1]);
+      for_each_half_border(s_, s_.faces[patch.first_face + n], [&](HalfBorder h) { add_border(patch, half, h); });
+    }
+  }
+
+  /// Of the two contacts the nearer one has a point of the tube, and of a contact circle its own atom all of it.
+  void add_border(const ToroidalPatch& patch, const std::array<std::uint32_t, 2>& share, HalfBorder half) {
+    const Border& border = s_.borders[border_of(half)];
+    if (border.kind == BorderKind::contact) {
+      const std::uint32_t beyond = border.face[is_backwards(half) ? 0 : 1];
+      if (beyond == kNone) return;
+      const bool is_second = s_.convex[s_.faces[beyond].patch].atom == patch.atom[1];
+      return add_line(half, {share[is_second], 0.0, border.sweep});
+    }
+    const SphereArc arc = sphere_arc(border, false, border.center, border.radius);
+    const SphereCircle circle = circle_of(arc);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto toward = [&](std::size_t side) {
+        return glm::normalize(s_.atoms[patch.atom[side]].center - border.center);
+      };
+      cell_.restart(border.sweep);
+      cell_.keep(circle, toward(1 - k) - toward(k), 0.0);
+      for (const auto& [from, to] : cell_.kept()) add_line(half, {share[k], from, to});
+    }
+  }
+
+  void add(const ConcavePatch& patch) {
+    if (patch.face_count == 0) return;
+    const std::vector<double>& area = divider_.divide(patch, AreaDivider::Cuts::beyond_touching, scratch_);
+    const auto first = static_cast<std::uint32_t>(shares_.shares.size());
+    for (std::uint32_t n = 0; n < patch.contact_count; ++n) add_share(s_.contacts[patch.first_contact + n], area[n]);
+    for (const auto& [j, k] : scratch_.bisected_by) meet(first + j, first + k);
+    for (const DividerScratch::Line& line : scratch_.lines)
+      ends_[line.border][line.is_backwards].push_back({first + line.contact, line.from, line.to});
+  }
+
+  const Surface& s_;
+  AreaDivider divider_{s_};
+  DividerScratch scratch_;
+  Intervals cell_;
+  AtomShares shares_;
+  std::vector<std::array<std::vector<Line>, 2>> ends_;  // of each border, from its left face and from its right one
+};
+
 }  // namespace
+
+AtomShares atom_shares(const Surface& surface) { return ShareLister(surface).run(); }
 
 AtomAreas atom_areas(const Surface& surface) { return std::move(AreaDivider(surface).run().front()); }
 

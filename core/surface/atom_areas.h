@@ -30,6 +30,23 @@ AtomAreas atom_areas(const Surface& surface);
 std::vector<AtomAreas> atom_areas(const Surface& surface, std::span<const std::uint32_t> group_of_face,
                                   std::uint32_t count);
 
+/// A part of the surface that belongs to one atom: a face of its contact patch, a half of a saddle's face, or what it
+/// has of a re-entrant patch.
+struct AtomShare {
+  std::uint32_t atom = 0;  ///< of Surface::atoms
+  double area = 0.0;       ///< Å²
+};
+
+/// All parts, and which of them meet.
+struct AtomShares {
+  std::vector<AtomShare> shares;
+  std::vector<std::array<std::uint32_t, 2>> meetings;  ///< of two shares that have a line in common, in any order
+};
+
+/// Those of each atom add up to AtomAreas::surface. A re-entrant patch that others cut into several faces has one share
+/// for each atom, as if its faces were connected. Needs the surface's faces measured.
+AtomShares atom_shares(const Surface& surface);
+
 /// Å²: the sum of AtomAreas::accessible alone, which takes next to no time.
 double accessible_area(const Surface& surface);
 

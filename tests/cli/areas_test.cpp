@@ -210,5 +210,31 @@ TEST(Csv, NamesWithCommasAndQuotesStayInTheirCells) {
   EXPECT_NE(result.out.find(",\"C\"\",\",C,"), std::string::npos) << result.out;
 }
 
+TEST(Patches, AddUpToTheAreasOfTheirAtoms) {
+  const std::string atoms = "hydrophobicity > 1.5";
+  const json report = surface_json({kUbiquitin, "--patches", atoms, "--min-patch", "0"}), patches = report["patches"];
+  EXPECT_EQ(patches["selection"], atoms);
+  ASSERT_EQ(patches["list"].size(), patches["count"]);
+  double listed = 0.0, before = patches["list"][0]["area"];
+  for (const json& patch : patches["list"]) {
+    EXPECT_LE(patch["area"], before);
+    before = patch["area"];
+    listed += before;
+  }
+  const std::string hydrophobic = " ALA CYS ILE LEU MET PHE VAL ";
+  double wanted = 0.0;
+  for (const auto& row : parse_csv(surface({kUbiquitin, "--csv", "-"}).out))
+    if (hydrophobic.find(" " + row.at("residue") + " ") != std::string::npos) wanted += std::stod(row.at("ses_area"));
+  EXPECT_NEAR(patches["area"], wanted, 1e-3);
+  EXPECT_NEAR(listed, wanted, 1e-3);
+  const Table rows = parse_csv(surface({kUbiquitin, "--patches", atoms, "--csv-patches", "-"}).out);
+  ASSERT_FALSE(rows.empty());
+  EXPECT_NEAR(std::stod(rows[0].at("area")), patches["list"][0]["area"], 1e-6);
+  EXPECT_GE(std::stod(rows.back().at("area")), 10.0);
+  EXPECT_NE(surface({kUbiquitin, "--patches", "resname XYZ"}).err.find("selects none of the 602 atoms"),
+            std::string::npos);
+  EXPECT_EQ(surface({kUbiquitin, "--csv-patches", "p.csv"}).exit_code, 2);
+}
+
 }  // namespace
 }  // namespace meniscus

@@ -318,7 +318,9 @@ TEST(Cut, SaysWhatIsWrong) {
     }
     return "";
   };
-  EXPECT_EQ(message("x=3"), "'x=3' is not a plane: there is no < or >; write one such as x<20, 1,1,0>35 or depth>0.5");
+  EXPECT_EQ(message("x=3"),
+            "'x=3' is not a plane: there is no < or >; write one such as x<20, 1,1,0>35, depth>0.5 or "
+            "before ligand");
   EXPECT_NE(message("w<3").find("a direction of three numbers"), std::string::npos);
   EXPECT_NE(message("0,0,0<3").find("a direction of three numbers"), std::string::npos);
   EXPECT_NE(message("1,2<3").find("a direction of three numbers"), std::string::npos);

@@ -150,6 +150,10 @@ void FigurePanel::cuts() {
   for (const Json& text : state["cuts"]) {
     const Cut cut = parse_cut(text.get<std::string>());
     removed("cut " + text.get<std::string>(), "cuts", index);
+    if (cut.atoms) {  // which say where it is
+      ++index;
+      continue;
+    }
     const auto move = [&](double bound, bool turned) {
       link_.send({{"command", "cut"}, {"plane", moved(cut, bound, turned)}, {"index", index}});
     };

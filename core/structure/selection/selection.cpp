@@ -13,6 +13,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/text.h"
+#include "core/structure/element_tables.h"
 #include "core/structure/point_tree.h"
 #include "core/structure/selection/selection_classes.h"
 #include "core/structure/selection/selection_steps.h"
@@ -54,6 +55,8 @@ double number_of(AtomField field, const Atom& atom) {
       return atom.charge;
     case AtomField::radius:
       return atom.radius;
+    case AtomField::hydrophobicity:
+      return hydropathy(atom.residue_name);
     case AtomField::x:
       return atom.position.x;
     case AtomField::y:

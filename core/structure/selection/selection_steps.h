@@ -51,6 +51,7 @@ enum class AtomField : std::uint8_t {
   occupancy,
   charge,
   radius,
+  hydrophobicity,
   x,
   y,
   z

@@ -36,6 +36,8 @@ constexpr SelectionWord kWords[] = {
     {"charge", WordKind::number, of(AtomField::charge), "charge > 0.5", "partial charge in e, where the file has it"},
     {"radius", WordKind::number, of(AtomField::radius), "radius >= 1.8",
      "radius in Å; not in --select unless from file"},
+    {"hydrophobicity", WordKind::number, of(AtomField::hydrophobicity), "hydrophobicity > 1.5",
+     "hydropathy of the amino acid, -4.5 to 4.5 (Kyte & Doolittle 1982)"},
     {"x", WordKind::number, of(AtomField::x), "x > 0", "coordinate in Å"},
     {"y", WordKind::number, of(AtomField::y), "y < -5.5", "coordinate in Å"},
     {"z", WordKind::number, of(AtomField::z), "z 0 to 10", "coordinate in Å"},

@@ -36,7 +36,7 @@ Texts example_of(const Property& property) {
       {"surface.color_range", {"-1.5:2.25"}},
       {"surface.missing_color", {"#102030"}},
       {"surface.opacity", {"0.25", "chain A=0.5"}},
-      {"surface.clip", {"x<20.125", "depth>0.5"}},
+      {"surface.clip", {"x<20.125", "depth>0.5", "before resid 7"}},
       {"surface.cap_color", {"#ff8000"}},
       {"look.light", {"-1,0.25,3"}},
       {"look.silhouettes", {"0.5pt"}},

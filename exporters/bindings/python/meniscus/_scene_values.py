@@ -236,7 +236,8 @@ class SceneValues(SurfaceValues, total=False):
     #: Make transparent surfaces denser at grazing angles, like a thin film
     film_opacity: bool
     #: PLANE: Cut by a plane with exact caps: x<20, 1,1,0>35 or depth>0.5. The part where this holds is kept.
-    #: depth runs along the line of sight from 0 (nearest) to 1 (farthest). Repeatable; all apply
+    #: depth runs along the line of sight from 0 (nearest) to 1 (farthest). 'through EXPR' goes through the
+    #: middle of these atoms, 'before EXPR' is as deep as it must be for them to be seen. Repeatable; all apply
     clip: Union[Text, Sequence[Text]]
     #: COLOR: Colour of caps: atom (that of the nearest) or a colour (red, #rrggbb) [atom]
     cap_color: Text

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Joins the shares of chosen atoms that meet.
+#include "core/queries/atom_patches.h"
+
+#include <algorithm>
+#include <map>
+
+#include "core/math/union_find.h"
+#include "core/surface/atom_areas.h"
+
+namespace meniscus {
+
+std::vector<AtomPatch> atom_patches(const Surface& surface, const std::vector<bool>& chosen) {
+  const AtomShares all = atom_shares(surface);
+  UnionFind joined(all.shares.size());
+  for (const auto& [a, b] : all.meetings)
+    if (chosen[all.shares[a].atom] && chosen[all.shares[b].atom]) joined.unite(a, b);
+  std::map<std::uint32_t, std::map<std::uint32_t, double>> areas;  // by patch, by atom
+  for (std::uint32_t n = 0; n < all.shares.size(); ++n) {
+    const AtomShare& share = all.shares[n];
+    if (chosen[share.atom] && share.area > 0.0) areas[joined.find(n)][share.atom] += share.area;
+  }
+  std::vector<AtomPatch> patches;
+  for (const auto& [first, by_atom] : areas) {
+    AtomPatch& patch = patches.emplace_back();
+    for (const auto& [atom, area] : by_atom) {
+      patch.area += area;
+      patch.atoms.push_back(atom);
+      patch.areas.push_back(area);
+    }
+  }
+  std::ranges::stable_sort(patches, [](const AtomPatch& a, const AtomPatch& b) {
+    return a.area != b.area ? a.area > b.area : a.atoms.front() < b.atoms.front();
+  });
+  return patches;
+}
+
+}  // namespace meniscus
