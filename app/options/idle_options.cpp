@@ -111,6 +111,9 @@ const std::vector<Need>& needs() {
        "areas and volumes stay the same however a frame is turned and moved; places and gradients, which are written "
        "to "
        "files, do not"},
+      {{"--open-sky"},
+       [](const Asked& asked) { return asked.given("--csv"); },
+       "it is a column of --csv FILE; add that"},
       {{"--codec", "--crf", "--bits", "--chroma"},
        [](const Asked& asked) { return !asked.has("--samples") || asked.is_film(); },
        "the output is not a film; name one, such as -o a.mp4",

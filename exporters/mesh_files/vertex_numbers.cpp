@@ -8,14 +8,13 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/mesh/mesh_colors.h"
+#include "core/mesh/open_sky.h"
 #include "core/mesh/smoothed_curvature.h"
 #include "core/queries/surface_point.h"
-#include "core/render/cpu/sky_visibility.h"
 #include "core/structure/element_tables.h"
 #include "core/surface/atom_areas.h"
 #include "core/mesh/triangle_mesh.h"
@@ -86,27 +85,13 @@ Values component_of(const NumberSource& source) {
 
 /// Of shapes beside the surface there is none.
 Values skies(const NumberSource& source) {
-  const TriangleMesh& mesh = source.mesh.mesh;
-  const std::vector<float> seen = sky_visibility(source.object.surface, {mesh.positions, mesh.normals});
+  const std::vector<float> seen = vertex_open_sky(source.object.surface, source.mesh.mesh);
   return of_faces(source, [&](std::uint32_t, std::uint32_t v) { return seen[v]; });
 }
 
-/// The mean over an atom's triangles, by area, from their corners.
 Values atom_skies(const NumberSource& source) {
-  const TriangleMesh& mesh = source.mesh.mesh;
-  const std::vector<float> seen = sky_visibility(source.object.surface, {mesh.positions, mesh.normals});
-  std::vector<double> sums(source.object.surface.atoms.size()), areas = sums;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    const double area =
-        glm::length(glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]));
-    sums[mesh.atom[t]] += area * (seen[a] + seen[b] + seen[c]) / 3.0;
-    areas[mesh.atom[t]] += area;
-  }
-  return of_faces(source, [&](std::uint32_t, std::uint32_t v) {
-    const std::uint32_t atom = source.mesh.vertex_atom[v];
-    return areas[atom] > 0.0 ? sums[atom] / areas[atom] : 1.0;
-  });
+  const std::vector<double> means = atom_open_sky(source.object.surface, source.mesh.mesh);
+  return of_faces(source, [&](std::uint32_t, std::uint32_t v) { return means[source.mesh.vertex_atom[v]]; });
 }
 
 struct Column {

@@ -219,7 +219,7 @@ class SkyWatcher : LightedScene {
   explicit SkyWatcher(const LaneScene& scene) : LightedScene(scene) {}
 
   void watch(const vec3* points, const vec3* normals, float* seen, int count) const {
-    real3 x, outward;
+    real3 x(0.0f), outward(0.0f);
     for (int n = 0; n < kLanes; ++n) {
       put(points[n < count ? n : 0], n, x);
       put(normals[n < count ? n : 0], n, outward);
