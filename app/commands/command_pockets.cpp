@@ -55,6 +55,9 @@ void check_request(const PocketsCommand& command) {
         fmt::format("--figure {}: scenes are JSON; choose a name that ends in .json", in_quotes(command.figure)));
   if (!command.figure.empty() && command.scene.molecule.file == "-")
     throw UsageError("--figure: a scene names its molecule's file, which standard input is not");
+  if (!command.figure.empty() && command.scene.frames.interpolate > 1)
+    throw UsageError(
+        "--figure: a scene is of a frame of the trajectory, not of one in between; leave --interpolate out");
   std::vector<std::string> paths{command.csv};
   if (command.scene.frames.asked())
     check_run(command);

@@ -32,6 +32,7 @@ constexpr Command kCommands[] = {
     {"surface", "Compute the surface; print area, volume, components, chains, and areas of atoms", add_surface},
     {"pockets", "Find pockets, tunnels and cavities: volume, mouths, depth, the atoms around", add_pockets},
     {"render", "Make a picture of the surface by ray casting its exact patches", add_render},
+    {"panels", "Make one picture of several, side by side, with letters and one legend", add_panels},
     {"preview", "Show the surface in a window or a browser, and change it", add_preview},
     {"export", "Write the surface for another program", add_export, "Formats", kFormats},
     {"farm", "Make films on many machines: make, Slurm, OpenJD, Flamenco, OpenCue", add_farm, "Commands",

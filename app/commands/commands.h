@@ -47,6 +47,7 @@ void add_farm_verify(CLI::App& command);
 void add_formats(CLI::App& command);
 void add_help(CLI::App& command);
 void add_info(CLI::App& command);
+void add_panels(CLI::App& command);
 void add_pockets(CLI::App& command);
 void add_preview(CLI::App& command);
 void add_render(CLI::App& command);

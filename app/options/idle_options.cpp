@@ -48,7 +48,8 @@ class Asked {
 
   bool is_run() const {
     const auto counts = [&](const char* option) { return given(option) && value(option) != "1"; };
-    return any({"--trajectory", "--frames", "--begin", "--end", "--only"}) || counts("--stride") || counts("--repeat");
+    return any({"--trajectory", "--frames", "--begin", "--end", "--only"}) || counts("--stride") ||
+           counts("--repeat") || counts("--interpolate");
   }
   bool is_film() const { return is_film_path(value("--output")); }
 

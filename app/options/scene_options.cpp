@@ -311,7 +311,7 @@ void SceneOptions::check_table() const {
     for (const std::string& other : parted(property->excluded))
       if (is_given(other) && has_option(property_of(other), bit_))
         throw CLI::ExcludesError(name(property->key), name(other));
-    if (!property->needed.empty() && !is_given(property->needed))
+    if (!property->needed.empty() && has_option(property_of(property->needed), bit_) && !is_given(property->needed))
       throw CLI::RequiresError(name(property->key), name(property->needed));
   }
 }

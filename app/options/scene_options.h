@@ -77,6 +77,8 @@ class SceneOptions {
   bool is_given(std::string_view key) const { return typed(key) || places_.contains(std::string(key)); }
   /// Whether the command line has.
   bool typed(std::string_view key) const;
+  /// What the command line says of it: one text, of repeatable ones all, of a flag an empty one.
+  std::vector<std::string> typed_texts(const Property& property) const;
   /// The path of the scene file; empty: there is none.
   const std::string& file() const { return file_; }
   const CLI::App& command() const { return command_; }
@@ -84,7 +86,6 @@ class SceneOptions {
 
  private:
   void add_own_option(const Property& property);
-  std::vector<std::string> typed_texts(const Property& property) const;
   std::vector<SceneSetting> read_scene_file(const std::vector<std::string>& named);
   std::vector<SceneSetting> typed_settings() const;
   void take_setting(const SceneSetting& setting);

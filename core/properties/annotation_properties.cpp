@@ -15,24 +15,29 @@ constexpr auto kTable = of_commands(
     std::to_array<Property>({
         flag("legend.shown", "--legend", "Show a legend of the colours, at the right or, in tall pictures, below")
             .in(kLegend, kShared | live)
+            .of(kForPictures)
             .in_short_help(),
         new_file("legend.file", "--legend-file", "FILE", "Write the legend as a separate picture")
             .in(kLegend, in_scene)
             .of(for_render),
         text("legend.title", "--legend-title", "TEXT", "Title of the legend; '' for none")
             .initially("by the colours")
-            .in(kLegend, kShared | live),
+            .in(kLegend, kShared | live)
+            .of(kForPictures),
         text("legend.size", "--legend-size", "SIZE", "Height of the letters: pixels, 8pt or 3mm")
             .from(6, 1000)
             .initially("that of --letter-size, or a thirtieth of the shorter side")
-            .in(kLegend, kShared | live),
+            .in(kLegend, kShared | live)
+            .of(kForPictures),
         text("legend.names", "--legend-name", "ENTRY=TEXT",
              "Write TEXT instead of an entry of the legend, as in 'A=Alpha' for chain A. Repeatable")
-            .in(kLegend, kShared | repeatable),
+            .in(kLegend, kShared | repeatable)
+            .of(kForPictures),
         word("legend.place", "--legend-place", "WORD", "Place of the legend: auto, right or below")
             .one_of("auto|right|below")
             .initially("auto")
-            .in(kLegend, kShared | live | rare),
+            .in(kLegend, kShared | live | rare)
+            .of(kForPictures),
 
         text("annotations.panel", "--panel", "TEXT", "Letter of the panel, such as a, at the top left")
             .in(kLabels, kShared)
@@ -49,6 +54,7 @@ constexpr auto kTable = of_commands(
             .from(6, 1000)
             .initially("by the size of the picture")
             .in(kLabels, kShared)
+            .of(kForPictures)
             .in_short_help(),
         text("annotations.label_size", "--label-size", "SIZE", "Height of the letters of labels")
             .from(6, 1000)
@@ -71,6 +77,7 @@ constexpr auto kTable = of_commands(
             .proposes("auto|white|black")
             .initially("auto")
             .in(kLabels, kShared)
+            .of(kForPictures)
             .in_short_help(),
         text("annotations.labels", "--label", "EXPR=TEXT",
              "Write TEXT at these atoms, with a line to their centre. Repeatable")

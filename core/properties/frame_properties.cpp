@@ -43,6 +43,15 @@ constexpr auto kTable = of_commands(
             .from(1, 1e6)
             .initially("1")
             .in(kFrames, kShared),
+        count(
+            "frames.interpolate", "--interpolate", "N",
+            "Make N frames of each: itself, and N - 1 on the way to the next. Atoms go along smooth curves; the files "
+            "are numbered as with --repeat")
+            .from(1, 1e6)
+            .initially("1")
+            .in(kFrames, kShared)
+            .in_short_help()
+            .excludes("frames.repeat"),
         text("frames.only", "--only", "LIST",
              "Make only these frames, as one part of the whole run. Camera, colours and scene stay those of the whole "
              "run")

@@ -24,7 +24,8 @@ constexpr auto kTable = of_commands(
             "Superpose the files of --add on FILE by these atoms. 'name CA' takes alpha carbons. Chains are paired and "
             "aligned by sequence; the number of atoms and the RMSD are printed")
             .in(kInput, kShared)
-            .needs("molecule.add"),
+            .needs("molecule.add")
+            .of(kForMolecules | for_panels),
         text("molecule.model", "--model", "N|all", "Model to read, from 1; all: all models as one molecule")
             .initially("1")
             .in(kInput, kShared),
@@ -51,11 +52,12 @@ constexpr auto kTable = of_commands(
              "Warnings about the file: summary, full (one line per atom) or none")
             .one_of("full|summary|none")
             .initially("summary")
-            .in(kInput, in_bundle),
+            .in(kInput, in_bundle)
+            .of(kForMolecules | for_panels),
         flag("molecule.quiet", "-q,--quiet", "Print errors only")
             .in(kInput, in_bundle)
             .in_short_help()
-            .of(kForMolecules | for_bench),
+            .of(kForMolecules | for_bench | for_panels),
 
         word("molecule.hydrogens", "--hydrogens", "WORD",
              "Hydrogens: keep, drop or auto. auto: drop them if the radii of heavy atoms include them")

@@ -62,30 +62,33 @@ constexpr auto kTable = of_commands(
             .initially("1280x960")
             .in(kPicture, kShared | live)
             .in_short_help()
-            .of(kForFigures | for_mesh | for_bench),
+            .of(kForFigures | for_mesh | for_bench | for_panels),
         text("image.width", "--width", "LENGTH", "Width of the picture: 85mm, 8.5cm, 3.5in or 1000px")
             .in(kPicture, kShared | live)
             .in_short_help()
-            .excludes("image.size"),
+            .excludes("image.size")
+            .of(kForFigures | for_mesh | for_panels),
         text("image.height", "--height", "LENGTH", "Height of the picture in the same units")
             .in(kPicture, kShared | live)
-            .excludes("image.size"),
+            .excludes("image.size")
+            .of(kForFigures | for_mesh | for_panels),
         number("image.dpi", "--dpi", "N", "Resolution of the picture in dots per inch")
             .from(1, 1e5)
             .initially("300 for lengths")
-            .in(kPicture, kShared | live),
+            .in(kPicture, kShared | live)
+            .of(kForFigures | for_mesh | for_panels),
         count("image.samples", "--samples", "N", "Rays per pixel, for smooth edges")
             .from(1, 1024)
             .initially("9")
             .in(kPicture, kShared | live)
             .in_short_help()
-            .of(for_render | for_preview),
+            .of(kForPictures),
         text("image.background", "--background", "COLOR", "Background: transparent, or a colour (white, #rrggbb)")
             .proposes("transparent|white|black")
             .initially("transparent")
             .in(kPicture, kShared | live)
             .in_short_help()
-            .of(for_render | for_preview),
+            .of(kForPictures),
         flag("image.aovs", "--aovs",
              "Add depth, normals, positions and atoms to an .exr. Channels: Z, N.xyz, P.xyz, atom, kind and component "
              "at each pixel's centre")

@@ -50,10 +50,12 @@ enum CommandBit : unsigned {
   for_mesh = 128,
   for_atoms = 256,
   for_info = 512,
-  for_bench = 1024
+  for_bench = 1024,
+  for_panels = 2048
 };
 inline constexpr unsigned kForExports = for_povray | for_blender | for_path_tracers;  ///< of figures
 inline constexpr unsigned kForFigures = for_render | for_preview | kForExports;
+inline constexpr unsigned kForPictures = for_render | for_preview | for_panels;
 inline constexpr unsigned kForRuns = for_surface | for_pockets | kForFigures | for_mesh | for_atoms;
 
 /// The highest value of a property that has no upper limit.

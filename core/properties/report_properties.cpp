@@ -7,7 +7,7 @@
 namespace meniscus {
 namespace {
 
-constexpr std::string_view kOutput = "Output", kSession = "Session";
+constexpr std::string_view kOutput = "Output", kSession = "Session", kPanels = "Picture";
 
 constexpr auto kTable = std::to_array<Property>({
     flag("report.json", "--json", "Print JSON instead of a table").in(kOutput).in_short_help(),
@@ -55,6 +55,31 @@ constexpr auto kTable = std::to_array<Property>({
     new_file("preview.record", "--record", "FILE", "Record all commands in this file, for --commands")
         .in(kSession, live),
     new_file("preview.output_folder", "--output-dir", "FOLDER", "Folder for exports").initially(".").in(kSession, live),
+
+    file("panels.scenes", "PANEL", "", "Pictures of meniscus render, which carry their scenes, or scene files")
+        .in(kPanels),
+    count("panels.columns", "--columns", "N", "Number of panels in a row")
+        .from(1, 100)
+        .initially("up to three in one row, else a square")
+        .in(kPanels)
+        .in_short_help(),
+    text("panels.gap", "--gap", "LENGTH", "Space between panels: pixels, 3mm or 8pt")
+        .from(0, 10000)
+        .initially("a fiftieth of the width of a panel")
+        .in(kPanels),
+    word("panels.letters", "--letters", "WORD", "Letters of panels whose scenes have none: upper, lower or none")
+        .one_of("upper|lower|none")
+        .initially("upper")
+        .in(kPanels)
+        .in_short_help(),
+    flag("panels.one_camera", "--one-camera",
+         "See all panels with the camera of the first. Unless its scene names a camera, it shows what is in any panel")
+        .in(kPanels)
+        .in_short_help(),
+    flag("panels.one_scale", "--one-scale",
+         "Colour all panels by one range: from the least number of any to the greatest")
+        .in(kPanels)
+        .in_short_help(),
 
     count("bench.runs", "--runs", "N", "Number of timed runs; the median is shown")
         .from(1, 1e6)

@@ -158,11 +158,13 @@ std::uint64_t reference_of(const RunRequest& request, const Trajectory& trajecto
 
 bool RunRequest::asked() const {
   return !trajectories.empty() || !frames.empty() || stride != 1 || repeat != 1 || !begin.empty() || !end.empty() ||
-         !only.empty();
+         interpolate != 1 || !only.empty();
 }
 
 FrameRun::FrameRun(const MoleculeRequest& molecule, const RunRequest& request, bool velocities)
-    : repeat_(request.repeat), velocities_(velocities) {
+    : copies_(std::max(request.repeat, request.interpolate)),
+      interpolates_(request.interpolate > 1),
+      velocities_(velocities) {
   check_options(molecule, request);
   TrajectoryOptions options{request.index_folder};
   if (!request.trajectories.empty())
@@ -227,28 +229,45 @@ void FrameRun::choose_frames(const RunRequest& request) {
   if (run_.empty()) throw RequestError("no frame is left between --begin and --end");
   for (std::size_t n = 0; n * request.stride < run_.size(); ++n) run_[n] = run_[n * request.stride];
   run_.resize((run_.size() + request.stride - 1) / request.stride);
-  repeat();
+  multiply();
   for (std::uint64_t place = 0; place < run_.size(); ++place) place_.try_emplace(run_[place], place);
   if (request.only.empty()) {
     chunk_ = run_;
     return;
   }
   const std::unordered_set<std::uint64_t> members(run_.begin(), run_.end());
-  chunk_ = parse_frame_list("--only", request.only, trajectory_->frame_count() * repeat_);
+  chunk_ = parse_frame_list("--only", request.only, trajectory_->frame_count() * copies_);
   for (const std::uint64_t number : chunk_)
     if (!members.contains(number)) throw RequestError(fmt::format("--only: frame {} is not in the run", number));
 }
 
-/// Each frame becomes as many.
-void FrameRun::repeat() {
-  if (repeat_ == 1) return;
-  if (run_.size() > kMostListedFrames / repeat_)
-    throw RequestError(
-        fmt::format("--repeat {}: makes more than {} frames", repeat_, with_thousands(kMostListedFrames)));
-  std::vector<std::uint64_t> repeated;
+/// Each frame becomes as many; with others in between the last one stays alone.
+void FrameRun::multiply() {
+  if (copies_ == 1) return;
+  if (run_.size() > kMostListedFrames / copies_)
+    throw RequestError(fmt::format("{} {}: makes more than {} frames", interpolates_ ? "--interpolate" : "--repeat",
+                                   copies_, with_thousands(kMostListedFrames)));
+  if (interpolates_ && std::unordered_set<std::uint64_t>(run_.begin(), run_.end()).size() < run_.size())
+    throw RequestError("--interpolate: --frames names a frame twice, so the next one is not known; name each once");
+  std::vector<std::uint64_t> multiplied;
   for (const std::uint64_t number : run_)
-    for (std::uint64_t n = 0; n < repeat_; ++n) repeated.push_back(number * repeat_ + n);
-  run_ = std::move(repeated);
+    for (std::uint64_t n = 0; n < copies_; ++n) multiplied.push_back(number * copies_ + n);
+  if (interpolates_) multiplied.resize(multiplied.size() - (copies_ - 1));
+  run_ = std::move(multiplied);
+}
+
+/// A frame of the run, which may lie between two of the trajectory.
+void FrameRun::read(std::uint64_t number, Frame& frame) {
+  const std::uint64_t step = number % copies_;
+  if (!interpolates_ || step == 0) return frames_->read(source(number), frame);
+  const std::uint64_t place = place_.at(number - step);
+  const auto at = [&](std::uint64_t there) -> std::optional<std::uint64_t> {
+    if (there >= run_.size()) return {};  // before the first one, too
+    return source(run_[there]);
+  };
+  frames_->read_between({at(place - copies_), *at(place), *at(place + copies_), at(place + 2 * copies_),
+                         static_cast<double>(step) / static_cast<double>(copies_)},
+                        frame);
 }
 
 void FrameRun::prepare(const MoleculeRequest& molecule, const RunRequest& request) {
@@ -258,25 +277,42 @@ void FrameRun::prepare(const MoleculeRequest& molecule, const RunRequest& reques
   preparation.smooth_half = request.smooth / 2;
   if (request.superpose) preparation.superposed = chosen(*request.superpose, topology.atoms, "--superpose", 3);
   if (request.center) preparation.centered = chosen(*request.center, topology.atoms, "--center", 1);
+  std::vector<std::uint32_t> own;  // atoms that surfaces are made of, or that are shown beside them
+  const auto add_own = [&](const std::vector<Atom>& atoms) {
+    for (const Atom& atom : without_added(atoms, topology)) own.push_back(atom.index);
+  };
+  add_own(structure_.atoms);
+  add_own(structure_.beside);
+  if (together_) add_own(together_->atoms);
+  std::vector<Bond> bonds;
+  if (request.whole != WholeBy::nothing || interpolates_) bonds = known_bonds(request.whole);
   if (request.whole != WholeBy::nothing) {
-    Frame frame;
-    trajectory_->read(source(run_.front()), frame);
-    const std::optional<PeriodicCell> cell = frame.cell ? PeriodicCell::of(*frame.cell) : std::nullopt;
-    std::vector<Bond> bonds = request.whole == WholeBy::guess ? guessed_bonds(topology.atoms, frame.positions, cell)
-                                                              : template_bonds(topology.atoms, frame.positions, cell);
-    bonds.insert(bonds.end(), topology.bonds.begin(), topology.bonds.end());
     std::vector<std::uint32_t> wanted = preparation.superposed;
     wanted.insert(wanted.end(), preparation.centered.begin(), preparation.centered.end());
-    for (const Atom& atom : without_added(structure_.atoms, topology)) wanted.push_back(atom.index);
-    for (const Atom& atom : without_added(structure_.beside, topology)) wanted.push_back(atom.index);
-    if (together_)
-      for (const Atom& atom : without_added(together_->atoms, topology)) wanted.push_back(atom.index);
+    wanted.insert(wanted.end(), own.begin(), own.end());
     if (molecule.reading.selection) add_measured(*molecule.reading.selection, topology.atoms, wanted);
     if (request.context) add_measured(*request.context, topology.atoms, wanted);
     for (const ShownAtoms& shown : molecule.reading.shown) add_measured(shown.atoms, topology.atoms, wanted);
     preparation.whole.emplace(topology.atoms, bonds, wanted, molecule.file);
   }
+  if (interpolates_) {
+    preparation.bonds.emplace(topology.atoms.size(), bonds, own);
+    preparation.followed = std::move(own);
+  }
   frames_ = std::make_unique<PreparedFrames>(*trajectory_, std::move(preparation));
+}
+
+/// Those of the file, and those of standard residues or, if they are to be guessed, of atoms that are near each other
+/// in the first frame of the run.
+std::vector<Bond> FrameRun::known_bonds(WholeBy by) const {
+  const Topology& topology = *structure_.topology;
+  Frame frame;
+  trajectory_->read(source(run_.front()), frame);
+  const std::optional<PeriodicCell> cell = frame.cell ? PeriodicCell::of(*frame.cell) : std::nullopt;
+  std::vector<Bond> bonds = by == WholeBy::guess ? guessed_bonds(topology.atoms, frame.positions, cell)
+                                                 : template_bonds(topology.atoms, frame.positions, cell);
+  bonds.insert(bonds.end(), topology.bonds.begin(), topology.bonds.end());
+  return bonds;
 }
 
 /// Where an atom is, which may be one of a copy.
@@ -307,7 +343,7 @@ std::vector<Atom> FrameRun::all_atoms() {
 
 std::vector<glm::dvec3> FrameRun::positions(std::uint64_t number) {
   Frame frame;
-  frames_->read(source(number), frame);
+  read(number, frame);
   std::vector<glm::dvec3> positions;
   if (file_) {
     for (const Atom& atom : file_->at(frame.positions).atoms) positions.push_back(atom.position);
@@ -329,7 +365,7 @@ std::optional<double> FrameRun::last_time() {
 
 Structure FrameRun::at(std::uint64_t number) {
   Frame frame;
-  frames_->read(source(number), frame);
+  read(number, frame);
   return structure_at(frame, number);
 }
 
@@ -338,7 +374,7 @@ void FrameRun::survey(const std::function<void(std::uint64_t, const Structure&)>
   Frame frame;
   for (std::uint64_t number = 0; number < run_.size(); ++number) {
     try {
-      frames_->read(source(run_[number]), frame);
+      read(run_[number], frame);
       if (file_)
         structure = structure_at(frame, run_[number]);
       else
@@ -350,21 +386,36 @@ void FrameRun::survey(const std::function<void(std::uint64_t, const Structure&)>
   }
 }
 
-void FrameRun::read_velocities(ReadFrame& read) {
-  const std::uint64_t place = place_.at(read.number);
-  std::optional<std::uint64_t> before, behind;
-  if (place > 0) before = source(run_[place - 1]);
-  if (place + 1 < run_.size()) behind = source(run_[place + 1]);
-  frames_->read_velocities(source(read.number), before, behind, read.velocities);
+/// Half of the difference between the frames before and after it in the run; without one of them, or if it cannot be
+/// read, the difference to the other; zero where there is none. Å per frame of the run.
+void FrameRun::read_velocities(ReadFrame& into) {
+  const std::uint64_t place = place_.at(into.number);
+  double steps = 0.0;
+  // A damaged neighbour is an error of its own frame, not of this one.
+  const auto read_neighbor = [&](std::uint64_t neighbor, Frame& frame) {
+    try {
+      if (neighbor >= run_.size()) return read(into.number, frame);  // before the first one, too
+      read(run_[neighbor], frame);
+      steps += 1.0;
+    } catch (const InputError&) {
+      read(into.number, frame);
+    }
+  };
+  Frame first, last;
+  read_neighbor(place - 1, first);
+  read_neighbor(place + 1, last);
+  into.velocities.resize(first.positions.size());
+  for (std::size_t a = 0; a < into.velocities.size(); ++a)
+    into.velocities[a] = (last.positions[a] - first.positions[a]) / std::max(1.0, steps);
 }
 
 std::optional<RunFrame> FrameRun::next() {
   if (taken_ == chunk_.size()) return {};
   if (!ahead_) {
     ahead_ = std::make_unique<ReadAhead>(
-        [this](ReadFrame& read) {
-          frames_->read(source(read.number), read.frame);
-          if (velocities_) read_velocities(read);
+        [this](ReadFrame& ahead) {
+          read(ahead.number, ahead.frame);
+          if (velocities_) read_velocities(ahead);
         },
         chunk_);
   }

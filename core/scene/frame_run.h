@@ -34,9 +34,10 @@ struct RunRequest {
   bool trust_atom_order = false;  ///< bonds of the first frame are not compared with those of the molecule's file
   std::string frames;             ///< as parse_frame_list reads it; empty: all
   std::uint64_t stride = 1;
-  std::uint64_t repeat = 1;  ///< each frame chosen by these this often in a row
-  std::string begin, end;    ///< a frame ("100", "-10", "last") or a time ("2.5ns", "300ps"); empty: no bound
-  std::string only;          ///< the chunk of the run that is made; empty: all of it
+  std::uint64_t repeat = 1;       ///< each frame chosen by these this often in a row
+  std::uint64_t interpolate = 1;  ///< each as many: itself, and others on the way to the next
+  std::string begin, end;         ///< a frame ("100", "-10", "last") or a time ("2.5ns", "300ps"); empty: no bound
+  std::string only;               ///< the chunk of the run that is made; empty: all of it
   WholeBy whole = WholeBy::nothing;
   std::optional<Selection> superpose, center;
   std::string reference;     ///< a frame; empty: the first of the trajectory
@@ -84,11 +85,11 @@ class FrameRun {
   /// Whether their surfaces may be of different atoms.
   bool atoms_change() const { return atoms_change_; }
   /// The frames of the run, and those of them that are to be made here, by their numbers: those in the trajectory. If
-  /// each comes `repeat` times, `repeat` times that, and one more each time.
+  /// each comes `repeat` times, `repeat` times that, and one more each time; likewise if there are others between them.
   const std::vector<std::uint64_t>& numbers() const { return run_; }
   const std::vector<std::uint64_t>& chunk() const { return chunk_; }
-  /// The number in the trajectory of one of them.
-  std::uint64_t source(std::uint64_t number) const { return number / repeat_; }
+  /// The number in the trajectory of one of them, or of the frame before it.
+  std::uint64_t source(std::uint64_t number) const { return number / copies_; }
   const Trajectory& trajectory() const { return *trajectory_; }
   /// Of the last frame of the run, ps; nothing if it has none or cannot be read. Not together with next().
   std::optional<double> last_time();
@@ -110,10 +111,12 @@ class FrameRun {
 
  private:
   void choose_frames(const RunRequest& request);
-  void repeat();
+  void multiply();
+  void read(std::uint64_t number, Frame& frame);
   void read_velocities(ReadFrame& read);
   void read_atoms(const MoleculeRequest& molecule, const RunRequest& request);
   void prepare(const MoleculeRequest& molecule, const RunRequest& request);
+  std::vector<Bond> known_bonds(WholeBy by) const;
   glm::dvec3 position_of(const Atom& atom, const std::vector<glm::dvec3>& positions) const;
   void place(const std::vector<glm::dvec3>& positions, Structure& structure) const;
   Structure structure_at(const Frame& frame, std::uint64_t number) const;
@@ -128,7 +131,8 @@ class FrameRun {
   std::vector<std::uint64_t> run_, chunk_;
   std::unordered_map<std::uint64_t, std::uint64_t> place_;  ///< in the run, by number
   std::size_t taken_ = 0;
-  std::uint64_t repeat_;  ///< RunRequest::repeat
+  std::uint64_t copies_;  ///< RunRequest::repeat or interpolate, which is larger than 1
+  bool interpolates_;
   bool velocities_, atoms_change_ = false;
 };
 

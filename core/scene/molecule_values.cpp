@@ -184,6 +184,8 @@ constexpr auto kMoleculeRows = std::to_array<SceneValue>({
     plain(
         "frames.repeat", [](auto& s) -> auto& { return s.frames.repeat; }),
     plain(
+        "frames.interpolate", [](auto& s) -> auto& { return s.frames.interpolate; }),
+    plain(
         "frames.only", [](auto& s) -> auto& { return s.frames.only; }),
     plain(
         "frames.select_once", [](auto& s) -> auto& { return s.frames.select_once; }),

@@ -100,16 +100,21 @@ ViewAim::ViewAim(const ViewRequest& request, const std::optional<Selection>& sho
         "side");
 }
 
-Camera ViewAim::camera(const ViewRequest& layout, const std::optional<Camera>& given,
-                       std::span<const SurfaceObject> objects) const {
+ViewedAtoms ViewAim::viewed(std::span<const SurfaceObject> objects) const {
   const std::vector<Ball> all = placed_balls(objects);
-  if (shown_.empty() && framed_.empty() && beside_.empty()) return view_camera(layout, given, {all, all, symmetry_});
+  if (shown_.empty() && framed_.empty() && beside_.empty()) return {all, all};
   std::vector<Ball> shown = picked(objects, shown_), framed = picked(objects, framed_);
   // Atoms may belong to a part of the surface that was dropped (--cavities).
   if (shown.empty()) shown = all;
   for (std::vector<Ball>* const balls : {&shown, &framed}) balls->insert(balls->end(), beside_.begin(), beside_.end());
   if (framed.empty()) framed = shown;
-  return view_camera(layout, given, {shown, framed, symmetry_});
+  return {shown, framed};
+}
+
+Camera ViewAim::camera(const ViewRequest& layout, const std::optional<Camera>& given,
+                       std::span<const SurfaceObject> objects) const {
+  const ViewedAtoms seen = viewed(objects);
+  return view_camera(layout, given, {seen.shown, seen.framed, symmetry_});
 }
 
 Camera ViewAim::camera(const ViewRequest& layout, const std::optional<Camera>& given,

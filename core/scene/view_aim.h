@@ -15,6 +15,11 @@
 
 namespace meniscus {
 
+/// Balls before a camera, and those of them that should fill the picture.
+struct ViewedAtoms {
+  std::vector<Ball> shown, framed;
+};
+
 /// Of the atoms of a structure those that are shown and those that should fill the picture, and where copies are.
 class ViewAim {
  public:
@@ -23,7 +28,10 @@ class ViewAim {
   /// axis which is not there, InputError if `show` selects none.
   ViewAim(const ViewRequest& request, const std::optional<Selection>& show, const Structure& structure);
 
-  /// Of a picture of these objects of the structure, with their copies. layout: the request with the size of the part
+  /// What a picture of these objects of the structure shows, with their copies.
+  ViewedAtoms viewed(std::span<const SurfaceObject> objects) const;
+
+  /// Of such a picture. layout: the request with the size of the part
   /// of the picture that the molecule has.
   Camera camera(const ViewRequest& layout, const std::optional<Camera>& given,
                 std::span<const SurfaceObject> objects) const;

@@ -57,8 +57,8 @@ void PreparedFrames::read_placed(std::uint64_t number, Frame& frame) {
 const Frame& PreparedFrames::placed(std::uint64_t number) {
   for (const Kept& kept : kept_)
     if (kept.number == number) return kept.frame;
-  // One window of smoothing, and its neighbours for velocities.
-  if (kept_.size() > 2 * preparation_.smooth_half + 3) kept_.pop_front();
+  // One window of smoothing, and its neighbours for velocities; or those of a curve.
+  if (kept_.size() > 2 * preparation_.smooth_half + 5) kept_.pop_front();
   Kept fresh{number, {}};
   read_placed(number, fresh.frame);
   return kept_.emplace_back(std::move(fresh)).frame;
@@ -80,24 +80,63 @@ void PreparedFrames::read(std::uint64_t number, Frame& frame) {
   for (std::size_t a = 0; a < sum.size(); ++a) frame.positions[a] = sum[a] / static_cast<double>(2 * half + 1);
 }
 
-void PreparedFrames::read_velocities(std::uint64_t number, std::optional<std::uint64_t> before,
-                                     std::optional<std::uint64_t> behind, std::vector<glm::dvec3>& velocities) {
-  double steps = 0.0;
-  // A damaged neighbour is an error of its own frame, not of this one.
-  const auto read_neighbor = [&](std::optional<std::uint64_t> neighbor, Frame& frame) {
-    try {
-      read(neighbor.value_or(number), frame);
-      if (neighbor) steps += 1.0;
-    } catch (const InputError&) {
-      read(number, frame);
+void PreparedFrames::read_between(const BetweenFrames& place, Frame& frame) {
+  Frame from, to, outer;
+  read(place.from, from);
+  read(place.to, to);
+  refuse_jumps(place, from, to);
+  const std::size_t count = from.positions.size();
+  std::vector<glm::dvec3> before, behind;
+  const auto read_outer = [&](std::optional<std::uint64_t> number, std::vector<glm::dvec3>& positions) {
+    if (!number) return;
+    read(*number, frame);
+    positions = std::move(frame.positions);
+  };
+  read_outer(place.before, before);
+  read_outer(place.behind, behind);
+  // Where the curve begins or ends, the frame beyond is where a parabola through the others would have it.
+  const auto add_beyond = [&](std::vector<glm::dvec3>& beyond, const std::vector<glm::dvec3>& other, const Frame& near,
+                              const Frame& far) {
+    beyond.resize(count);
+    for (std::size_t a = 0; a < count; ++a) {
+      const glm::dvec3 way = near.positions[a] - far.positions[a];
+      beyond[a] = other.empty() ? near.positions[a] + way : 3.0 * way + other[a];
     }
   };
-  Frame first, last;
-  read_neighbor(before, first);
-  read_neighbor(behind, last);
-  velocities.resize(first.positions.size());
-  for (std::size_t a = 0; a < velocities.size(); ++a)
-    velocities[a] = (last.positions[a] - first.positions[a]) / std::max(1.0, steps);
+  if (before.empty()) add_beyond(before, behind, from, to);
+  if (behind.empty()) add_beyond(behind, place.before ? before : std::vector<glm::dvec3>{}, to, from);
+  frame = from;
+  if (from.time && to.time) frame.time = *from.time + place.share * (*to.time - *from.time);
+  const double t = place.share;
+  for (std::size_t a = 0; a < count; ++a) {
+    const glm::dvec3 begin = from.positions[a], way = to.positions[a] - begin;
+    const glm::dvec3 first = 0.5 * (to.positions[a] - before[a]), last = 0.5 * (behind[a] - begin);
+    frame.positions[a] = begin + t * (first + t * (3.0 * way - 2.0 * first - last + t * (first + last - 2.0 * way)));
+  }
+  if (preparation_.bonds) path(place, from, to).correct(t, frame.positions);
+}
+
+const BondedPath& PreparedFrames::path(const BetweenFrames& place, const Frame& from, const Frame& to) {
+  const std::pair ends(place.from, place.to);
+  if (!path_ || path_ends_ != ends) path_.emplace(*preparation_.bonds, from.positions, to.positions);
+  path_ends_ = ends;
+  return *path_;
+}
+
+/// Between two frames of a run nothing moves by half of the box; what does has come in at its other side.
+void PreparedFrames::refuse_jumps(const BetweenFrames& place, const Frame& from, const Frame& to) const {
+  if (!from.cell || !to.cell) return;
+  const std::optional<PeriodicCell> cell = PeriodicCell::of(*to.cell);
+  if (!cell) return;
+  for (const std::uint32_t a : preparation_.followed) {
+    const glm::dvec3 step = to.positions[a] - from.positions[a];
+    if (glm::length(step - cell->shortest(step)) < 1e-3) continue;
+    throw InputError(
+        fmt::format("{}: frame {}", trajectory_.path(), place.to), 0,
+        fmt::format("atom {} is {:.1f} Å from where it was in frame {}, across the periodic box, so there is no way "
+                    "between them; add {} bonds, or leave its molecule out by {}",
+                    a + 1, glm::length(step), place.from, option_name("whole"), option_name("select")));
+  }
 }
 
 namespace {

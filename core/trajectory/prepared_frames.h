@@ -12,12 +12,14 @@
 #include <span>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
 #include "core/structure/structure.h"
+#include "core/trajectory/bonded_path.h"
 #include "core/trajectory/trajectory.h"
 
 namespace meniscus {
@@ -55,6 +57,17 @@ struct Preparation {
   std::uint64_t reference = 0;    ///< a frame of the trajectory
   std::uint64_t smooth_half = 0;  ///< each position becomes the mean over the frames from this many before to as many
                                   ///< behind; near the ends of the trajectory over fewer, as many on both sides
+  /// For read_between(): atoms that are followed from frame to frame, and their bonds.
+  std::vector<std::uint32_t> followed;
+  std::optional<BondNetwork> bonds;
+};
+
+/// A place between two frames, and the frames on both sides of these, by their numbers in the trajectory.
+struct BetweenFrames {
+  std::optional<std::uint64_t> before;
+  std::uint64_t from = 0, to = 0;
+  std::optional<std::uint64_t> behind;
+  double share = 0.0;  ///< of the way from `from` to `to`, in (0, 1)
 };
 
 /// A prepared frame depends on the trajectory and its number only, not on what was read before: processes that share a
@@ -68,11 +81,11 @@ class PreparedFrames {
   /// made whole, a molecule bonded to its own image.
   void read(std::uint64_t number, Frame& frame);
 
-  /// How the atoms move at this frame of a run, in Å per frame of the run: half of the difference between the prepared
-  /// frames before and after it there; without one of them, or if it cannot be read, the difference to the other; zero
-  /// where there is none.
-  void read_velocities(std::uint64_t number, std::optional<std::uint64_t> before, std::optional<std::uint64_t> behind,
-                       std::vector<glm::dvec3>& velocities);
+  /// On the cubic curve through the four frames, with equal steps between them (E. Catmull & R. Rom, in Computer Aided
+  /// Geometric Design, 317, 1974); where one is missing at an end, a parabola through the other three; then as
+  /// BondedPath corrects it. Time goes evenly. Throws InputError as read() does, and for an atom of
+  /// Preparation::followed that jumps across the periodic box.
+  void read_between(const BetweenFrames& place, Frame& frame);
 
  private:
   struct Kept {
@@ -81,11 +94,15 @@ class PreparedFrames {
   };
   void read_placed(std::uint64_t number, Frame& frame);
   const Frame& placed(std::uint64_t number);
+  const BondedPath& path(const BetweenFrames& place, const Frame& from, const Frame& to);
+  void refuse_jumps(const BetweenFrames& place, const Frame& from, const Frame& to) const;
 
   Trajectory& trajectory_;
   Preparation preparation_;
   std::vector<glm::dvec3> reference_;  ///< all atoms of the reference frame, whole
-  std::deque<Kept> kept_;              ///< placed frames that smoothing will ask for again
+  std::optional<BondedPath> path_;     ///< between the two frames that path_ends_ has
+  std::pair<std::uint64_t, std::uint64_t> path_ends_;
+  std::deque<Kept> kept_;  ///< placed frames that smoothing and curves will ask for again
 };
 
 /// A frame as it was read, or why it could not be.

@@ -93,6 +93,9 @@ INPUTS = {
     "camera.json": json.dumps(camera(30)),
     "path.json": json.dumps({"keys": [{"frame": n, "camera": camera(30 + 9 * n)} for n in (0, 3)]}),
     "scene.json": json.dumps({"meniscus_scene": 1, "molecule": {"select": "chain A"}}),
+    "a.json": json.dumps({"meniscus_scene": 1, "molecule": {"file": "one.pdb"}, "objects": [{"representation": "surface", "color": "bfactor"}]}),
+    "b.json": json.dumps({"meniscus_scene": 1, "molecule": {"file": "moved.pdb", "select": "chain B"}, "objects": [{"representation": "surface", "color": "bfactor"}]}),
+    "chains.json": json.dumps({"meniscus_scene": 1, "molecule": {"file": "one.pdb"}, "objects": [{"representation": "surface", "color": "chain"}]}),
     "look.jsonl": "", "other.jsonl": '{"command": "color", "scheme": "chain"}\n',
 }
 # What a preview is asked for: its state and a picture of each frame.
@@ -132,6 +135,10 @@ CONTEXTS = {
     "pixels": ["{one.pdb}", "--tolerance-pixels", "2"], "choice": ["{one.pdb}", "--select", "chain A"],
     "pocket fit": ["{cups.pdb}", "--frames", "all", "--csv", "p.csv", "--superpose", "name CA"],
     "cup": ["{cup.pdb}"], "pocket run": ["{cups.pdb}", "--frames", "all", "--csv", "p.csv"], "pocket mesh": ["{cup.pdb}", "--mesh", "p.ply"], "pocket figure": ["{cup.pdb}", "--figure", "p.json"],
+    "panels": ["{a.json}", "{b.json}"], "panels legend": ["{a.json}", "{b.json}", "--legend", "--one-scale"],
+    "panels scale": ["{a.json}", "{b.json}", "--one-scale"],
+    "panels length": ["{a.json}", "{b.json}", "--width", "20mm"], "panels chains": ["{chains.json}", "--legend"],
+    "panels camera": ["{a.json}", "{b.json}", "--one-camera"],
     "bundle": [], "bundled film": ["--film", "f.mp4"], "": [],
 }
 
@@ -143,7 +150,7 @@ ROWS = {
     "--by": ("chain", "plain"), "--cavities": ("drop", "hollow"), "--hydrogens": ("drop", "plain"),
     "--radii": ("united", "plain"), "--radii-file": ("{radii.txt}", "plain"), "--radius": ("chain A=2.2", "plain"),
     "--assembly": ("1", "plain"), "--instances": ("separate", "assembly"), "--trajectory": ("{other.pdb}", "plain"),
-    "--trajectory-atoms": ("not water", "dry"), "--repeat": ("2", "frames"),
+    "--trajectory-atoms": ("not water", "dry"), "--repeat": ("2", "frames"), "--interpolate": ("2", "frames"),
     "--frames": ("1-2", "models"), "--stride": ("2", "frames"), "--begin": ("1", "frames"), "--end": ("1", "frames"),
     "--only": ("1", "frames"), "--select-once": (None, "near"), "--whole": ("guess", "broken"), "--superpose": ("name CA", "frames"),
     "--center": ("name CA", "frames"), "--reference": ("2", "fit"), "--smooth": ("3", "frames"), "--fps": ("10", "film"),
@@ -187,8 +194,8 @@ ROWS = {
 
 # Options of which the help says nothing, as few need them.
 RARE = {
-    **{option: ("render", "preview") for option in ("--outer-lines", "--inner-lines", "--part-lines", "--linear-alpha",
-                                                    "--legend-place")},
+    **{option: ("render", "preview") for option in ("--outer-lines", "--inner-lines", "--part-lines", "--linear-alpha")},
+    "--legend-place": ("render", "preview", "panels"),
     **{option: ("render",) for option in ("--curve-column", "--stats")},
     **{option: ("render", "farm bundle") for option in ("--bits", "--chroma")},
     "--map-offset": ("render", "preview", "export povray", "export blender", "export mitsuba", "export pbrt", "export mesh",
@@ -210,6 +217,14 @@ OWN_ROWS = {
     ("farm bundle", "--chunk-minutes"): ("2", "bundle"), ("farm bundle", "--chunk-frames"): ("1", "bundle"),
     ("farm bundle", "--task-cores"): ("3", "bundle"), ("farm bundle", "--task-memory"): ("999", "bundle"),
     ("farm bundle", "--film"): ("f.mp4", "bundle"), ("farm bundle", "--farm-path"): ("/mnt/farm", "bundle"),
+    **{("panels", option): (value, context) for option, value, context in (
+        ("--superpose-on", "backbone", "panels camera"), ("--columns", "1", "panels"), ("--gap", "9", "panels"),
+        ("--letters", "none", "panels"), ("--one-camera", None, "panels"), ("--one-scale", None, "panels"),
+        ("--samples", "3", "panels"), ("--background", "white", "panels"), ("--size", "90x40", "panels"), ("--width", "10mm", "panels"),
+        ("--height", "10mm", "panels"), ("--dpi", "90", "panels length"), ("--legend", None, "panels scale"),
+        ("--legend-title", "Heat", "panels legend"), ("--legend-size", "7", "panels legend"),
+        ("--legend-place", "below", "panels legend"), ("--legend-name", "A=Alpha", "panels chains"),
+        ("--letter-size", "7", "panels"), ("--letter-color", "red", "panels"))},
     **{("farm bundle", option): (value, "bundled film")
        for option, value in (("--fps", "10"), ("--codec", "h265"), ("--crf", "40"), ("--bits", "10"), ("--chroma", "444"))},
 }
@@ -225,7 +240,8 @@ for export in ("mesh", "ply"):
     for option in ("--dpi", "--view", "--turn"):
         OWN_ROWS["export " + export, option] = (ROWS[option][0], None)
 
-SMALL = {"render": ["--size", "32x24", "--samples", "1", "--no-provenance"], "preview": ["--size", "32x24", "--samples", "1"]}
+SMALL = {"render": ["--size", "32x24", "--samples", "1", "--no-provenance"], "preview": ["--size", "32x24", "--samples", "1"],
+         "panels": ["--size", "200x100", "--samples", "1"]}
 MESHES = {"export blender", "export mitsuba", "export pbrt", "export mesh", "export ply"}
 EXCLUDES = {"--tolerance-pixels": "--tolerance", "--density": "--tolerance", "--width": "--size", "--height": "--size",
             "--provenance": "--no-provenance", "--no-provenance": "--no-provenance"}
@@ -234,7 +250,7 @@ EXCLUDES = {"--tolerance-pixels": "--tolerance", "--density": "--tolerance", "--
 def output_of(command, context):
     of_run = "--frames" in CONTEXTS[context] or "--trajectory" in CONTEXTS[context]
     return {"render": "a.mp4" if context == "film" else "a.exr" if context == "exr" else "a_#.png" if of_run else "a.png", "export mesh": "a_#.glb" if of_run else "a.glb",
-            "export ply": "a_#.ply" if of_run else "a.ply", "export atoms": "a.atoms", "export blender": "a" if of_run else "a.mns"}.get(command, "a")
+            "panels": "a.png", "export ply": "a_#.ply" if of_run else "a.ply", "export atoms": "a.atoms", "export blender": "a" if of_run else "a.mns"}.get(command, "a")
 
 
 def options_of(command):
@@ -295,7 +311,7 @@ class OptionUse(unittest.TestCase):
         if command in MESHES and "--tolerance-pixels" not in CONTEXTS[context]:
             own += ["--tolerance", "0.5"]
         if command in SMALL and {"--legend", "--legend-file", "--label"} & {*CONTEXTS[context], option}:
-            own[1] = "200x150"
+            own[1] = "400x150" if command == "panels" else "200x150"
         excluded = {EXCLUDES.get(word) for word in (option, *CONTEXTS[context])}
         for name in excluded & set(own):
             at = own.index(name)
@@ -307,7 +323,7 @@ class OptionUse(unittest.TestCase):
             words += ["--device", "cpu", *(["--threads", "1"] if command != "preview" else [])]
         if command == "preview":
             words += ["--serve", "--commands", str(self.folder / "look.jsonl")]
-        if command in ("render",) or command.startswith("export"):
+        if command in ("render", "panels") or command.startswith("export"):
             words += ["-o", output_of(command, context)]
         tail = ["--", "render", str(self.folder / "run.pdb"), "--frames", "all", "--size", "64x48"] if command == "farm bundle" else []
         asked = [option] if value is None else [option, filled(value)]
@@ -323,7 +339,7 @@ class OptionUse(unittest.TestCase):
                     continue
                 value, own = OWN_ROWS.get((command, option)) or ROWS[option]
                 for context in dict.fromkeys([own, *contexts]):
-                    if context is None or (context != own and command in ("formats", "farm bundle", "pockets")):
+                    if context is None or (context != own and command in ("formats", "farm bundle", "pockets", "panels")):
                         continue
                     if any(word.startswith("--") and word not in options for word in CONTEXTS[context]):
                         continue
@@ -368,7 +384,7 @@ class OptionUse(unittest.TestCase):
                 self.assertTrue(more.differs_from(base) or any(option in line for line in said), more.err)
 
 
-TESTED = ["surface", "pockets", "info", "render", "preview", "export povray", "export blender", "export mitsuba", "export pbrt",
+TESTED = ["surface", "pockets", "info", "render", "panels", "preview", "export povray", "export blender", "export mitsuba", "export pbrt",
           "export mesh", "export ply", "export atoms", "formats", "farm bundle"]
 # What it is for is nothing that the command can do, or not with an output of that name.
 REFUSED = {("pockets", "--instances"), ("render", "--frames"), ("render", "--trajectory"),

@@ -288,22 +288,6 @@ TEST(Trajectory, TimesHaveTheDigitsThatTheirPrecisionHolds) {
   EXPECT_EQ(Rounding::twice(123456.789012), 123456.789012);
 }
 
-TEST(PreparedFrames, VelocitiesAreDifferences) {
-  MadeUp trajectory(10);
-  PreparedFrames frames(trajectory, {});
-  std::vector<glm::dvec3> v;
-  frames.read_velocities(5, 4, 6, v);
-  EXPECT_LT(glm::distance(v[3], 0.5 * (MadeUp::at(6, 3) - MadeUp::at(4, 3))), 1e-12);
-  frames.read_velocities(5, 1, 9, v);
-  EXPECT_LT(glm::distance(v[3], 0.5 * (MadeUp::at(9, 3) - MadeUp::at(1, 3))), 1e-12);
-  frames.read_velocities(2, std::nullopt, 5, v);
-  EXPECT_LT(glm::distance(v[3], MadeUp::at(5, 3) - MadeUp::at(2, 3)), 1e-12);
-  frames.read_velocities(9, 8, std::nullopt, v);
-  EXPECT_LT(glm::distance(v[3], MadeUp::at(9, 3) - MadeUp::at(8, 3)), 1e-12);
-  frames.read_velocities(4, std::nullopt, std::nullopt, v);
-  EXPECT_EQ(v[3], glm::dvec3(0.0));
-}
-
 TEST(PreparedFrames, BoxIsNeededOnlyToMakeWhole) {
   MadeUp trajectory(3);
   Preparation preparation;

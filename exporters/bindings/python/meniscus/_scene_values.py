@@ -141,6 +141,9 @@ class SceneValues(SurfaceValues, total=False):
     #: N: Show each frame N times, for slow motion or a moving camera. The files of frame F are numbered F*N,
     #: F*N + 1 and so on [1]
     repeat: int
+    #: N: Make N frames of each: itself, and N - 1 on the way to the next. Atoms go along smooth curves; the
+    #: files are numbered as with --repeat [1]
+    interpolate: int
     #: LIST: Make only these frames, as one part of the whole run. Camera, colours and scene stay those of the
     #: whole run
     only: Text

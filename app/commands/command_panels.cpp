@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `meniscus panels`: makes one picture of several scenes, side by side.
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "app/commands/commands.h"
+#include "app/commands/render_command.h"
+#include "app/options/property_options.h"
+#include "app/options/scene_options.h"
+#include "app/process/program_error.h"
+#include "app/reports/notes.h"
+#include "core/base/progress.h"
+#include "core/base/text.h"
+#include "core/render/image_output.h"
+#include "core/scene/panel_page.h"
+#include "core/scene/picture_device.h"
+#include "core/scene/scene_lengths.h"
+#include "core/scene/scene_values.h"
+#include "core/scene/settled_selections.h"
+#include "core/structure/superposition.h"
+
+namespace meniscus {
+namespace {
+
+struct PanelsCommand : SceneCommand {
+  std::vector<std::string> files;
+  std::string gap;
+  PanelArrangement arrangement;
+  bool one_scale = false;
+};
+using DeclaredPanels = DeclaredCommand<PanelsCommand>;
+
+/// What of the page's command line holds for each panel, as words of the panel's own.
+std::vector<std::string> shared_words(const DeclaredPanels& page) {
+  constexpr std::array<std::string_view, 5> kOfPage{"output.file", "image.size", "image.width", "image.height",
+                                                    "molecule.superpose_on"};
+  std::vector<std::string> words;
+  for (const Property* property : properties()) {
+    if ((property->commands & for_panels) == 0 || !page.options.typed(property->key) ||
+        std::ranges::find(kOfPage, property->key) != kOfPage.end() || property->section() == "panels")
+      continue;
+    const std::string name(property->long_option());
+    if (property->type == ValueType::flag) {
+      words.push_back(name);
+      continue;
+    }
+    for (const std::string& text : page.options.typed_texts(*property)) {
+      words.push_back(name);
+      words.push_back(text);
+    }
+  }
+  const double dots_per_inch = page.state.scene.picture.dots_per_inch;
+  if (dots_per_inch > 0.0 && !page.options.typed("image.dpi"))
+    words.insert(words.end(), {"--dpi", fmt::format("{}", dots_per_inch)});
+  return words;
+}
+
+/// The scene of a panel, as `meniscus render --scene` takes it.
+SceneCommand read_panel(const std::string& path, std::vector<std::string> words, const SceneCommand& page) {
+  CLI::App app("", "render");
+  DeclaredCommand<RenderCommand> panel(app, for_render);
+  panel.state.reporting.quiet = true;
+  words.insert(words.begin(), {"--scene", path});
+  std::ranges::reverse(words);
+  app.parse(words);
+  panel.state.reporting.quiet = true;  // about options that do nothing in one of the panels
+  panel.options.take();
+  SceneCommand command = std::move(static_cast<SceneCommand&>(panel.state));
+  if (command.scene.image.extent || command.scene.image.aovs)
+    throw UsageError(fmt::format("{}: panels show complete surfaces as colours; leave image.extent and image.aovs out",
+                                 escaped(path)));
+  command.scene = readied(command.scene);
+  settle_selections(command.scene.molecule, command.scene.frames,
+                    {.figure = &command.scene.figure, .view = &command.scene.picture});
+  command.reporting = page.reporting;
+  return command;
+}
+
+Structure read_structure(const SceneCommand& command, const std::string& path) {
+  const Scene& scene = command.scene;
+  if (!scene.frames.asked()) return read_and_tell(command);
+  FrameRun run(scene.molecule, scene.frames);
+  tell_run(command, run);
+  if (run.numbers().size() != 1)
+    throw UsageError(
+        fmt::format("{}: a panel shows one frame, and this scene has {}; make a picture of one "
+                    "of them with render --frames N",
+                    escaped(path), with_thousands(run.numbers().size())));
+  return run.at(run.numbers().front());
+}
+
+/// Moves the structures of all panels but the first.
+void superpose(const PanelsCommand& page, std::span<const SceneCommand> panels, std::vector<Structure>& structures) {
+  const std::optional<Selection>& chosen = page.scene.molecule.reading.superpose_on;
+  if (!chosen) return;
+  const Structure& first = structures.front();
+  const std::vector<bool> of_first = chosen->evaluate(first.atoms);
+  for (std::size_t n = 1; n < structures.size(); ++n) {
+    Structure& moved = structures[n];
+    if (!moved.instances.empty() || panels[n].scene.molecule.color.by == ColorScheme::By::volume)
+      throw UsageError(fmt::format("--superpose-on: {} has {}, which cannot be moved; leave one of them out",
+                                   escaped(page.files[n]),
+                                   moved.instances.empty() ? "a volume map" : "copies as instances"));
+    const std::vector<AtomPair> pairs =
+        corresponding_atoms(first.atoms, of_first, moved.atoms, chosen->evaluate(moved.atoms));
+    if (pairs.empty())
+      throw UsageError(
+          fmt::format("--superpose-on {}: {} has no chain that corresponds to one of {} by its sequence, "
+                      "with three of these atoms or more; choose other atoms",
+                      in_quotes(chosen->text()), escaped(page.files[n]), escaped(page.files.front())));
+    const Superposition fit = superposition(first.atoms, moved.atoms, pairs);
+    for (std::vector<Atom>* const atoms : {&moved.atoms, &moved.beside})
+      for (Atom& atom : *atoms) atom.position = fit.motion(atom.position);
+    say(page, fmt::format("{} is superposed on {} by {} atoms with an RMSD of {:.3f} Å", page.files[n],
+                          page.files.front(), with_thousands(pairs.size()), fit.rmsd));
+  }
+}
+
+std::vector<Panel> read_panels(const PanelsCommand& page, std::span<SceneCommand> panels) {
+  std::vector<Structure> structures;
+  std::vector<Scene> scenes;
+  for (std::size_t n = 0; n < panels.size(); ++n) {
+    structures.push_back(read_structure(panels[n], page.files[n]));
+    scenes.push_back(panels[n].scene);
+  }
+  superpose(page, panels, structures);
+  if (page.one_scale) share_range(scenes, structures);
+  std::vector<Panel> made;
+  for (std::size_t n = 0; n < panels.size(); ++n) {
+    SceneCommand& command = panels[n];
+    command.scene = scenes[n];
+    const std::optional<Camera> given = given_camera(command.scene.picture);
+    ViewAim aim(command.scene.picture, command.scene.molecule.show, structures[n]);
+    Figure figure = make_figure(build_and_tell(command, std::move(structures[n])), command.scene.figure);
+    made.push_back({std::move(scenes[n]), std::move(figure), std::move(aim), given});
+  }
+  return made;
+}
+
+/// Lengths of the page in pixels, which its resolution says.
+PanelArrangement arrangement_of(const DeclaredPanels& declared, const Scene& first) {
+  const Scene& scene = declared.state.scene;
+  PanelArrangement arrangement = declared.state.arrangement;
+  const bool has_size = declared.options.typed("image.size");
+  if (has_size || declared.options.typed("image.width")) arrangement.width = scene.picture.width;
+  if (has_size || declared.options.typed("image.height")) arrangement.height = scene.picture.height;
+  constexpr int kUsualShare = 50;
+  const int width = arrangement.width.value_or(first.picture.width * 2) / 2;
+  arrangement.gap = declared.state.gap.empty()
+                        ? width / kUsualShare
+                        : static_cast<int>(scene_values::pixels_in_range(property_of("panels.gap"), declared.state.gap,
+                                                                         first.picture.dots_per_inch, "a gap has"));
+  return arrangement;
+}
+
+void run(const DeclaredPanels& declared) {
+  const PanelsCommand& page = declared.state;
+  check_image_path(page.scene.output);
+  check_output(page.scene.output, page.existing());
+  if (holds_aovs(page.scene.output))
+    throw UsageError("-o: panels are written as .png, .jpg, .webp, .tif, .svg or .pdf");
+  std::vector<SceneCommand> panels;
+  for (const std::string& file : page.files) panels.push_back(read_panel(file, shared_words(declared), page));
+  const PanelArrangement arrangement = arrangement_of(declared, panels.front().scene);
+  PanelPage made(read_panels(page, panels), arrangement);
+  SurfaceRequest request = panels.front().scene.molecule.surface;
+  for (const SceneCommand& panel : panels) request.cpu = request.cpu || picture_request(panel.scene).cpu;
+  PictureDevice device(request);
+  const Scene& first = panels.front().scene;
+  ImageSettings image{first.image.background, page.existing(), first.look.has_linear_alpha()};
+  image.dots_per_inch = first.picture.dots_per_inch;
+  Progress progress(progress_on_stderr(page), "panels", panels.size());
+  made.write(page.scene.output, device.renderer(), image, [&] { progress.advance(); });
+  say(page,
+      fmt::format("{} panels in {} x {} pixels: {}", panels.size(), made.size().x, made.size().y, page.scene.output));
+}
+
+}  // namespace
+
+void add_panels(CLI::App& command) {
+  describe(
+      command,
+      "  meniscus panels apo.png holo.png -o figure.pdf --width 180mm\n"
+      "  meniscus panels apo.png holo.png -o figure.png --superpose-on 'name CA' --one-camera --one-scale --legend\n"
+      "  meniscus panels a.json b.json c.json d.json -o figure.png --columns 2 --letters lower --background white",
+      "A picture that meniscus render made is a panel, for it carries its scene; so is a scene file. Each panel is "
+      "drawn\nagain, in the size that it has on the page. Options that scenes have, too, hold for all panels.");
+  auto declared = std::make_shared<DeclaredPanels>(command, for_panels);
+  PanelsCommand& state = declared->state;
+  declared->options.describe_output("Picture to write: .png, .jpg, .webp, .tif, .svg, .pdf");
+  PropertyOptions options(command);
+  options.add("panels.scenes", state.files)->required();
+  options.add("panels.columns", state.arrangement.columns);
+  options.add("panels.gap", state.gap);
+  options.add_word("panels.letters", state.arrangement.letters,
+                   {PanelLetters::upper, PanelLetters::lower, PanelLetters::none});
+  options.add("panels.one_camera", state.arrangement.one_camera);
+  options.add("panels.one_scale", state.one_scale);
+  declared->options.option("image.size")->description("Size of the page in pixels [by the size of the first panel]");
+  declared->options.option("image.width")->description("Width of the page: 180mm, 18cm, 7in or 2000px");
+  declared->options.option("image.height")->description("Height of the page in the same units");
+  declared->options.option("molecule.superpose_on")
+      ->description(
+          "Superpose the molecules on that of the first panel by these atoms. 'name CA' takes alpha carbons. "
+          "Chains are paired and aligned by sequence; the number of atoms and the RMSD are printed");
+  command.callback([declared] {
+    declared->options.take();
+    run(*declared);
+  });
+}
+
+}  // namespace meniscus
