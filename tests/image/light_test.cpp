@@ -249,8 +249,8 @@ TEST(SkyVisibility, IsThatOfTenThousandRaysAtAThousandPoints) {
   }
   RecordProperty("rms", std::to_string(std::sqrt(squares / 1000.0)));
   RecordProperty("largest", std::to_string(largest));
-  EXPECT_LT(std::sqrt(squares / 1000.0), 0.02);
-  EXPECT_LT(largest, 0.08);
+  EXPECT_LT(std::sqrt(squares / 1000.0), 0.012);
+  EXPECT_LT(largest, 0.05);
 }
 
 /// Ray by ray, against the balls.

@@ -12,8 +12,8 @@ namespace meniscus {
 
 struct Surface;
 
-/// Rays into the hemisphere of a point that its number is made of, unless others are asked for; its error is below 0.02
-/// at two thirds of all points.
+/// Rays into the hemisphere of a point that its number is made of, unless others are asked for. Against 10,000 rays
+/// drawn by lot at 1,000 points of 1UBQ the error is 0.008 (rms), at most 0.03: tests/image/light_test.cpp.
 inline constexpr std::size_t kSkyRays = 256;
 
 /// Points and the normals there, of length 1, towards the solvent; as many of both.
