@@ -56,7 +56,7 @@ constexpr auto kTable = of_commands(
             .from(0.1, 1000)
             .in(kLight, kLook),
         number("look.ambient_occlusion_rays", "--ambient-occlusion-rays", "N",
-               "Rays a pixel that find shade, such as 64: then all that is drawn casts it, shown or not, and it stays "
+               "Rays a pixel that find shade, such as 64. All that is drawn casts it then, shown or not, and it stays "
                "where it is in films. 0: from the picture alone")
             .from(0, 4096)
             .initially("0")
@@ -70,7 +70,7 @@ constexpr auto kTable = of_commands(
             .in(kLight, kLook)
             .in_short_help(),
         number("look.shadow_softness", "--shadow-softness", "DEGREES",
-               "Softness of shadows: half the angle at which the lamp is seen, 0 (sharp) to 45")
+               "Half the angle at which the lamp is seen, 0 (sharp shadows) to 45")
             .from(0, 45)
             .initially("0")
             .of(for_render | for_preview | for_povray | for_blender)

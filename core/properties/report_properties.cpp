@@ -15,7 +15,7 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kOutput)
         .in_short_help(),
     flag("report.open_sky", "--open-sky",
-         "Add a column to --csv: the share of the sky that the atom's surface sees, 0 to 1 (ambient occlusion)")
+         "Add the share of the sky that each atom sees to --csv, 0 to 1. It is what ambient occlusion leaves")
         .in(kOutput),
     new_file("report.csv_residues", "--csv-residues", "FILE", "Write areas, one row per residue. -: to standard output")
         .in(kOutput)
