@@ -10,9 +10,12 @@
 
 #include <gtest/gtest.h>
 
+#include "core/queries/copies.h"
+#include "core/queries/surface_object.h"
 #include "core/render/cpu/cpu_renderer.h"
 #include "core/render/cpu/sky_visibility.h"
 #include "core/scene/cut.h"
+#include "core/shapes/shapes.h"
 #include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "tests/support/sphere_tracer.h"
@@ -160,6 +163,60 @@ TEST(Shadows, OfACutAreThoseOfWhatIsLeft) {
   }
   EXPECT_GT(caps, 500);
   EXPECT_LE(wrong, asked / 300);
+}
+
+/// A stick beside a ball: dark is what sees the lamp within its radius of the axis.
+TEST(Shadows, OfAStickAreAStrip) {
+  Subject subject({{{0.0, 0.0, 0.0}, 4.0}});
+  subject.camera = {.position = {0.0, 0.0, 60.0}, .target = {0.0, 0.0, 0.0}, .up = {0.0, 1.0, 0.0}};
+  subject.camera.projection = Projection::orthographic;
+  subject.camera.height = 12.0;
+  subject.settings.look.light_direction = {0.15f, 0.0f, 1.0f};
+  Shapes shapes;
+  shapes.cylinders.push_back({{0.0, -9.0, 20.0}, {0.0, 9.0, 20.0}, 0.8, 0, 0});
+  PictureObject& stick = subject.objects.emplace_back();
+  stick.shapes = &shapes;
+  stick.coloring = &subject.coloring;
+  const Framebuffer picture = subject.picture();
+  const glm::dvec3 lamp = subject.lamp(), across = glm::normalize(glm::cross(lamp, glm::dvec3(0.0, 1.0, 0.0)));
+  int dark = 0, wrong = 0;
+  for (std::size_t at = 0; at < picture.color.size(); ++at) {
+    if (!std::isfinite(picture.z[at]) || picture.object[at] != 0) continue;
+    if (glm::dot(glm::dvec3(picture.normal[at]), lamp) < 0.05) continue;
+    const double aside = std::abs(glm::dot(glm::dvec3(0.0, 0.0, 20.0) - glm::dvec3(picture.position[at]), across));
+    dark += aside < 0.8;
+    wrong += lit(picture, at) == (aside < 0.8) && std::abs(aside - 0.8) > 1e-3;
+  }
+  EXPECT_GT(dark, 300);
+  EXPECT_EQ(wrong, 0);
+}
+
+/// Copies are in memory once; rays turn to them. Some pixels at the edges of shadows may differ by rounding.
+TEST(Shadows, OfCopiesAreThoseOfOneSurface) {
+  SurfaceObject object;
+  object.surface = compute_surface_cpu(testing::c60(), 0.5);
+  object.coloring.atom.assign(object.surface.atoms.size(), kGrey);
+  object.atom.resize(object.surface.atoms.size());
+  const double turn = 0.7;
+  const glm::dmat3 about_z{
+      {std::cos(turn), std::sin(turn), 0.0}, {-std::sin(turn), std::cos(turn), 0.0}, {0.0, 0.0, 1.0}};
+  object.copies = {{}, {about_z, {9.0, 7.0, 12.0}}, {about_z * about_z, {-4.0, 9.0, 21.0}}};
+  const SurfaceObject whole = merged({object});
+  const Camera camera = frame_camera(whole.surface.atoms, 4.0 / 3.0);
+  RenderSettings settings;
+  settings.size = {160, 120};
+  settings.look.shadows = 1.0f;
+  const Framebuffer one = CpuRenderer().render(whole.surface, whole.coloring, camera, settings);
+  const Framebuffer copies = CpuRenderer().render_copies({&object, 1}, camera, settings);
+  settings.look.shadows = 0.0f;
+  const Framebuffer without = CpuRenderer().render(whole.surface, whole.coloring, camera, settings);
+  int different = 0, shadowed = 0;
+  for (std::size_t at = 0; at < one.color.size(); ++at) {
+    different += glm::length(one.color[at] - copies.color[at]) > 1e-3f;
+    shadowed += glm::length(one.color[at] - without.color[at]) > 0.1f;
+  }
+  EXPECT_GT(shadowed, 100);
+  EXPECT_LE(different, 5);
 }
 
 /// A ball that is seen through lets the light pass.
