@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shadows and traced shade of pictures: closed forms, an oracle that knows only the balls, and the same picture for any
 // blocks and vectors.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -165,6 +166,35 @@ TEST(Shadows, OfACutAreThoseOfWhatIsLeft) {
   EXPECT_LE(wrong, asked / 300);
 }
 
+/// Light that would go into a slab by one cap and out of it by the other is kept away: nowhere in between is a surface.
+TEST(Shadows, OfASlabAreThoseOfItsCaps) {
+  Subject floor({{{-18.0, 0.0, -18.0}, 4.0}});
+  const Surface ball = compute_surface_cpu(Balls{{{0.0, 0.0, 0.0}, 2.5}}, 1.4);
+  Coloring coloring;
+  coloring.atom.assign(1, kGrey);
+  PictureObject& slab = floor.objects.emplace_back();
+  slab.surface = &ball;
+  slab.coloring = &coloring;
+  slab.clip = {{{1.0, 0.0, 0.0}, 0.6}, {{-1.0, 0.0, 0.0}, 0.6}};
+  floor.camera = {.position = {-18.0, 0.0, 60.0}, .target = {-18.0, 0.0, 0.0}, .up = {0.0, 1.0, 0.0}};
+  floor.camera.projection = Projection::orthographic;
+  floor.camera.height = 9.0;
+  floor.settings.look.light_direction = {1.0f, 0.0f, 1.0f};
+  const Framebuffer picture = floor.picture();
+  const glm::dvec3 lamp = floor.lamp();
+  int dark = 0, wrong = 0;
+  for (std::size_t at = 0; at < picture.color.size(); ++at) {
+    if (!std::isfinite(picture.z[at]) || glm::dot(glm::dvec3(picture.normal[at]), lamp) < 0.05) continue;
+    const glm::dvec3 point(picture.position[at]);
+    const double in = (-0.6 - point.x) / lamp.x, out = (0.6 - point.x) / lamp.x;
+    const double nearest = glm::length(point + std::clamp(-glm::dot(point, lamp), in, out) * lamp);
+    dark += nearest < 2.5;
+    wrong += lit(picture, at) == (nearest < 2.5) && std::abs(nearest - 2.5) > 1e-3;
+  }
+  EXPECT_GT(dark, 300);
+  EXPECT_EQ(wrong, 0);
+}
+
 /// A stick beside a ball: dark is what sees the lamp within its radius of the axis.
 TEST(Shadows, OfAStickAreAStrip) {
   Subject subject({{{0.0, 0.0, 0.0}, 4.0}});
@@ -225,6 +255,7 @@ TEST(Shadows, AreNotCastByWhatIsSeenThrough) {
   subject.camera = {.position = {0.0, 0.0, 60.0}, .target = {0.0, 0.0, 0.0}, .up = {0.0, 1.0, 0.0}};
   subject.camera.projection = Projection::orthographic;
   subject.camera.height = 12.0;
+  subject.settings.look.light_direction = {0.15f, 0.0f, 1.0f};
   subject.coloring.opacity = {1.0f, 0.5f};
   const Framebuffer with = subject.picture();
   subject.settings.look.shadows = 0.0f;
