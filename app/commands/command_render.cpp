@@ -72,6 +72,9 @@ void check_scene(const RenderCommand& command) {
   if (scene.image.extent && (!scene.figure.plain() || !scene.molecule.color.opacities.empty()))
     throw UsageError(
         "--extent draws the surface alone, whole and opaque; leave --extent out, or --opacity, --clip and the like");
+  if (scene.image.extent &&
+      (scene.look.shadows.value_or(0.0f) > 0.0f || scene.look.ambient_occlusion_rays.value_or(0.0f) > 0.0f))
+    throw UsageError("--shadows and --ambient-occlusion-rays need the complete surface; leave --extent out");
   if (!scene.image.extent && command.stats) throw UsageError("--stats reports the stages of a view; add --extent");
   check_legend(scene);
 }

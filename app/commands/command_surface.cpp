@@ -97,6 +97,7 @@ void add_surface(CLI::App& command) {
   PropertyOptions options(command);
   options.add("report.json", state.json);
   options.add("report.csv_atoms", state.atom_csv);
+  options.add("report.open_sky", state.open_sky);
   options.add("report.csv_residues", state.residue_csv);
   options.add("report.csv_series", state.series_csv);
   options.add("report.csv_cavities", state.cavity_csv);

@@ -34,6 +34,11 @@ namespace {
 
 std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
+blender::Shot shot_of(const Scene& scene, const Camera& camera) {
+  return {camera, scene.picture.width, scene.picture.height, scene.look.shadows.value_or(0.0f),
+          scene.look.shadow_softness.value_or(0.0f)};
+}
+
 blender::SequenceManifest manifest_of(FigureRun& run) {
   const Scene& scene = run.scene();
   const FrameRun& frames = run.frames();
@@ -42,8 +47,7 @@ blender::SequenceManifest manifest_of(FigureRun& run) {
   for (const std::string& path : scene.frames.trajectories)
     manifest.trajectory += (manifest.trajectory.empty() ? "" : ", ") + file_name(path);
   manifest.frames = frames.numbers();
-  for (const Camera& camera : run.framing().cameras)
-    manifest.shots.push_back({camera, scene.picture.width, scene.picture.height});
+  for (const Camera& camera : run.framing().cameras) manifest.shots.push_back(shot_of(scene, camera));
   manifest.origin = run.framing().origin();
   manifest.fps = scene.film.frames_per_second;
   manifest.probe_radius = scene.molecule.surface.probe_radius;
@@ -242,8 +246,7 @@ void export_to_blender(const SceneCommand& asked) {
     mesh_figure(command, frame, cut, tolerance, !sequence, meshes);
     const std::string left_out = add_numbers(command, numbers, molecule.structure, meshes.objects);
     if (!left_out.empty()) std::call_once(told, [&] { say(command, left_out); });
-    write_objects(path, command.existing(), meshes.objects,
-                  blender::Shot{frame.camera, scene.picture.width, scene.picture.height}, provenance, place, cut);
+    write_objects(path, command.existing(), meshes.objects, shot_of(scene, frame.camera), provenance, place, cut);
     return [path] { return MadeFrame{{path}}; };
   };
   run.make({kMeshBytesPerAtom}, [&]() -> FigureRun::Sink { return make; });

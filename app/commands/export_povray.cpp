@@ -32,6 +32,8 @@ povray::SceneOptions scene_options(const SceneCommand& command, povray::Material
   options.width = command.scene.picture.width;
   options.height = command.scene.picture.height;
   options.material = material;
+  options.shadows = command.scene.look.shadows.value_or(0.0f);
+  options.shadow_softness = command.scene.look.shadow_softness.value_or(0.0f);
   options.existing = command.existing();
   options.cut.style = command.scene.figure.cap;
   options.film = command.scene.figure.thickens;

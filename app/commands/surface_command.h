@@ -13,6 +13,7 @@ namespace meniscus {
 
 struct SurfaceCommand : SceneCommand {
   bool json = false;
+  bool open_sky = false;  ///< a column of atom_csv
   std::string atom_csv, residue_csv, series_csv, cavity_csv,
       gradient_csv;  ///< paths; empty: none; "-": standard output
   std::string plot;  ///< path of an SVG of a run; empty: none

@@ -19,6 +19,8 @@
 #include "app/reports/series_plot.h"
 #include "app/reports/surface_report.h"
 #include "core/base/output_file.h"
+#include "core/mesh/open_sky.h"
+#include "core/mesh/tessellate.h"
 #include "core/queries/cavity_tracks.h"
 #include "core/base/time_unit.h"
 #include "core/scene/context_areas.h"
@@ -39,6 +41,18 @@ struct SurfaceNumbers {
 
 /// What a frame adds to the front of its rows; nothing of a single molecule.
 std::string prefix_of(const std::optional<FrameNote>& note) { return note ? frame_cells(*note) + "," : std::string(); }
+
+/// Of each atom; of several copies what each sees past its own object.
+AreaColumn open_sky(const Molecule& molecule) {
+  constexpr double kTolerance = 0.1;  // Å
+  AreaColumn column{"open_sky", std::vector<double>(molecule.structure.atoms.size(), 0.0), 0.0};
+  for (const SurfaceObject& object : molecule.objects) {
+    const TriangleMesh mesh = tessellate(object.surface, {.tolerance = kTolerance});
+    const std::vector<double> means = atom_open_sky(object.surface, mesh);
+    for (std::size_t n = 0; n < means.size(); ++n) column.values[object.atom[n]] = means[n];
+  }
+  return column;
+}
 
 class SurfaceTables {
  public:
@@ -92,15 +106,16 @@ class SurfaceTables {
       numbers.printed = printed({molecule, command_.scene.molecule, columns, context, patches}, note);
     if (series_.is_wanted() || plot_) numbers.values = series_values(molecule, columns);
     const std::string prefix = prefix_of(note), more_columns = note ? std::string(kFrameColumns) + "," : std::string();
-    if (atoms_.is_wanted()) {
-      numbers.atom_header = more_columns + atom_csv_header(columns);
-      numbers.atoms = atom_csv_rows(molecule.structure, columns, prefix);
-    }
     if (residues_.is_wanted()) {
       numbers.residue_header = more_columns + residue_csv_header(columns);
       numbers.residues = residue_csv_rows(molecule.structure, columns, prefix);
     }
     if (patches_.is_wanted()) numbers.patches = patch_csv_rows(*patches, molecule.structure, prefix);
+    if (atoms_.is_wanted()) {
+      if (command_.open_sky) columns.push_back(open_sky(molecule));
+      numbers.atom_header = more_columns + atom_csv_header(columns);
+      numbers.atoms = atom_csv_rows(molecule.structure, columns, prefix);
+    }
     if (gradients_.is_wanted()) {
       const std::vector<GradientColumn> gradients = gradient_columns(molecule.structure, molecule.objects, kind);
       numbers.gradient_header = more_columns + gradient_csv_header(gradients);

@@ -20,7 +20,7 @@ struct ForeignWord {
 };
 
 // Of PyMOL, ChimeraX, VMD, POV-Ray, Blender, ffmpeg and ImageMagick.
-constexpr std::array<ForeignWord, 46> kForeignWords{{
+constexpr std::array<ForeignWord, 45> kForeignWords{{
     {"--colour", {"--color"}},
     {"--colors", {"--color"}},
     {"--color-by", {"--color"}},
@@ -31,8 +31,7 @@ constexpr std::array<ForeignWord, 46> kForeignWords{{
     {"--transparent", {"--background"}},
     {"--ao", {"--ambient-occlusion"}},
     {"--occlusion", {"--ambient-occlusion"}},
-    {"--shadow", {"--ambient-occlusion"}},
-    {"--shadows", {"--ambient-occlusion"}},
+    {"--shadow", {"--shadows", "--ambient-occlusion"}},
     {"--outline", {"--silhouettes"}},
     {"--outlines", {"--silhouettes"}},
     {"--silhouette", {"--silhouettes"}},

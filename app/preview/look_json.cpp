@@ -100,7 +100,7 @@ nlohmann::json look_sliders() {
 }
 
 Look without_effects(Look look) {
-  look.ambient_occlusion = look.silhouettes = 0.0f;
+  look.ambient_occlusion = look.shadows = look.silhouettes = 0.0f;
   look.outer_lines = look.inner_lines = look.part_lines = {};
   return look;
 }

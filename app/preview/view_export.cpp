@@ -220,6 +220,8 @@ std::string export_povray(const ExportedView& view, const ExportTarget& target, 
   options.height = view.size.y;
   options.background = view.figure.background;
   options.existing = target.existing;
+  options.shadows = view.figure.look.shadows.value_or(0.0f);
+  options.shadow_softness = view.figure.look.shadow_softness.value_or(0.0f);
   options.colors = colors_of(view);
   if (view.beside) options.shapes = &view.beside->shapes;
   options.film = figure.thickens;
@@ -244,7 +246,9 @@ void export_blender(const ExportedView& view, const ExportTarget& target, const 
   const blender::Provenance provenance{std::filesystem::path(view.structure.file).filename().string(),
                                        view.structure.radii_set, device, colors_of(view)};
   write_objects(target.path.string(), target.existing, objects,
-                blender::Shot{view.figure.camera, view.size.x, view.size.y}, provenance);
+                blender::Shot{view.figure.camera, view.size.x, view.size.y, view.figure.look.shadows.value_or(0.0f),
+                              view.figure.look.shadow_softness.value_or(0.0f)},
+                provenance);
 }
 
 void export_camera(const Camera& camera, const ExportTarget& target) {

@@ -14,6 +14,9 @@ constexpr auto kTable = std::to_array<Property>({
     new_file("report.csv_atoms", "--csv", "FILE", "Write areas, one row per atom. -: to standard output")
         .in(kOutput)
         .in_short_help(),
+    flag("report.open_sky", "--open-sky",
+         "Add the share of the sky that each atom sees to --csv, 0 to 1. It is what ambient occlusion leaves")
+        .in(kOutput),
     new_file("report.csv_residues", "--csv-residues", "FILE", "Write areas, one row per residue. -: to standard output")
         .in(kOutput)
         .in_short_help(),

@@ -60,6 +60,15 @@ struct Look {
   /// How far shade is cast, Å.
   float ambient_occlusion_radius = 8.0f;
 
+  /// More than 0: by so many rays a pixel instead, towards all of the sky (core/render/cpu/shadow_rays.h), which meet
+  /// everything that is drawn, whether the picture shows it or not.
+  float ambient_occlusion_rays = 0.0f;
+
+  /// How dark the shadows are in [0, 1] that what is drawn casts in the key light. 0: light goes through everything.
+  float shadows = 0.0f;
+  /// Half the angle at which the lamp is seen, degrees, below 90: 0 gives sharp shadows.
+  float shadow_softness = 0.0f;
+
   /// Width in pixels, at most 16, of black lines where something is in front of something else, the stronger the
   /// farther, and where parts meet (Coloring::part). 0: none.
   float silhouettes = 0.0f;
@@ -77,6 +86,12 @@ struct Look {
 
   /// True if colours change after they are cast.
   bool has_effects() const { return ambient_occlusion > 0.0f || widest_line() > 0.0f || depth_cue > 0.0f; }
+
+  bool traces_sky() const { return ambient_occlusion > 0.0f && ambient_occlusion_rays > 0.0f; }
+  /// Highlights are added once shade is known, unless the rays that cast them know it already.
+  bool finishes_highlights() const { return ambient_occlusion > 0.0f && !traces_light(); }
+  /// True if rays go on from where they meet something: such pictures are made on the CPU.
+  bool traces_light() const { return shadows > 0.0f || traces_sky(); }
 
   float widest_line() const {
     return std::max(
@@ -119,7 +134,8 @@ struct LookRequest {
   LookPreset preset = LookPreset::publication;
   std::optional<glm::vec3> light_direction{};
   std::optional<float> light_strength{}, ambient{}, roughness{}, specular{}, shininess{};
-  std::optional<float> ambient_occlusion{}, ambient_occlusion_radius{};
+  std::optional<float> ambient_occlusion{}, ambient_occlusion_radius{}, ambient_occlusion_rays{};
+  std::optional<float> shadows{}, shadow_softness{};
   std::optional<float> silhouettes{};  ///< pixels; of all lines but those named next
   std::optional<float> outer_lines{}, inner_lines{}, part_lines{};
   std::optional<float> depth_cue{};

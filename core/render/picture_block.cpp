@@ -100,7 +100,7 @@ kernel::RayCastParameters cast_parameters(const ScenePlacement& scene, const Loo
   own.ground = light.ground;
   own.ambient = look.material.ambient;
   own.roughness = look.material.roughness;
-  own.specular = look.ambient_occlusion > 0.0f ? 0.0f : look.material.specular;
+  own.specular = look.finishes_highlights() ? 0.0f : look.material.specular;
   own.shininess = look.material.shininess;
   own.probe_radius = static_cast<float>(scene.probe_radius);
   own.slack = scene.slack;
@@ -143,7 +143,7 @@ kernel::FinishParameters finish_parameters(const Look& look, const ScenePlacemen
           .key_strength = look.light_strength,
           .air = linear_from_srgb(look.background),
           .keeps_alpha = look.depth_cue_keeps_alpha,
-          .specular = look.material.specular,
+          .specular = look.finishes_highlights() ? look.material.specular : 0.0f,
           .shininess = look.material.shininess,
           .ambient_occlusion = look.ambient_occlusion,
           .outer_lines = look.outer_lines.value_or(look.silhouettes),

@@ -38,7 +38,8 @@ bool holds_shade_map(const PictureBlock& block, glm::ivec2 picture_size);
 
 /// Whether such a map has to be made before the blocks of a picture, of which `first` is the first.
 inline bool needs_shade_map(const PictureBlock& first, const RenderSettings& settings) {
-  return settings.look.ambient_occlusion > 0.0f && !holds_shade_map(first, settings.size);
+  return settings.look.ambient_occlusion > 0.0f && !settings.look.traces_sky() &&
+         !holds_shade_map(first, settings.size);
 }
 
 /// Where sample `index` lies in its pixel, in pixels from the centre: the R2 sequence (Roberts 2018), centre first.

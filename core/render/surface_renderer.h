@@ -29,14 +29,16 @@ class SurfaceRenderer {
   virtual Framebuffer render(const Surface& surface, const Coloring& coloring, const Camera& camera,
                              const RenderSettings& settings) = 0;
 
-  /// A picture of any objects, cut and seen through as they say; made on the CPU wherever it needs layers. Atoms of the
+  /// A picture of any objects, cut and seen through as they say; made on the CPU wherever it needs layers, or light is
+  /// traced. Atoms of the
   /// AOVs are places in the colouring of their object. objects: at least one. Throws as render().
   virtual Framebuffer render(std::span<const PictureObject> objects, const Camera& camera,
                              const RenderSettings& settings) = 0;
 
   /// The same picture as of merged(objects), to the bit, where copies need not be in memory all at once: on the CPU,
-  /// which keeps what its pixels show, also for GL. Atoms and components of the AOVs are those of merged(). objects: at
-  /// least one, as merged() wants them. Throws as render().
+  /// which keeps what its pixels show, also for GL. Rays of traced light turn to each copy instead, so that the edges
+  /// of shadows may differ by rounding. Atoms and components of the AOVs are those of merged(). objects: at least one,
+  /// as merged() wants them. Throws as render().
   virtual Framebuffer render_copies(std::span<const SurfaceObject> objects, const Camera& camera,
                                     const RenderSettings& settings) = 0;
 

@@ -30,7 +30,7 @@ class GlViewRenderer final : public ViewRenderer {
 
   bool draw(double probe_radius, const Camera& camera, const RenderSettings& settings,
             const std::function<bool()>& stop) override {
-    if (draws_on_cpu()) {
+    if (draws_on_cpu() || settings.look.traces_light()) {
       if (!layered_) begin_layered();
       const bool whole = layered_->draw(probe_radius, camera, settings, stop);
       shows_layered_ = shows_layered_ || whole;

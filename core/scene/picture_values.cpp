@@ -216,6 +216,12 @@ constexpr auto kPictureRows = std::to_array<SceneValue>({
         "look.ambient_occlusion", [](auto& s) -> auto& { return s.look.ambient_occlusion; }),
     plain(
         "look.ambient_occlusion_radius", [](auto& s) -> auto& { return s.look.ambient_occlusion_radius; }),
+    plain(
+        "look.ambient_occlusion_rays", [](auto& s) -> auto& { return s.look.ambient_occlusion_rays; }),
+    plain(
+        "look.shadows", [](auto& s) -> auto& { return s.look.shadows; }),
+    plain(
+        "look.shadow_softness", [](auto& s) -> auto& { return s.look.shadow_softness; }),
     line_width(
         "look.silhouettes", [](auto& s) -> auto& { return s.look.silhouettes; }),
     line_width(

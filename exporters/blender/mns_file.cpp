@@ -118,6 +118,10 @@ void MnsWriter::write(const std::string& path, Existing existing, nlohmann::json
 nlohmann::json shot_object(const Shot& shot) {
   nlohmann::json camera = camera_object(shot.camera);
   camera["size"] = {shot.width, shot.height};
+  if (shot.shadows > 0.0f) {
+    camera["shadows"] = shot.shadows;
+    camera["shadow_softness"] = shot.shadow_softness;
+  }
   return camera;
 }
 

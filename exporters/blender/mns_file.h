@@ -94,10 +94,11 @@ class MnsWriter {
 /// A camera and the picture it is meant for.
 struct Shot {
   Camera camera;
-  int width = 0, height = 0;  ///< pixels
+  int width = 0, height = 0;                     ///< pixels
+  float shadows = 0.0f, shadow_softness = 0.0f;  ///< of a Look
 };
 
-/// The object of a camera file, and the size of the picture.
+/// The object of a camera file, the size of the picture, and what shadows it has, if any.
 nlohmann::json shot_object(const Shot& shot);
 
 /// Numbers per atom, in the order of Surface::atoms; an empty vector leaves the attribute out.

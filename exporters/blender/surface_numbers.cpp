@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/mesh/mesh_objects.h"
+#include "core/mesh/open_sky.h"
 #include "core/mesh/smoothed_curvature.h"
 #include "core/queries/surface_point.h"
 #include "core/surface/atom_areas.h"
@@ -115,6 +116,7 @@ std::string add_surface_numbers(MeshedObject& object, const SurfaceNumbers& want
   adding.add_curvatures("", [&] { return exact_curvatures(surface, object.mesh); });
   const std::string without_smoothed = add_smoothed(object, adding, wanted.by_name);
   const std::string without_areas = add_areas_of_atoms(object, adding, wanted.by_name);
+  if (adding.wants("open_sky")) object.numbers.push_back({"open_sky", vertex_open_sky(surface, object.mesh)});
   if (adding.wants("patch_area")) add_areas_of_patches(object);
   if (adding.wants("buried_area") && !buried.empty()) add_buried_areas(object, buried);
   return without_smoothed.empty() || without_areas.empty() ? without_smoothed + without_areas

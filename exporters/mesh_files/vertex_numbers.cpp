@@ -12,6 +12,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/mesh/mesh_colors.h"
+#include "core/mesh/open_sky.h"
 #include "core/mesh/smoothed_curvature.h"
 #include "core/queries/surface_point.h"
 #include "core/structure/element_tables.h"
@@ -82,6 +83,17 @@ Values component_of(const NumberSource& source) {
   return values;
 }
 
+/// Of shapes beside the surface there is none.
+Values skies(const NumberSource& source) {
+  const std::vector<float> seen = vertex_open_sky(source.object.surface, source.mesh.mesh);
+  return of_faces(source, [&](std::uint32_t, std::uint32_t v) { return seen[v]; });
+}
+
+Values atom_skies(const NumberSource& source) {
+  const std::vector<double> means = atom_open_sky(source.object.surface, source.mesh.mesh);
+  return of_faces(source, [&](std::uint32_t, std::uint32_t v) { return means[source.mesh.vertex_atom[v]]; });
+}
+
 struct Column {
   VertexNumberKind kind;
   Values (*values)(const NumberSource&);
@@ -124,6 +136,8 @@ const auto kColumns = std::to_array<Column>({
      [](const NumberSource& s) {
        return of_faces(s, [&](std::uint32_t face, std::uint32_t) { return s.object.surface.faces[face].area; });
      }},
+    {{"open_sky", "share of the sky it sees past the surface, by cosine, 0 to 1", false, false}, skies},
+    {{"atom_open_sky", "its mean over the atom's surface", false, false}, atom_skies},
     {{"charge", "partial charge of the atom, e", false, true},
      [](const NumberSource& s) { return of_atoms(s, [](const Atom& a) { return a.charge; }); }},
     {{"hydrophobicity", "of its residue (Kyte & Doolittle 1982)", false, true},

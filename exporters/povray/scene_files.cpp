@@ -177,7 +177,11 @@ std::string main_text(std::span<const Camera> cameras, const SceneOptions& optio
     return frames ? "#include concat(\"" + name + "_\", Meniscus_Frame_Name, \".inc\")"
                   : "#include \"" + name + ".inc\"";
   };
-  out.literal(filled(scene_template("main.pov"), {{"NAME", options.name}}));
+  SceneText shadows, softness;
+  shadows.ratio(static_cast<double>(options.shadows));
+  softness.ratio(static_cast<double>(options.shadow_softness));
+  out.literal(filled(scene_template("main.pov"),
+                     {{"NAME", options.name}, {"SHADOWS", shadows.text()}, {"SOFTNESS", softness.text()}}));
   const auto add_surface = [&](bool single, const std::string& geometry, const std::string& caps,
                                const std::string& handle) {
     out.literal(

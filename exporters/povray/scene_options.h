@@ -48,6 +48,8 @@ struct SceneOptions {
   int width = 1280, height = 960;        ///< pixels
   Material material = Material::opaque;  ///< the scene's default; every scene holds all of them
   glm::vec3 background{1.0f};            ///< sRGB
+  float shadows = 0.0f;                  ///< Look::shadows
+  float shadow_softness = 0.0f;          ///< Look::shadow_softness
   Existing existing = Existing::refuse;
   std::optional<glm::dvec3> origin;  ///< Å: where coordinates of the scene begin; nothing: the middle of all atoms
   const ColoredShapes* shapes = nullptr;  ///< beside the surface; nothing, or none: no file of them

@@ -32,29 +32,50 @@ GEOMETRY SurfacePoint surface_point(Primitive primitive, real3 p) {
   return point;
 }
 
+// What reaches a point of the key light.
+struct KeyLight {
+  real diffuse;  // as much as the surface is turned towards it
+  real open;     // share of the lamp that nothing covers
+};
+
+// With nothing before the lamp. Wrapped diffuse light: a soft terminator, as from a large lamp.
+GEOMETRY KeyLight open_key_light(real3 n) {
+  KeyLight key;
+  key.diffuse = max((dot(n, params.key_direction) + 0.25) / 1.25, 0.0);
+  key.open = real(1.0);
+  return key;
+}
+
 // Key light (unless set otherwise from the upper left behind the camera), a dim fill from the right, a sky that is
 // brighter above, and a little sheen. All directions are in the camera's axes (x right, y up, z towards the camera);
 // colours are linear.
-GEOMETRY real3 studio_light(real3 albedo, real3 n, real3 to_camera) {
-  // Wrapped diffuse light: a soft terminator, as from a large lamp.
-  real key_light = max((dot(n, params.key_direction) + 0.25) / 1.25, 0.0);
+GEOMETRY real3 studio_light(real3 albedo, real3 n, real3 to_camera, KeyLight key) {
   real fill_light = max((dot(n, params.fill_direction) + 0.3) / 1.3, 0.0);
   real sky = 0.5 + 0.5 * n.y;
   real facing = max(dot(n, to_camera), 0.0);
-  real falloff = mix(key_light, real(1.0), real(params.roughness));
-  real3 light = params.key_strength * (params.key_color * (params.key_share * key_light * falloff)) +
+  real falloff = mix(key.diffuse, real(1.0), real(params.roughness));
+  real3 light = params.key_strength * (params.key_color * (params.key_share * key.diffuse * falloff)) +
                 params.fill_color * (params.fill_share * fill_light) +
                 mix(real3(params.ground), real3(params.sky), sky) * (0.35 + 0.65 * facing);
-  if (params.ambient > 0.0) light = mix(light, real3(1.0), real(params.ambient));
+  // What comes evenly from everywhere comes from the lamp as well: in its shadow there is less.
+  if (params.ambient > 0.0) light = mix(light, real3(1.0 - params.key_share * (1.0 - key.open)), real(params.ambient));
   if (params.specular == 0.0) return albedo * light;
-  return albedo * light + real3(sheen(n, to_camera, params.key_direction, params.key_strength, params.specular,
-                                      params.shininess));
+  return albedo * light + real3(key.open * sheen(n, to_camera, params.key_direction, params.key_strength,
+                                                 params.specular, params.shininess));
+}
+
+GEOMETRY real3 in_camera_axes(real3 v) {
+  return real3(dot(v, view.right), dot(v, view.up), -dot(v, view.forward));
+}
+
+// Towards the camera's side, for surfaces are seen from inside the solid, or through what is hidden, too.
+GEOMETRY real3 shown_normal(real3 normal, real3 d) {
+  real3 n = in_camera_axes(normal);
+  return select(dot(n, -in_camera_axes(d)) < 0.0, -n, n);
 }
 
 // A colour in that light where a ray of direction d meets a surface with this normal.
 GEOMETRY real3 lit(real3 albedo, real3 normal, real3 d) {
-  real3 n = real3(dot(normal, view.right), dot(normal, view.up), -dot(normal, view.forward));
-  real3 to_camera = -real3(dot(d, view.right), dot(d, view.up), -dot(d, view.forward));
-  // Seen from inside the solid, or through what is hidden.
-  return studio_light(albedo, select(dot(n, to_camera) < 0.0, -n, n), to_camera);
+  real3 n = shown_normal(normal, d);
+  return studio_light(albedo, n, -in_camera_axes(d), open_key_light(n));
 }

@@ -96,10 +96,11 @@ void CpuRenderer::BlockSamples::resize(std::size_t pixel_count, bool has_parts, 
   visibility.assign(pixel_count + 1, 1.0f);
 }
 
-LaneSamples CpuRenderer::BlockSamples::lanes() {
+LaneSamples CpuRenderer::BlockSamples::lanes(bool has_visibility) {
   return {color.data(),
           depth.data(),
           {normal[0].data(), normal[1].data(), normal[2].data()},
+          has_visibility ? visibility.data() : nullptr,
           part.empty() ? nullptr : part.data(),
           over.empty() ? nullptr : over.data()};
 }
@@ -110,22 +111,40 @@ void CpuRenderer::begin(const Camera& camera, const RenderSettings& settings) {
   drawn_ = false;
   places_.clear();
   layers_.reset();
+  occluders_.reset();
+  scene_.lanes.light = nullptr;
   clock_ = StageClock(settings.timing);
+}
+
+template <typename Object>
+void CpuRenderer::trace_light(std::span<const Object> objects, float slack, const RenderSettings& settings) {
+  if (!settings.look.traces_light()) return;
+  const auto stage = clock_.stage("occluders");
+  occluders_.emplace(frame_.pivot, slack);
+  for (const Object& object : objects) occluders_->add(object);
+  occluders_->aim(settings.look, frame_.basis, settings.samples);
 }
 
 void CpuRenderer::pack(const Surface& surface, const Coloring& coloring, const Camera& camera,
                        const RenderSettings& settings) {
   begin(camera, settings);
-  const auto stage = clock_.stage("pack");
-  frame_ = make_picture_frame(surface.atoms, camera, settings.size);
-  pack_scene(surface, coloring, frame_, scene_.packed);
-  scene_.placement = place_atoms(surface.atoms, surface.probe_radius, frame_);
-  scene_.colors = linear_colors(coloring);
-  scene_.parts.assign(coloring.part.begin(), coloring.part.end());
-  scene_.lanes.paint = {};
-  scene_.keeps_color.clear();
-  scene_.add_paint(coloring, frame_.pivot);
-  scene_.connect(settings.look, coloring.kind.has_value(), coloring.hides_some());
+  {
+    const auto stage = clock_.stage("pack");
+    frame_ = make_picture_frame(surface.atoms, camera, settings.size);
+    pack_scene(surface, coloring, frame_, scene_.packed);
+    scene_.placement = place_atoms(surface.atoms, surface.probe_radius, frame_);
+    scene_.colors = linear_colors(coloring);
+    scene_.parts.assign(coloring.part.begin(), coloring.part.end());
+    scene_.lanes.paint = {};
+    scene_.keeps_color.clear();
+    scene_.add_paint(coloring, frame_.pivot);
+    scene_.connect(settings.look, coloring.kind.has_value(), coloring.hides_some());
+  }
+  PictureObject whole;
+  whole.surface = &surface;
+  whole.coloring = &coloring;
+  trace_light(std::span<const PictureObject>(&whole, 1), scene_.placement.slack, settings);
+  scene_.lanes.light = light();
 }
 
 Framebuffer CpuRenderer::render(const Surface& surface, const Coloring& coloring, const Camera& camera,
@@ -154,7 +173,9 @@ ScenePlacement CpuRenderer::place_copies(std::span<const SurfaceObject> objects,
   const auto stage = clock_.stage("frame");
   const std::vector<BallGroup> groups = ball_groups(objects);
   frame_ = make_picture_frame(groups, camera, settings.size);
-  return place_atoms(groups, objects.front().surface.probe_radius, frame_);
+  const ScenePlacement placement = place_atoms(groups, objects.front().surface.probe_radius, frame_);
+  trace_light(objects, placement.slack, settings);
+  return placement;
 }
 
 void CpuRenderer::cast_shade_map_of_copies(std::span<const SurfaceObject> objects, const ScenePlacement& placement,
@@ -184,7 +205,9 @@ Framebuffer CpuRenderer::render_copies(std::span<const SurfaceObject> objects, c
     const PictureBlock block = with_neighbors(inner, look_reach(settings.look, settings.size), settings.size);
     {
       const auto stage = clock_.stage("visible copies");
+      scene_.lanes.light = nullptr;  // what shows does not depend on it
       copies.find(block, settings.samples, settings.look, scene_);
+      scene_.lanes.light = light();
     }
     cast({frame_, block, settings, settings.aovs}, progress.interruption());
     collector.add_colors(inner, block, sums_);
@@ -224,6 +247,8 @@ Framebuffer CpuRenderer::render(std::span<const PictureObject> objects, const Ca
     const auto stage = clock_.stage("pack");
     layers.emplace(objects, frame_, scene_.placement, settings.look);
   }
+  trace_light(objects, scene_.placement.slack, settings);
+  layers->set_light(light());
   RenderSettings finish = settings;
   if (layers->casts_highlights()) finish.look.material.specular = 0.0f;
   std::vector<HitSource> sources;
@@ -271,6 +296,7 @@ bool CpuRenderer::draw_copies(std::span<const SurfaceObject> objects, const Came
     copies.find(whole, settings.samples, settings.look, scene_, [&] { return interruption.came(); });
   }
   if (interruption.came()) return false;
+  scene_.lanes.light = light();
   cast({frame_, whole, settings, true}, interruption);
   if (interruption.came()) return false;
   present(settings);
@@ -289,6 +315,8 @@ bool CpuRenderer::draw(std::span<const PictureObject> objects, const Camera& cam
     const auto stage = clock_.stage("pack");
     layers_.emplace(objects, frame_, scene_.placement, settings.look);
   }
+  trace_light(objects, scene_.placement.slack, settings);
+  layers_->set_light(light());
   Interruption interruption(stop);
   const PictureBlock whole{{0, 0}, settings.size};
   if (needs_shade_map(whole, settings)) cast_shade_map(shade_map_frame(frame_), settings, interruption, &*layers_);
@@ -355,7 +383,17 @@ void CpuRenderer::cast_shade_map(const PictureFrame& map, const RenderSettings& 
   samples_.resize(texel_count, has_parts, layers != nullptr);
   const bool has_front = layers && layers->shows_through();
   if (has_front) front_.resize(texel_count, has_parts, false);
-  cast_samples(0, 1, {map, whole, settings, false, layers}, interruption);
+  RenderSettings depths = settings;
+  depths.look.ambient_occlusion_rays = 0.0f;
+  const auto light_through = [&](const LaneLight* light) {
+    if (layers)
+      layers->set_light(light);
+    else
+      scene_.lanes.light = light;
+  };
+  light_through(nullptr);
+  cast_samples(0, 1, {map, whole, depths, false, layers}, interruption);
+  light_through(light());
   shade_map_.swap(samples_.depth);
   if (has_front) front_shade_map_.swap(front_.depth);
 }
@@ -375,7 +413,8 @@ void CpuRenderer::cast(const BlockTask& task, Interruption& interruption) {
     interruption.note(first, task.settings.samples);
     cast_samples(first, std::min(step, task.settings.samples - first), task, interruption);
     if (!look.has_effects()) continue;
-    if (look.ambient_occlusion > 0.0f && first == 0 && holds_shade_map(task.block, task.settings.size)) {
+    if (look.ambient_occlusion > 0.0f && !look.traces_sky() && first == 0 &&
+        holds_shade_map(task.block, task.settings.size)) {
       shade_map_ = samples_.depth;
       if (has_front) front_shade_map_ = front_.depth;
     }
@@ -386,14 +425,16 @@ void CpuRenderer::cast(const BlockTask& task, Interruption& interruption) {
 void CpuRenderer::cast_samples(int first, int count, const BlockTask& task, Interruption& interruption) {
   const auto stage = clock_.stage("ray cast");
   LaneTile samples;
+  samples.first_sample = first;
   samples.sample_count = count;
   for (int n = 0; n < count; ++n) samples.offset[n] = sample_offset(first + n);
   samples.hits = task.hits && first == 0 ? hits_.data() : nullptr;
   if (task.settings.look.has_effects())
-    samples.samples = samples_.lanes();
+    samples.samples = samples_.lanes(task.settings.look.traces_sky());
   else
     samples.sums = sums_.data();
-  if (task.settings.look.has_effects() && task.layers && task.layers->shows_through()) samples.front = front_.lanes();
+  if (task.settings.look.has_effects() && task.layers && task.layers->shows_through())
+    samples.front = front_.lanes(task.settings.look.traces_sky());
   const glm::ivec2 tiles = tile_counts(task.block);
   for_each_until(interruption, tiles.x * tiles.y, [&](int tile) {
     if (task.layers)
@@ -421,12 +462,12 @@ void CpuRenderer::look_at(int sample, const RenderSettings& settings, bool has_p
   task.view.sample_offset = sample_offset(sample);
   task.occlusion = occlusion_parameters(look, settings.size, sample);
   task.finish = finish_parameters(look, scene_.placement, settings.size, sample, has_parts);
-  task.samples = samples_.lanes();
+  task.samples = samples_.lanes(look.traces_sky());
   task.shade_map = shade_map_.data();
   task.visibility = samples_.visibility.data();
   task.sums = sums_.data();
   if (has_front) look_at_front(task, settings, interruption);
-  if (look.ambient_occlusion > 0.0f)
+  if (look.ambient_occlusion > 0.0f && !look.traces_sky())
     for_each_until(interruption, task.view.size.y, [&](int y) { kernels_.occlude_row(task, y); });
   for_each_until(interruption, task.view.size.y, [&](int y) { kernels_.finish_row(task, y); });
 }
@@ -436,13 +477,13 @@ void CpuRenderer::look_at_front(LaneLook task, const RenderSettings& settings, I
   const std::size_t pixel_count = static_cast<std::size_t>(size.x) * size.y;
   front_sums_.assign(pixel_count, glm::vec4(0.0f));
   front_ink_.assign(pixel_count, 0.0f);
-  task.samples = front_.lanes();
+  task.samples = front_.lanes(settings.look.traces_sky());
   task.finish.specular = 0.0f;  // highlights are in what is cast
   task.shade_map = front_shade_map_.data();
   task.visibility = front_.visibility.data();
   task.sums = front_sums_.data();
   task.ink = front_ink_.data();
-  if (settings.look.ambient_occlusion > 0.0f)
+  if (settings.look.ambient_occlusion > 0.0f && !settings.look.traces_sky())
     for_each_until(interruption, size.y, [&](int y) { kernels_.occlude_row(task, y); });
   for_each_until(interruption, size.y, [&](int y) { kernels_.finish_row(task, y); });
   const int reach = static_cast<int>(std::ceil(0.5f * settings.look.widest_line() + 0.5f));

@@ -17,6 +17,7 @@
 #include "core/render/cpu/host_scene.h"
 #include "core/render/cpu/lane_kernels.h"
 #include "core/render/cpu/layered_scene.h"
+#include "core/render/cpu/occluders.h"
 #include "core/render/cpu/visible_copies.h"
 #include "core/render/hit_point.h"
 #include "core/render/surface_renderer.h"
@@ -68,7 +69,7 @@ class CpuRenderer final : public SurfaceRenderer {
     std::vector<float> depth, normal[3], part, visibility;
 
     void resize(std::size_t pixel_count, bool has_parts, bool has_layers);
-    LaneSamples lanes();
+    LaneSamples lanes(bool has_visibility);
   };
 
   /// What is made of a block.
@@ -82,6 +83,10 @@ class CpuRenderer final : public SurfaceRenderer {
 
   void begin(const Camera& camera, const RenderSettings& settings);
   ScenePlacement place(std::span<const PictureObject> objects, const Camera& camera, const RenderSettings& settings);
+  /// What the light of the picture meets, once its frame is known; nothing where the look traces no light.
+  template <typename Object>
+  void trace_light(std::span<const Object> objects, float slack, const RenderSettings& settings);
+  const LaneLight* light() const { return occluders_ ? occluders_->light() : nullptr; }
   void pack(const Surface& surface, const Coloring& coloring, const Camera& camera, const RenderSettings& settings);
   ScenePlacement place_copies(std::span<const SurfaceObject> objects, const Camera& camera,
                               const RenderSettings& settings);
@@ -102,8 +107,9 @@ class CpuRenderer final : public SurfaceRenderer {
   const LaneKernels& kernels_;
   const std::size_t patches_together_;
   StageClock clock_;
-  PictureFrame frame_;  // of the picture at work, and when it is drawn, of that
-  HostScene scene_;     // likewise; of copies, what its last block shows
+  PictureFrame frame_;                  // of the picture at work, and when it is drawn, of that
+  HostScene scene_;                     // likewise; of copies, what its last block shows
+  std::optional<Occluders> occluders_;  // of the picture at work, if its light is traced
   CpuTileLists lists_;
   tbb::enumerable_thread_specific<SortedList> sorted_;
   std::vector<glm::vec4> sums_;

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -32,6 +33,30 @@ struct PointPaint {
 glm::vec3 painted(const PointPaint& paint, std::uint32_t atom, const glm::vec4& atom_color, const glm::vec3& x,
                   const glm::vec3& normal);
 
+/// A box of a tree over the primitives of an object; low and high are relative to the pivot.
+struct OccluderBox {
+  glm::vec3 low;
+  std::uint32_t first;  ///< of a leaf: in LaneOccluder::order; else its second child, for the first one follows it
+  glm::vec3 high;
+  std::uint32_t count;  ///< of a leaf's primitives; 0: it has two children
+};
+
+struct LaneOccluder;
+
+/// Where light comes from, and what may keep it away. Directions are towards the light, of length 1, in the molecule's
+/// axes; each sample of a pixel takes those that follow the last sample's.
+struct LaneLight {
+  const LaneOccluder* occluders = nullptr;
+  int occluder_count = 0;
+  const glm::vec3* lamp = nullptr;  ///< over the disc of the key light
+  int lamp_rays = 0;                ///< of a sample; 0: it casts no shadows
+  float shadow = 0.0f;              ///< how dark those are, 0 to 1
+  const glm::vec3* sky = nullptr;   ///< over the whole sphere
+  int sky_rays = 0;                 ///< of a sample; 0: nobody asks what is seen of the sky
+  float sky_reach = 0.0f;           ///< Å: what is farther away covers nothing
+  float lift = 0.0f;                ///< Å by which rays begin above the surface
+};
+
 /// What a tile's rays are traced through; see gpu_shaders/ray_cast/records.glsl.
 struct LaneScene {
   const ray_cast::Primitive* primitives = nullptr;
@@ -41,7 +66,21 @@ struct LaneScene {
   bool some_hidden = false;
   PointPaint paint;
   kernel::RayCastParameters params{};
-  kernel::BlockView view{};  ///< but for its sample_offset
+  kernel::BlockView view{};          ///< but for its sample_offset
+  const LaneLight* light = nullptr;  ///< nullptr: light goes through everything
+};
+
+/// All of one object that keeps light away: what is opaque. Its scene is seen by nobody.
+struct LaneOccluder {
+  LaneScene scene;
+  const OccluderBox* boxes = nullptr;    ///< the first is around all; nullptr: there is nothing
+  const std::uint32_t* order = nullptr;  ///< of its primitives
+  const glm::vec4* planes = nullptr;     ///< as LayerTask::planes
+  int plane_count = 0;
+  glm::mat3 turn{1.0f};  ///< of a point x of the picture, turn * x + shift is where it is in the object's own place
+  glm::vec3 shift{0.0f};
+  bool is_solid = false;   ///< where planes cut it there are caps
+  bool is_opaque = false;  ///< all of it
 };
 
 /// A tile's primitives by rising Primitive::nearest; each array goes on for kListPadding entries that no ray meets.
@@ -58,11 +97,12 @@ struct LaneList {
 
 /// What is known of one sample of each pixel of a block, row by row.
 struct LaneSamples {
-  glm::vec4* color = nullptr;  ///< linear, premultiplied
-  float* depth = nullptr;      ///< along the view axis, Å; kernel::kNothing where nothing is met
-  float* normal[3] = {};       ///< towards the solvent, in the molecule's axes
-  float* part = nullptr;       ///< LaneScene::parts of what is met, else 0; nullptr if there are none
-  glm::vec4* over = nullptr;   ///< what is seen through before all of this, premultiplied; nullptr: nothing
+  glm::vec4* color = nullptr;   ///< linear, premultiplied
+  float* depth = nullptr;       ///< along the view axis, Å; kernel::kNothing where nothing is met
+  float* normal[3] = {};        ///< towards the solvent, in the molecule's axes
+  float* visibility = nullptr;  ///< what it sees of the sky, by rays; nullptr: LaneLight::sky_rays is 0
+  float* part = nullptr;        ///< LaneScene::parts of what is met, else 0; nullptr if there are none
+  glm::vec4* over = nullptr;    ///< what is seen through before all of this, premultiplied; nullptr: nothing
 };
 
 /// Some samples of a tile's pixels.
@@ -74,6 +114,7 @@ struct LaneTile {
     return static_cast<std::uint32_t>((sample * kernel::kTileEdge + y) * kernel::kTileEdge + x);
   }
   glm::ivec2 origin{0};              ///< in the block, pixels
+  int first_sample = 0;              ///< of all that the pixels get
   int sample_count = 1;              ///< 1 to kMostSamples
   glm::vec2 offset[kMostSamples]{};  ///< of the samples from the pixels' centres
   LaneList list;
@@ -93,10 +134,11 @@ struct LayerHit {
   std::uint32_t layer = 0;      ///< for the host, which sets it
   std::uint32_t primitive = 0;  ///< kOnPlane where a plane cuts the layer
   std::uint32_t atom = 0;
-  float facing = 0.0f;     ///< normal . direction of the ray: it goes into the solid where this is negative
-  float depth = 0.0f;      ///< along the view axis, Å
-  glm::vec4 color{0.0f};   ///< lit, linear, not premultiplied; alpha: opacity
-  glm::vec3 normal{0.0f};  ///< towards the solvent
+  float facing = 0.0f;      ///< normal . direction of the ray: it goes into the solid where this is negative
+  float depth = 0.0f;       ///< along the view axis, Å
+  glm::vec4 color{0.0f};    ///< lit, linear, not premultiplied; alpha: opacity
+  glm::vec3 normal{0.0f};   ///< towards the solvent
+  float visibility = 1.0f;  ///< LaneSamples::visibility
 };
 
 /// Room for hits; the kernels ask for more of it.
@@ -144,6 +186,9 @@ struct LaneKernels {
   void (*cast_layer)(const LaneScene& scene, const LaneTile& tile, const LayerTask& task, LayerHits& hits);
   /// Lights points on planes, whose t, ray, normal and colour are given; sets their depth.
   void (*light_points)(const LaneScene& scene, const LaneTile& tile, LayerHit* points, std::uint32_t count);
+  /// What points, relative to the pivot, see of light.sky, all of it; normals towards the solvent.
+  void (*see_sky)(const LaneLight& light, const glm::vec3* points, const glm::vec3* normals, float* seen,
+                  std::uint32_t count);
   void (*occlude_row)(const LaneLook& look, int y);  ///< what hits see of the sky, into visibility
   void (*finish_row)(const LaneLook& look, int y);   ///< needs the visibility of two rows around
 };

@@ -10,8 +10,13 @@
 namespace meniscus {
 
 const LaneKernels* kernels_of_4_lanes() {
-  static constexpr LaneKernels kernels{
-      4, lanes_4::cast_tile, lanes_4::cast_layer, lanes_4::light_points, lanes_4::occlude_row, lanes_4::finish_row};
+  static constexpr LaneKernels kernels{4,
+                                       lanes_4::cast_tile,
+                                       lanes_4::cast_layer,
+                                       lanes_4::light_points,
+                                       lanes_4::see_sky,
+                                       lanes_4::occlude_row,
+                                       lanes_4::finish_row};
   return &kernels;
 }
 

@@ -25,8 +25,13 @@
 namespace meniscus {
 
 const LaneKernels* kernels_of_8_lanes() {
-  static constexpr LaneKernels kernels{
-      8, lanes_8::cast_tile, lanes_8::cast_layer, lanes_8::light_points, lanes_8::occlude_row, lanes_8::finish_row};
+  static constexpr LaneKernels kernels{8,
+                                       lanes_8::cast_tile,
+                                       lanes_8::cast_layer,
+                                       lanes_8::light_points,
+                                       lanes_8::see_sky,
+                                       lanes_8::occlude_row,
+                                       lanes_8::finish_row};
   return processor_has_avx2() ? &kernels : nullptr;
 }
 

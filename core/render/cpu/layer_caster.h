@@ -20,10 +20,11 @@ class LayerBundle : Bundle {
       trace([this](uint index) { collect(index); });
       return;
     }
-    trace([this](uint index) { meet(index); });
+    trace([this](uint index) { meet(index, rays_, packet_count_); });
     for (int n = 0; n < packet_count_; ++n) {
       const Shaded shaded = shade(n);
-      add(n, shaded.met, rays_[n].t, rays_[n].primitive, {shaded.normal, shaded.atom}, shaded.color);
+      add(n, shaded.met, rays_[n].t, rays_[n].primitive, {shaded.normal, shaded.atom},
+          {shaded.color, shaded.visibility});
     }
   }
 
@@ -128,11 +129,11 @@ class LayerBundle : Bundle {
     const Primitive& primitive = load_primitive(index);
     const real3 x = rays.p + rays.d * t;
     const SurfacePoint point = point_of(primitive, x);
-    const real3 color = lit(albedo(found, natural(primitive.kind), x, point), point.normal, rays.d);
-    add(packet, found, t, natural(index), point, color);
+    const real3 color = albedo(found, natural(primitive.kind), x, point);
+    add(packet, found, t, natural(index), point, lit_at(color, {x, point.normal, rays.d, found}, sample_of(packet)));
   }
 
-  void add(int packet, truth found, real t, natural primitive, const SurfacePoint& point, const real3& color) {
+  void add(int packet, truth found, real t, natural primitive, const SurfacePoint& point, const Lighted& lighted) {
     const Rays& rays = rays_[packet];
     const real depth = depth_at(rays.d, t), facing = dot(point.normal, rays.d);
     for (uint left = bits(found); left != 0; left &= left - 1) {
@@ -147,8 +148,9 @@ class LayerBundle : Bundle {
       hit.atom = lane(point.atom, n);
       hit.facing = lane(facing, n);
       hit.depth = lane(depth, n);
-      hit.color = vec4(lane_of(color, n), task_.all ? opacity(hit.atom, lane(facing, n)) : 1.0f);
+      hit.color = vec4(lane_of(lighted.color, n), task_.all ? opacity(hit.atom, lane(facing, n)) : 1.0f);
       hit.normal = lane_of(point.normal, n);
+      hit.visibility = lane(lighted.visibility, n);
     }
   }
 
@@ -169,14 +171,18 @@ inline void cast_layer(const LaneScene& scene, const LaneTile& tile, const Layer
 }
 
 /// Points of a tile's rays, a packet of them at a time.
-class PointLighter : TracedScene {
+class PointLighter : LightedScene {
  public:
   PointLighter(const LaneScene& scene, const LaneTile& tile)
-      : TracedScene(scene), tile_(tile), first_offset_(scene.view.first_offset) {
+      : LightedScene(scene), tile_(tile), first_offset_(scene.view.first_offset) {
     // Places hold both: whole numbers are added first, so that there is one rounding, as for rays.
     view.first_offset = view.sample_offset = vec2(0.0f);
   }
 
+  /// Of the tile's.
+  static std::uint32_t sample_of(const LayerHit& point) { return point.ray / (kernel::kTileEdge * kernel::kTileEdge); }
+
+  /// Points of one sample.
   void light(LayerHit* points, int count) {
     Floats x, y;
     real t;
@@ -184,7 +190,7 @@ class PointLighter : TracedScene {
     for (int n = 0; n < kLanes; ++n) {
       const LayerHit& point = points[n < count ? n : 0];
       const int in_tile = static_cast<int>(point.ray) % (kernel::kTileEdge * kernel::kTileEdge);
-      const vec2 offset = tile_.offset[point.ray / (kernel::kTileEdge * kernel::kTileEdge)];
+      const vec2 offset = tile_.offset[sample_of(point)];
       x[n] = first_offset_.x + static_cast<float>(tile_.origin.x + in_tile % kernel::kTileEdge) + offset.x;
       y[n] = first_offset_.y + static_cast<float>(tile_.origin.y + in_tile / kernel::kTileEdge) + offset.y;
       t.v[n] = point.t;
@@ -192,29 +198,29 @@ class PointLighter : TracedScene {
       put(vec3(point.color), n, albedo);
     }
     const real3 p = ray_point_at(real2(x, y)), d = ray_direction(p);
-    const real3 color = lit(albedo, normal, d);
+    const truth met = lane_numbers() < integer(count);
+    const int sample = tile_.first_sample + static_cast<int>(sample_of(points[0]));
+    const Lighted lighted = lit_at(albedo, {p + d * t, normal, d, met}, sample);
     const real depth = depth_at(d, t);
     for (int n = 0; n < count; ++n) {
-      points[n].color = vec4(lane(color.x, n), lane(color.y, n), lane(color.z, n), points[n].color.w);
+      points[n].color = vec4(lane_of(lighted.color, n), points[n].color.w);
+      points[n].visibility = lane(lighted.visibility, n);
       points[n].depth = lane(depth, n);
     }
   }
 
  private:
-  static void put(const vec3& value, int n, real3& lanes) {
-    lanes.x.v[n] = value.x;
-    lanes.y.v[n] = value.y;
-    lanes.z.v[n] = value.z;
-  }
-
   const LaneTile& tile_;
   const vec2 first_offset_;
 };
 
 inline void light_points(const LaneScene& scene, const LaneTile& tile, LayerHit* points, std::uint32_t count) {
   PointLighter lighter(scene, tile);
-  for (std::uint32_t first = 0; first < count; first += kLanes)
-    lighter.light(points + first, count - first < kLanes ? static_cast<int>(count - first) : kLanes);
+  for (std::uint32_t first = 0, end = 0; first < count; first = end) {
+    const std::uint32_t sample = PointLighter::sample_of(points[first]);
+    while (end < count && end - first < kLanes && PointLighter::sample_of(points[end]) == sample) ++end;
+    lighter.light(points + first, static_cast<int>(end - first));
+  }
 }
 
 }  // namespace meniscus::MENISCUS_LANE_NAMESPACE

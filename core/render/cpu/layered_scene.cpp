@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -180,15 +181,16 @@ void LayeredScene::cut(std::uint32_t number, std::size_t first_hit, const TileWo
   std::sort(begin, hits.end(), [](const LayerHit& a, const LayerHit& b) {
     return std::tie(a.ray, a.t, a.primitive) < std::tie(b.ray, b.t, b.primitive);
   });
-  std::vector<LayerHit> caps;
+  std::vector<Cap> caps;
   const auto add_cap = [&](std::uint32_t ray, float t, std::uint32_t plane, float facing) {
-    LayerHit cap;
+    Cap cap;
     cap.t = t;
     cap.ray = ray;
     cap.layer = number;
     cap.primitive = kOnPlane;
     cap.facing = facing;
-    color_cap(layer, plane, work.task, cap);
+    cap.plane = plane;
+    cap.point = cap_point(work.task, cap);
     caps.push_back(cap);
   };
   const bool has_caps = layer.object->surface != nullptr;
@@ -206,36 +208,58 @@ void LayeredScene::cut(std::uint32_t number, std::size_t first_hit, const TileWo
     for (; n < hits.size() && hits[n].ray == ray; ++n) hits[n].t = kFar;  // cut away
   }
   std::erase_if(hits, [](const LayerHit& hit) { return hit.t == kFar; });
-  work.kernels.light_points(layer.scene.lanes, work.task, caps.data(), static_cast<std::uint32_t>(caps.size()));
+  for (std::size_t n = 0, end = 0; n < caps.size(); n = end) {
+    while (end < caps.size() && caps[end].ray / kTileEdge == caps[n].ray / kTileEdge) ++end;  // of a row of pixels
+    color_caps(layer, std::span(caps).subspan(n, end - n));
+  }
+  const std::size_t first_cap = hits.size();
   hits.insert(hits.end(), caps.begin(), caps.end());
+  work.kernels.light_points(layer.scene.lanes, work.task, hits.data() + first_cap,
+                            static_cast<std::uint32_t>(caps.size()));
 }
 
-void LayeredScene::color_cap(const Layer& layer, std::uint32_t plane, const LaneTile& task, LayerHit& cap) const {
+glm::dvec3 LayeredScene::cap_point(const LaneTile& task, const LayerHit& cap) const {
   const glm::dvec2 pixel =
       glm::dvec2(block_.origin + pixel_of(task, cap.ray)) + 0.5 + glm::dvec2(task.offset[sample_of(cap.ray)]);
-  const Ray ray = pixel_ray(frame_.camera, frame_.size, pixel);
-  const glm::dvec3 point =
-      ray.origin + ray.direction * (cap.t + frame_.eye_distance / glm::dot(ray.direction, frame_.basis.forward));
-  const ClipPlane& cut = layer.object->clip[plane];
-  cap.normal = glm::vec3(cut.normal);
-  double nearest = std::numeric_limits<double>::infinity();
-  layer.atoms->for_each_near(point, layer.farthest_atom + 1e-3, [&](std::uint32_t a) {
-    const Ball& ball = layer.object->surface->atoms[a];
-    const double distance = glm::length(point - ball.center) - ball.radius;
-    if (std::tie(distance, a) >= std::tie(nearest, cap.atom)) return;
-    nearest = distance;
-    cap.atom = a;
-  });
-  cap.color = layer.scene.colors[cap.atom];
+  const glm::dvec2 offset = (pixel - 0.5 * glm::dvec2(frame_.size)) * frame_.pixel_size;
+  const glm::dvec3 on_pivot_plane = frame_.basis.right * offset.x - frame_.basis.up * offset.y;
+  const glm::dvec3 direction = frame_.camera.projection == Projection::orthographic
+                                   ? frame_.basis.forward
+                                   : glm::normalize(frame_.basis.forward * frame_.eye_distance + on_pivot_plane);
+  return frame_.pivot + on_pivot_plane + direction * static_cast<double>(cap.t);
+}
+
+/// Caps beside each other: only atoms that are near enough to the middle of them are asked for each.
+void LayeredScene::color_caps(const Layer& layer, std::span<Cap> caps) const {
   const Coloring& coloring = *layer.object->coloring;
-  if (coloring.by_volume(cap.atom)) {
-    const VolumePaint& paint = *coloring.volume;
-    cap.color = glm::vec4(linear_from_srgb(paint.scale.color(paint.grid.sample(point))), cap.color.w);
+  const std::vector<Ball>& balls = layer.object->surface->atoms;
+  const glm::dvec3 middle = 0.5 * (caps.front().point + caps.back().point);
+  double reach = 0.0;
+  for (const Cap& cap : caps) reach = std::max(reach, glm::length(cap.point - middle));
+  std::vector<std::pair<double, std::uint32_t>> near;  // distances from the middle
+  double nearest = std::numeric_limits<double>::infinity();
+  layer.atoms->for_each_near(middle, layer.farthest_atom + reach + 1e-3, [&](std::uint32_t a) {
+    near.emplace_back(glm::length(middle - balls[a].center) - balls[a].radius, a);
+    nearest = std::min(nearest, near.back().first);
+  });
+  std::erase_if(near, [&](const auto& atom) { return atom.first > nearest + 2.0 * reach + 1e-6; });
+  for (Cap& cap : caps) {
+    std::pair<double, std::uint32_t> first{std::numeric_limits<double>::infinity(), 0};
+    for (const auto& [unused, a] : near)
+      first = std::min(first, {glm::length(cap.point - balls[a].center) - balls[a].radius, a});
+    cap.atom = first.second;
+    cap.color = layer.scene.colors[cap.atom];
+    cap.normal = glm::vec3(layer.object->clip[cap.plane].normal);
+    if (coloring.by_volume(cap.atom)) {
+      const VolumePaint& paint = *coloring.volume;
+      cap.color = glm::vec4(linear_from_srgb(paint.scale.color(paint.grid.sample(cap.point))), cap.color.w);
+    }
+    const CapStyle& style = layer.object->cap;
+    if (style.color) cap.color = glm::vec4(linear_from_srgb(*style.color), cap.color.w);
+    if (style.hatching > 0.0)
+      cap.color = glm::vec4(
+          glm::vec3(cap.color) * hatched(cap.point, layer.object->clip[cap.plane].normal, style.hatching), cap.color.w);
   }
-  const CapStyle& style = layer.object->cap;
-  if (style.color) cap.color = glm::vec4(linear_from_srgb(*style.color), cap.color.w);
-  if (style.hatching > 0.0)
-    cap.color = glm::vec4(glm::vec3(cap.color) * hatched(point, cut.normal, style.hatching), cap.color.w);
 }
 
 void LayeredScene::order_hits(Workplace& place) const {
@@ -297,6 +321,7 @@ void LayeredScene::put_together(const TileWork& work) const {
 
 void LayeredScene::write(const LaneSamples& samples, std::size_t at, const LayerHit* hit) const {
   samples.depth[at] = hit ? hit->depth : kernel::kNothing;
+  if (samples.visibility) samples.visibility[at] = hit ? hit->visibility : 1.0f;
   for (int axis = 0; axis < 3; ++axis) samples.normal[axis][at] = hit ? hit->normal[axis] : 0.0f;
   if (!samples.part) return;
   const std::vector<float>* const parts = hit ? &layers_[hit->layer].scene.parts : nullptr;

@@ -30,6 +30,10 @@ class LayeredScene {
 
   /// A block of a picture that is seen as that of the constructor, but may have other pixels.
   void begin_block(const PictureFrame& frame, const PictureBlock& block);
+  /// light: of LaneScene::light, for every object.
+  void set_light(const LaneLight* light) {
+    for (Layer& layer : layers_) layer.scene.lanes.light = light;
+  }
   bool has_parts() const { return has_parts_; }
   /// Whether something may be seen through.
   bool shows_through() const { return !layers_.empty() && layers_.back().translucent; }
@@ -74,7 +78,14 @@ class LayeredScene {
   void pack(Layer& layer, const ScenePlacement& placement, const Look& look) const;
   void cast_layer(std::uint32_t number, std::size_t tile, const TileWork& work);
   void cut(std::uint32_t number, std::size_t first_hit, const TileWork& work) const;
-  void color_cap(const Layer& layer, std::uint32_t plane, const LaneTile& task, LayerHit& cap) const;
+  /// A point of a cap, on which plane.
+  struct Cap : LayerHit {
+    std::uint32_t plane = 0;
+    glm::dvec3 point{0.0};  // Å
+  };
+
+  glm::dvec3 cap_point(const LaneTile& task, const LayerHit& cap) const;
+  void color_caps(const Layer& layer, std::span<Cap> caps) const;
   void order_hits(Workplace& place) const;
   void put_together(const TileWork& work) const;
   /// Of a sample what the look needs to know beside its colour; nullptr: nothing is met.

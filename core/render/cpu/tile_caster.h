@@ -5,28 +5,9 @@
 // them at a time, and what a patch's rows say is fetched once for all its rays. The bundle is the same for every width.
 #pragma once
 
-#include "core/render/cpu/lane_kernels.h"
-#include "core/render/cpu/packet.h"
+#include "core/render/cpu/shadow_rays.h"
 
 namespace meniscus::MENISCUS_LANE_NAMESPACE {
-
-using glm::vec2;
-using glm::vec3;
-using glm::vec4;
-using ray_cast::Hit;
-using ray_cast::kConcave;
-using ray_cast::kConvex;
-using ray_cast::kCylinder;
-using ray_cast::kNoPrimitive;
-using ray_cast::kToroidal;
-using ray_cast::kTriangle;
-using ray_cast::Primitive;
-
-inline uint floatBitsToUint(float a) { return std::bit_cast<uint>(a); }
-
-#include "gpu_shaders/geometry/patch_membership.glsl"
-#include "gpu_shaders/geometry/ray_shapes.glsl"
-#include "gpu_shaders/geometry/ray_torus.glsl"
 
 inline constexpr int kBundleEdge = 4;  // pixels
 inline constexpr int kPixelPackets = kBundleEdge * kBundleEdge / kLanes;
@@ -36,59 +17,16 @@ inline constexpr int kMostPackets = kPixelPackets * LaneTile::kMostSamples;
 inline constexpr int kPixelX[16] = {0, 1, 0, 1, 2, 3, 2, 3, 0, 1, 0, 1, 2, 3, 2, 3};
 inline constexpr int kPixelY[16] = {0, 0, 1, 1, 0, 0, 1, 1, 2, 2, 3, 3, 2, 2, 3, 3};
 
-/// The scene as the shared sources want to see it.
-struct TracedScene {
-  explicit TracedScene(const LaneScene& scene)
-      : scene_(scene), params(scene.params), view(scene.view), some_hidden(scene.some_hidden) {}
-
-  const vec4& row(uint index) const { return scene_.rows[index]; }
-  const Primitive& load_primitive(uint index) const { return scene_.primitives[index]; }
-  truth shows(natural atom) const {
-    Ints result;
-    for (int n = 0; n < kLanes; ++n) {
-      const uint a = lane(atom, n);
-      result[n] = a != kNoPrimitive && scene_.colors[a].w > 0.0f ? -1 : 0;
-    }
-    return result;
-  }
-
-  const LaneScene& scene_;
-  const kernel::RayCastParameters& params;
-  kernel::BlockView view;
-  const bool some_hidden;
-
-#include "gpu_shaders/ray_cast/pixel_rays.glsl"
-#include "gpu_shaders/ray_cast/touched_atom.glsl"
-#include "gpu_shaders/ray_cast/patch_hits.glsl"
-#include "gpu_shaders/ray_cast/sheen.glsl"
-#include "gpu_shaders/ray_cast/shade.glsl"
-#include "gpu_shaders/ray_cast/shape_hits.glsl"
-
-  /// Of a patch or a shape.
-  SurfacePoint point_of(const Primitive& primitive, const real3& p) {
-    if (primitive.kind == kCylinder) return cylinder_point(primitive, p);
-    if (primitive.kind == kTriangle) return triangle_point(primitive, p);
-    return surface_point(primitive, p);
-  }
-
-  /// Along the view axis, Å. Rays count from the pivot's plane; a perspective one is longer than its part along the
-  /// axis.
-  real depth_at(const real3& d, real t) const {
-    const real along = view.orthographic != 0u ? t : t * dot(d, view.forward);
-    return view.eye_distance + along;
-  }
-};
-
 /// The rays of a bundle and their nearest hits so far.
-class Bundle : protected TracedScene {
+class Bundle : protected LightedScene {
  public:
   Bundle(const LaneScene& scene, const LaneTile& tile, glm::ivec2 origin)
-      : TracedScene(scene), tile_(tile), origin_(origin), packet_count_(kPixelPackets * tile.sample_count) {
+      : LightedScene(scene), tile_(tile), origin_(origin), packet_count_(kPixelPackets * tile.sample_count) {
     aim();
   }
 
   void trace() {
-    trace([this](uint index) { meet(index); });
+    trace([this](uint index) { meet(index, rays_, packet_count_); });
   }
 
   void write() {
@@ -110,18 +48,11 @@ class Bundle : protected TracedScene {
   }
 
  protected:
-  struct Rays {
-    real3 p, d;
-    real eye_t;
-    real from;  // hits lie beyond it
-    real t;
-    natural primitive, kind, tie_key;
-  };
-
   struct Shaded {
     truth met;
     real3 color, normal;
     natural atom;
+    real visibility;
   };
 
   real2 place(int v) const {
@@ -182,81 +113,8 @@ class Bundle : protected TracedScene {
     }
   }
 
-  void meet(uint index) {
-    const Primitive& primitive = load_primitive(index);
-    if (primitive.kind == kToroidal) {
-      const TorusPatch saddle = load_torus(index);
-      for (int n = 0; n < packet_count_; ++n) meet_torus(index, saddle, rays_[n]);
-    } else if (primitive.kind == kCylinder) {
-      for (int n = 0; n < packet_count_; ++n) meet_stick(index, primitive, rays_[n]);
-    } else if (primitive.kind == kTriangle) {
-      for (int n = 0; n < packet_count_; ++n) meet_facet(index, primitive, rays_[n]);
-    } else {
-      const vec4 center = row(primitive.first_row);
-      for (int n = 0; n < packet_count_; ++n) meet_clipped_sphere(index, primitive, center, rays_[n]);
-    }
-  }
-
-  /// Keeps the nearer hit; of two at the same distance the same one in any order.
-  static void keep_nearest(uint index, const Primitive& primitive, truth met, real t, Rays& rays) {
-    const natural kind = primitive.kind, tie_key = primitive.tie_key;
-    const truth tie_won = kind < rays.kind || (kind == rays.kind && tie_key < rays.tie_key);
-    const truth wins = met && (t < rays.t || (t == rays.t && tie_won));
-    rays.t = select(wins, t, rays.t);
-    rays.primitive = select(wins, natural(index), rays.primitive);
-    rays.kind = select(wins, kind, rays.kind);
-    rays.tie_key = select(wins, tie_key, rays.tie_key);
-  }
-
-  truth on_patch(const Primitive& primitive, const real3& x, float radius, truth asked) {
-    const uint first = primitive.first_row + 1u, end = first + primitive.plane_count;
-    for (uint i = first; i < end; ++i) {
-      const vec4& plane = row(i);
-      asked = asked && in_half_space(x, vec3(plane), plane.w, params.slack);
-      if (!some(asked)) return asked;
-    }
-    if (some_hidden) asked = asked && shows_sphere_point(primitive, x, radius);
-    return asked;
-  }
-
-  void meet_clipped_sphere(uint index, const Primitive& primitive, const vec4& center, Rays& rays) {
-    const SphereMeeting meeting = meet_sphere(center, rays.p, rays.d);
-    if (!some(meeting.found)) return;
-    truth found = meeting.found && meeting.near_t > rays.from && meeting.near_t <= rays.t;
-    if (some(found)) {
-      found = on_patch(primitive, meeting.near_point, center.w, found);
-      keep_nearest(index, primitive, found, meeting.near_t, rays);
-    }
-    truth far_found = meeting.found && meeting.far_t > rays.from && !found && meeting.far_t <= rays.t;
-    if (!some(far_found)) return;
-    far_found = on_patch(primitive, meeting.far_point, center.w, far_found);
-    keep_nearest(index, primitive, far_found, meeting.far_t, rays);
-  }
-
-  void meet_torus(uint index, const TorusPatch& saddle, Rays& rays) {
-    LocalRay ray = to_torus(saddle, rays.p, rays.d);
-    ray.low = max(ray.low, rays.from - ray.shift);
-    const truth towards = goes_towards_torus(ray, rays.t);
-    if (!some(towards)) return;
-    ray.high = select(towards, ray.high, ray.low);
-    const real t = hit_torus(saddle, ray);
-    keep_nearest(index, saddle.primitive, t < real(kMiss), t, rays);
-  }
-
-  static void meet_at(uint index, const Primitive& primitive, truth found, real t, Rays& rays) {
-    keep_nearest(index, primitive, found && t > rays.from && t <= rays.t, t, rays);
-  }
-
-  void meet_stick(uint index, const Primitive& primitive, Rays& rays) {
-    const CylinderMeeting meeting = meet_cylinder(primitive, rays.p, rays.d);
-    meet_at(index, primitive, meeting.near_found, meeting.near_t, rays);
-    meet_at(index, primitive, meeting.far_found, meeting.far_t, rays);
-  }
-
-  void meet_facet(uint index, const Primitive& primitive, Rays& rays) {
-    const TriangleHit hit = meet_triangle(primitive, rays.p, rays.d);
-    meet_at(index, primitive, hit.found, hit.t, rays);
-  }
+  /// Of a packet, among all that the pixels get.
+  int sample_of(int packet) const { return tile_.first_sample + packet / kPixelPackets; }
 
   Shaded shade(int n) {
     const Rays& rays = rays_[n];
@@ -273,9 +131,10 @@ class Bundle : protected TracedScene {
       shaded.atom = select(here, point.atom, shaded.atom);
       left &= ~bits(here);
     }
-    shaded.color =
-        select(shaded.met, lit(albedo(shaded.met, rays.kind, x, {shaded.normal, shaded.atom}), shaded.normal, rays.d),
-               real3(0.0f));
+    const real3 color = albedo(shaded.met, rays.kind, x, {shaded.normal, shaded.atom});
+    const Lighted lighted = lit_at(color, {x, shaded.normal, rays.d, shaded.met}, sample_of(n));
+    shaded.color = select(shaded.met, lighted.color, real3(0.0f));
+    shaded.visibility = lighted.visibility;
     return shaded;
   }
 
@@ -328,8 +187,6 @@ class Bundle : protected TracedScene {
     return result;
   }
 
-  static vec3 lane_of(const real3& a, int n) { return {lane(a.x, n), lane(a.y, n), lane(a.z, n)}; }
-
   void add_sums(const Pixels& to, const real (&sums)[4]) const {
     for (int i = 0; i < to.count; ++i) {
       const int n = to.lane[i];
@@ -354,6 +211,7 @@ class Bundle : protected TracedScene {
       const std::size_t at = to.at[i];
       samples.color[at] = vec4(lane_of(shaded.color, n), lane(alpha, n));
       samples.depth[at] = lane(depth, n);
+      if (samples.visibility) samples.visibility[at] = lane(shaded.visibility, n);
       samples.normal[0][at] = lane(shaded.normal.x, n);
       samples.normal[1][at] = lane(shaded.normal.y, n);
       samples.normal[2][at] = lane(shaded.normal.z, n);

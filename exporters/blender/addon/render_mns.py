@@ -125,8 +125,19 @@ def empty_scene():
             store.remove(item)
 
 
+def lamps_of(camera, style, look):
+    """Those of a style; the key light of the studio casts the shadows that the file asks for, as dark and as soft: a share of it."""
+    lamps = LIGHTS[style][:1] if look == "glass" else LIGHTS[style]
+    share, angle = camera.get("meniscus_shadows", 0.0), 2.0 * camera.get("meniscus_shadow_softness", 0.0)
+    if style != "studio" or share == 0.0:
+        return lamps
+    direction, color = lamps[0]
+    cast, even = (tuple(strength * part for part in color) for strength in (share, 1.0 - share))
+    return ((direction, cast, angle), (direction, even), *lamps[1:])
+
+
 def add_lights(scene, camera, style, look):
-    for index, (direction, color, *angle) in enumerate(LIGHTS[style][:1] if look == "glass" else LIGHTS[style]):
+    for index, (direction, color, *angle) in enumerate(lamps_of(camera, style, look)):
         light = bpy.data.lights.new(f"Meniscus light {index + 1}", "SUN")
         light.color, light.energy = color, math.pi
         light.angle = math.radians(angle[0]) if angle else 0.0

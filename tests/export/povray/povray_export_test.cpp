@@ -145,6 +145,10 @@ TEST(PovrayExport, SwitchesOfTheCommandLineAreUnderstood) {
   };
   const std::vector<glm::dvec3> plain = render({}), shadows = render({"Declare=Meniscus_Shadows=1"});
   EXPECT_NE(plain, shadows);
+  const std::vector<glm::dvec3> soft = render({"Declare=Meniscus_Shadows=1", "Declare=Meniscus_Shadow_Softness=9"});
+  EXPECT_NE(soft, shadows);
+  EXPECT_NE(soft, plain);
+  EXPECT_NE(render({"Declare=Meniscus_Shadows=0.5"}), shadows);
   EXPECT_NE(plain, render({"Declare=Meniscus_Material=3", "Declare=Meniscus_Subsurface=1"}));
   // A narrower picture of the same height keeps its middle columns.
   const std::vector<glm::dvec3> narrow = render({"Declare=Meniscus_Fit_Aspect=1", "+W16"});

@@ -284,6 +284,7 @@ def set_names(item, names):
 
 def place_camera(item, shot, scale, origin=(0.0, 0.0, 0.0)):
     """Moves a camera's object to the place of `shot`, the camera of a file. origin: Å, of the scene's coordinates."""
+    item["meniscus_shadows"], item["meniscus_shadow_softness"] = shot.get("shadows", 0.0), shot.get("shadow_softness", 0.0)
     position, target, up = (mathutils.Vector(shot[key]) for key in ("position", "target", "up"))
     forward = (target - position).normalized()
     right = forward.cross(up).normalized()

@@ -23,7 +23,8 @@ POINT_NUMBERS = {
     "buried_area": ("atom.buried_area", "FLOAT"),
 }
 #: Of the surface, on points: the array. Curvatures are in 1/Å and 1/Å² whatever the scale, areas in Å².
-VERTEX_NUMBERS = {name: f"mesh.{name}" for name in ("mean_curvature", "gaussian_curvature", "smooth_mean_curvature", "smooth_gaussian_curvature")}
+VERTEX_NUMBERS = {name: f"mesh.{name}" for name in ("mean_curvature", "gaussian_curvature", "smooth_mean_curvature", "smooth_gaussian_curvature",
+                                                      "open_sky")}
 #: Attributes that are places in a list of names: the key of the header that has the list, and the custom property that gets it sorted.
 NAMES = {"chain_id": ("chain_names", "chain_ids"), "atom_name_id": ("atom_names", "atom_names"), "res_name_id": ("residue_names", "res_names")}
 #: All that an import makes.

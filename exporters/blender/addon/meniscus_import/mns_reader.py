@@ -22,7 +22,7 @@ NEEDED = {
 #: Numbers that files may have: of atoms, of vertices.
 OF_ATOMS = ("b_factor", "charge", "hydrophobicity", "atomic_number", "res_id", "chain_id", "name_id", "residue_name_id", "entity", "area",
             "accessible_area", "buried_area", "index", "file_index", "opacity", "own_color")
-OF_VERTICES = ("mean_curvature", "gaussian_curvature", "smooth_mean_curvature", "smooth_gaussian_curvature", "map_value", "map_known")
+OF_VERTICES = ("mean_curvature", "gaussian_curvature", "smooth_mean_curvature", "smooth_gaussian_curvature", "open_sky", "map_value", "map_known")
 #: Arrays a mesh may have, and their columns.
 OPTIONAL = {"mesh.velocity": 3, "mesh.cap_plane": 1, "mesh.map_color": 3, "mesh.patch_area": 1,
             **{f"mesh.{name}": 1 for name in OF_VERTICES}, **{f"atom.{name}": 1 for name in OF_ATOMS}}

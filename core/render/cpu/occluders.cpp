@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Packs occluders around the picture's pivot, and sorts their primitives into trees of boxes by halving.
+#include "core/render/cpu/occluders.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <tbb/parallel_invoke.h>
+
+#include "core/queries/surface_object.h"
+#include "core/render/linear_colors.h"
+#include "core/render/shape_packing.h"
+
+namespace meniscus {
+namespace {
+
+constexpr double kAfar = 1e6;  // Å: from the pivot to a camera that has everything before it
+constexpr std::uint32_t kLeaf = 4;
+
+/// From everywhere alike: nothing lies behind the camera.
+PictureFrame seen_from_afar(const glm::dvec3& pivot) {
+  PictureFrame frame;
+  frame.camera.projection = Projection::orthographic;
+  frame.basis = view_basis(frame.camera);
+  frame.pivot = pivot;
+  frame.camera.position = pivot - frame.basis.forward * kAfar;
+  frame.eye_distance = kAfar;
+  frame.pixel_size = 1.0;
+  return frame;
+}
+
+/// Sorts `order` into leaves of kLeaf primitives, and writes the boxes around them, parents before children.
+class TreeBuilder {
+ public:
+  TreeBuilder(std::span<const ray_cast::Primitive> primitives, float room, std::vector<OccluderBox>& boxes,
+              std::vector<std::uint32_t>& order)
+      : primitives_(primitives), room_(room), boxes_(boxes), order_(order) {
+    const auto count = static_cast<std::uint32_t>(primitives.size());
+    order_.resize(count);
+    std::iota(order_.begin(), order_.end(), 0u);
+    boxes_.resize(count ? box_count(count) : 0);
+    if (count) build(0, 0, count);
+  }
+
+ private:
+  static std::uint32_t leaf_count(std::uint32_t count) { return (count + kLeaf - 1) / kLeaf; }
+  static std::uint32_t box_count(std::uint32_t count) { return 2 * leaf_count(count) - 1; }
+
+  void build(std::uint32_t box, std::uint32_t first, std::uint32_t count) {
+    glm::vec3 low(3e38f), high(-3e38f), least(3e38f), most(-3e38f);
+    for (std::uint32_t n = first; n < first + count; ++n) {
+      const glm::vec4& bound = primitives_[order_[n]].bound;
+      const glm::vec3 center(bound);
+      least = glm::min(least, center);
+      most = glm::max(most, center);
+      low = glm::min(low, center - bound.w);
+      high = glm::max(high, center + bound.w);
+    }
+    boxes_[box] = {low - room_, first, high + room_, count <= kLeaf ? count : 0};
+    if (count <= kLeaf) return;
+    const glm::vec3 extent = most - least;
+    const int axis = extent.x > extent.y ? (extent.x > extent.z ? 0 : 2) : (extent.y > extent.z ? 1 : 2);
+    const std::uint32_t half = (leaf_count(count) + 1) / 2 * kLeaf;  // all leaves but the last are full
+    const auto begin = order_.begin() + static_cast<std::ptrdiff_t>(first);
+    std::nth_element(begin, begin + half, begin + count, [&](std::uint32_t a, std::uint32_t b) {
+      const float left = primitives_[a].bound[axis], right = primitives_[b].bound[axis];
+      return left < right || (left == right && a < b);
+    });
+    const std::uint32_t second = box + 1 + box_count(half);
+    boxes_[box].first = second;
+    constexpr std::uint32_t kWorthATask = 2048;
+    const auto build_first = [=, this] { build(box + 1, first, half); };
+    const auto build_second = [=, this] { build(second, first + half, count - half); };
+    if (count < kWorthATask) {
+      build_first();
+      build_second();
+    } else {
+      tbb::parallel_invoke(build_first, build_second);
+    }
+  }
+
+  const std::span<const ray_cast::Primitive> primitives_;
+  const float room_;
+  std::vector<OccluderBox>& boxes_;
+  std::vector<std::uint32_t>& order_;
+};
+
+/// In the square [0, 1)².
+glm::dvec2 r2_point(std::size_t index) {
+  const auto n = static_cast<double>(index);
+  const double u = 0.5 + n * 0.7548776662466927, v = 0.5 + n * 0.5698402909980532;
+  return {u - std::floor(u), v - std::floor(v)};
+}
+
+}  // namespace
+
+std::vector<glm::vec3> sky_directions(std::size_t first, std::size_t count) {
+  std::vector<glm::vec3> directions;
+  for (std::size_t n = first; n < first + count; ++n) {
+    const glm::dvec2 point = r2_point(n);
+    const double z = 1.0 - 2.0 * point.x, across = std::sqrt(1.0 - z * z), angle = 2.0 * std::numbers::pi * point.y;
+    directions.emplace_back(across * std::cos(angle), across * std::sin(angle), z);
+  }
+  return directions;
+}
+
+LaneOccluder Occluders::pack(const PictureObject& object) {
+  const Coloring& coloring = *object.coloring;
+  const bool cut = !object.clip.empty();
+  const PictureFrame frame = seen_from_afar(pivot_);
+  Packed& packed = packed_.emplace_back();
+  HostScene& scene = packed.scene;
+  scene.placement.slack = slack_;
+  const Coloring shows_all;
+  if (object.surface) {
+    scene.placement.probe_radius = object.surface->probe_radius;
+    pack_scene(*object.surface, cut ? shows_all : coloring, frame, scene.packed);
+  } else {
+    pack_shapes(*object.shapes, coloring, frame, slack_, scene.packed);
+  }
+  scene.colors = linear_colors(coloring);
+  const bool by_kind = object.surface && coloring.kind;
+  scene.connect(Look{}, by_kind, !cut && coloring.hides_some());
+  scene.lanes.view.orthographic = 1;
+  scene.lanes.view.eye_distance = 1e30f;  // rays begin anywhere
+  TreeBuilder(scene.packed.primitives, 1e-3f + 4.0f * slack_, packed.boxes, packed.order);
+  for (const ClipPlane& plane : object.clip)
+    packed.planes.emplace_back(glm::vec3(plane.normal),
+                               static_cast<float>(plane.offset - glm::dot(plane.normal, pivot_)));
+  return {.scene = scene.lanes,
+          .boxes = packed.boxes.empty() ? nullptr : packed.boxes.data(),
+          .order = packed.order.data(),
+          .planes = packed.planes.data(),
+          .plane_count = static_cast<int>(packed.planes.size()),
+          .is_solid = object.surface != nullptr,
+          .is_opaque = !coloring.is_translucent() && (!cut || !coloring.hides_some())};
+}
+
+void Occluders::add(const PictureObject& object) { occluders_.push_back(pack(object)); }
+
+void Occluders::add(const SurfaceObject& object) {
+  PictureObject whole;
+  whole.surface = &object.surface;
+  whole.coloring = &object.coloring;
+  LaneOccluder occluder = pack(whole);
+  for (const RigidMotion& motion : object.copies) {
+    // A point x of the picture, relative to the pivot, is rotation^T (x + pivot - translation) at home.
+    const glm::dmat3 back = glm::transpose(motion.rotation);
+    occluder.turn = glm::mat3(back);
+    occluder.shift = glm::vec3(back * (pivot_ - motion.translation) - pivot_);
+    occluders_.push_back(occluder);
+  }
+}
+
+LaneLight Occluders::towards(std::span<const glm::vec3> sky) const {
+  return {.occluders = occluders_.data(),
+          .occluder_count = static_cast<int>(occluders_.size()),
+          .sky = sky.data(),
+          .sky_rays = static_cast<int>(sky.size()),
+          .sky_reach = 3e38f,
+          .lift = 1e-3f + 8.0f * slack_};
+}
+
+void Occluders::aim(const Look& look, const ViewBasis& basis, int samples) {
+  constexpr int kLampRays = 32;  // of a pixel
+  const auto share = [samples](int rays) { return std::max((rays + samples - 1) / samples, 2); };
+  const auto all = [samples](int of_each) { return static_cast<std::size_t>(of_each) * samples; };
+  light_ = towards({});
+  if (look.shadows > 0.0f) {
+    light_.shadow = look.shadows;
+    light_.lamp_rays = look.shadow_softness > 0.0f ? share(kLampRays) : 1;
+    const glm::dvec3 aside = glm::normalize(glm::dvec3(look.light_direction));
+    const glm::dvec3 towards = basis.right * aside.x + basis.up * aside.y - basis.forward * aside.z;
+    const glm::dvec3 x =
+        glm::normalize(glm::cross(towards, std::abs(glm::dot(towards, basis.up)) < 0.9 ? basis.up : basis.right));
+    const glm::dvec3 y = glm::cross(towards, x);
+    const double radius = std::tan(static_cast<double>(look.shadow_softness) * std::numbers::pi / 180.0);
+    lamp_.clear();
+    for (std::size_t n = 0; n < all(light_.lamp_rays); ++n) {
+      const glm::dvec2 point = r2_point(n);
+      const double r = radius * std::sqrt(point.x), angle = 2.0 * std::numbers::pi * point.y;
+      lamp_.emplace_back(glm::normalize(towards + r * (std::cos(angle) * x + std::sin(angle) * y)));
+    }
+    light_.lamp = lamp_.data();
+  }
+  if (look.traces_sky()) {
+    light_.sky_rays = 2 * share(static_cast<int>(look.ambient_occlusion_rays));  // half of them go inwards
+    light_.sky_reach = look.ambient_occlusion_radius;
+    sky_ = sky_directions(0, all(light_.sky_rays));
+    light_.sky = sky_.data();
+  }
+}
+
+}  // namespace meniscus
