@@ -16,6 +16,7 @@
 #include <gemmi/metadata.hpp>
 #include <gemmi/resinfo.hpp>
 
+#include "core/structure/martini.h"
 #include "core/structure/plausibility.h"
 #include "core/structure/residue_names.h"
 #include "core/structure/residues.h"
@@ -149,7 +150,15 @@ class Classifier {
   }
 
   void run(std::vector<Warning>& warnings) {
-    for (std::size_t r = 0; r + 1 < begins_.size(); ++r) classify(r);
+    std::vector<Names> names;
+    for (std::size_t r = 0; r + 1 < begins_.size(); ++r) names.push_back(names_of(r));
+    const bool of_beads = holds_beads(names);
+    for (std::size_t r = 0; r + 1 < begins_.size(); ++r) {
+      if (of_beads && !consists_of_atoms(r, names[r]))
+        classify_beads(r, names[r]);
+      else
+        classify(r, names[r]);
+    }
     impossible_.warn(warnings, "an element that its residue cannot have; the atom's name was used instead");
   }
 
@@ -158,9 +167,39 @@ class Classifier {
 
   AtomHints hint(std::size_t atom) const { return hints_.empty() ? AtomHints{} : hints_[atom]; }
 
-  void classify(std::size_t r) {
+  Names names_of(std::size_t r) const {
     Names names;
     for (std::size_t n = begins_[r]; n < begins_[r + 1]; ++n) names.insert(atoms_[n].name);
+    return names;
+  }
+
+  bool consists_of_atoms(std::size_t r, const Names& names) const {
+    return is_named_like_polymer(names) || is_water_name(head(r).residue_name);
+  }
+
+  bool holds_beads(const std::vector<Names>& names) const {
+    for (std::size_t r = 0; r < names.size(); ++r) {
+      const std::vector<std::string> list(names[r].begin(), names[r].end());
+      if (!consists_of_atoms(r, names[r]) && has_martini_names(head(r).residue_name, list)) return true;
+    }
+    return false;
+  }
+
+  /// A bead is several atoms and has no element, whatever its name or a column looks like.
+  void classify_beads(std::size_t r, const Names& names) {
+    const std::string& name = head(r).residue_name;
+    const bool of_chain = names.contains("BB") || (names.contains("BB1") && names.contains("BB2"));
+    const AtomClass kind = is_martini_water(name)                      ? AtomClass::water
+                           : names.size() == 1 && is_martini_ion(name) ? AtomClass::ion
+                           : of_chain                                  ? AtomClass::polymer
+                                                                       : AtomClass::ligand;
+    for (std::size_t n = begins_[r]; n < begins_[r + 1]; ++n) {
+      atoms_[n].kind = kind;
+      atoms_[n].element = 0;
+    }
+  }
+
+  void classify(std::size_t r, const Names& names) {
     const bool lone_without_element = names.size() == 1 && head(r).element == 0;
     const gemmi::Element ion = lone_without_element ? lone_ion_element(head(r)) : gemmi::Element(gemmi::El::X);
     const AtomHints first = hint(begins_[r]);
