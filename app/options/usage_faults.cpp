@@ -20,7 +20,7 @@ struct ForeignWord {
 };
 
 // Of PyMOL, ChimeraX, VMD, POV-Ray, Blender, ffmpeg and ImageMagick.
-constexpr std::array<ForeignWord, 46> kForeignWords{{
+constexpr std::array<ForeignWord, 49> kForeignWords{{
     {"--colour", {"--color"}},
     {"--colors", {"--color"}},
     {"--color-by", {"--color"}},
@@ -60,6 +60,9 @@ constexpr std::array<ForeignWord, 46> kForeignWords{{
     {"--cartoon", {"--tube"}},
     {"--ribbon", {"--tube"}},
     {"--licorice", {"--sticks"}},
+    {"--nucleotides", {"--bases"}},
+    {"--ladder", {"--bases"}},
+    {"--snfg", {"--glycans", "--color"}},
     {"--probe-radius", {"--probe"}},
     {"--solvent-radius", {"--probe"}},
     {"--palette", {"--map"}},

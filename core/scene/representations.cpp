@@ -10,6 +10,8 @@
 #include "core/color/color_atoms.h"
 #include "core/color/color_key.h"
 #include "core/shapes/backbone.h"
+#include "core/shapes/bases.h"
+#include "core/shapes/sugar_symbols.h"
 
 namespace meniscus {
 namespace {
@@ -27,6 +29,10 @@ const char* option_word(Kind kind) {
       return "--balls";
     case Kind::backbone:
       return "--tube";
+    case Kind::bases:
+      return "--bases";
+    case Kind::sugar_symbols:
+      return "--glycans";
     case Kind::spheres:
       break;
   }
@@ -53,6 +59,10 @@ Shapes shapes_of_atoms(const Structure& all, Kind kind, const std::vector<bool>&
       return balls_and_sticks(all, selected, bonds, kBallShare, radii.stick_radius.value_or(kThinStickRadius));
     case Kind::backbone:
       return backbone(all, selected, radii.tube_radius.value_or(kTubeRadius));
+    case Kind::bases:
+      return bases(all, selected, radii.stick_radius.value_or(kStickRadius));
+    case Kind::sugar_symbols:
+      return sugar_symbols(all, selected, radii.stick_radius.value_or(kStickRadius));
     case Kind::spheres:
       break;
   }

@@ -162,7 +162,7 @@ void for_each_residue(std::span<const Atom> atoms, Visit&& visit) {
   }
 }
 
-constexpr std::pair<std::string_view, std::string_view> kSideChains[] = {
+constexpr std::pair<std::string_view, std::string_view> kSideChainRings[] = {
     {"HIS HIE HSE HID HSD HIP HSP PHE", "SC1-SC2 SC1-SC3 SC2-SC3"},
     {"TYR", "SC1-SC2 SC1-SC3 SC2-SC3 SC2-SC4 SC3-SC4"},
 };
@@ -209,7 +209,7 @@ class BeadBonds {
     last_backbone_ = own;
     join("BB", "SC1");
     std::string_view pairs = "SC1-SC2";
-    for (const auto& [residues, rings] : kSideChains)
+    for (const auto& [residues, rings] : kSideChainRings)
       if (residues.find(head.residue_name) != std::string_view::npos) pairs = rings;
     if (head.residue_name == "TRP") pairs = places_.contains("SC5") ? kTryptophan3 : kTryptophan2;
     while (!pairs.empty()) {

@@ -17,7 +17,7 @@ namespace {
 constexpr std::uint32_t kBlue = 0x0090bc, kGreen = 0x00a651, kYellow = 0xffd400, kLightBlue = 0x8fcce9,
                         kPink = 0xf69ea1, kPurple = 0xa54399, kBrown = 0xa17a4d, kOrange = 0xf47920, kRed = 0xed1c24;
 
-struct Row {
+struct SugarRow {
   Sugar sugar;
   std::string_view names;  ///< of the wwPDB and of CHARMM
   char glycam;             ///< letter of GLYCAM; blank: none
@@ -25,7 +25,7 @@ struct Row {
 
 using enum SugarSolid;
 
-constexpr Row kSugars[] = {
+constexpr SugarRow kSugars[] = {
     {{"Glc", sphere, kBlue}, "GLC BGC AGLC BGLC", 'G'},
     {{"Man", sphere, kGreen}, "MAN BMA AMAN BMAN", 'M'},
     {{"Gal", sphere, kYellow}, "GLA GAL AGAL BGAL", 'L'},
@@ -66,15 +66,15 @@ constexpr Row kSugars[] = {
     {{"Psi", pentagon, kPink}, "PSV", ' '},
 };
 
-constexpr double kLongestBond = 2.0;  // Å, of a ring
+constexpr double kLongestRingBond = 2.0;  // Å, of a ring
 
 // Pyranoses of aldoses and of nonulosonates, furanoses of aldoses and of ketoses.
-constexpr std::array<std::array<std::string_view, 6>, 4> kRings{{{"C1", "C2", "C3", "C4", "C5", "O5"},
-                                                                 {"C2", "C3", "C4", "C5", "C6", "O6"},
-                                                                 {"C2", "C3", "C4", "C5", "O5", ""},
-                                                                 {"C1", "C2", "C3", "C4", "O4", ""}}};
+constexpr std::array<std::array<std::string_view, 6>, 4> kSugarRings{{{"C1", "C2", "C3", "C4", "C5", "O5"},
+                                                                      {"C2", "C3", "C4", "C5", "C6", "O6"},
+                                                                      {"C2", "C3", "C4", "C5", "O5", ""},
+                                                                      {"C1", "C2", "C3", "C4", "O4", ""}}};
 
-bool is_among(std::string_view names, std::string_view name) {
+bool is_listed(std::string_view names, std::string_view name) {
   for (std::size_t at = names.find(name); at != std::string_view::npos; at = names.find(name, at + 1))
     if ((at == 0 || names[at - 1] == ' ') && (at + name.size() == names.size() || names[at + name.size()] == ' '))
       return true;
@@ -85,7 +85,7 @@ bool is_among(std::string_view names, std::string_view name) {
 const Sugar* sugar_of_glycam(std::string_view name) {
   if (name.size() != 3 || std::string_view("ABUD").find(name[2]) == std::string_view::npos) return nullptr;
   if (std::string_view("0123456789ZYXWVUTSRQP").find(name[0]) == std::string_view::npos) return nullptr;
-  for (const Row& row : kSugars)
+  for (const SugarRow& row : kSugars)
     if (row.glycam != ' ' && row.glycam == name[1]) return &row.sugar;
   return nullptr;
 }
@@ -93,7 +93,7 @@ const Sugar* sugar_of_glycam(std::string_view name) {
 }  // namespace
 
 SugarRing ring_of(std::span<const Atom> residue) {
-  for (const auto& names : kRings) {
+  for (const auto& names : kSugarRings) {
     SugarRing ring;
     for (const std::string_view name : names) {
       if (name.empty()) break;
@@ -105,7 +105,7 @@ SugarRing ring_of(std::span<const Atom> residue) {
     bool closed = ring.count == whole;
     for (std::uint32_t n = 0; closed && n < whole; ++n) {
       const Atom &here = residue[ring.atoms[n]], &next = residue[ring.atoms[(n + 1) % whole]];
-      closed = glm::distance(here.position, next.position) <= kLongestBond;
+      closed = glm::distance(here.position, next.position) <= kLongestRingBond;
     }
     if (closed) return ring;
   }
@@ -116,8 +116,8 @@ const Sugar* sugar_of(std::span<const Atom> residue) {
   const Atom& head = residue.front();
   if (head.kind == AtomClass::water || head.kind == AtomClass::ion || head.element == 0 || head.residue_name.size() < 3)
     return nullptr;
-  for (const Row& row : kSugars)
-    if (is_among(row.names, head.residue_name)) return &row.sugar;
+  for (const SugarRow& row : kSugars)
+    if (is_listed(row.names, head.residue_name)) return &row.sugar;
   const Sugar* const found = sugar_of_glycam(head.residue_name);
   return found && ring_of(residue).count == 6 ? found : nullptr;
 }

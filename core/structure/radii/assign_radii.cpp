@@ -72,7 +72,7 @@ RadiiChoice::RadiiChoice(const RadiiOptions& options, const std::string& molecul
   if (options.set.empty()) set_ = martini.number == 2 ? &kMartini2Set : &kMartini3Set;
   if (set_ != &kMartini2Set && set_ != &kMartini3Set)
     throw InputError(molecule_file, 0,
-                     fmt::format("holds beads of Martini, which are no atoms and have no radius in the set {}; choose "
+                     fmt::format("holds beads of Martini, for which {} has no radii; choose "
                                  "martini2 or martini3, or leave {} out",
                                  set_->name, option_name("radii")));
 }

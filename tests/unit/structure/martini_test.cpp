@@ -104,7 +104,7 @@ TEST(Martini, RadiiOfAtomsAndUnknownBeadsAreRefused) {
     }
     return "";
   };
-  EXPECT_NE(message(kLipid, "bondi").find("holds beads of Martini, which are no atoms"), std::string::npos);
+  EXPECT_NE(message(kLipid, "bondi").find("holds beads of Martini, for which bondi has no radii"), std::string::npos);
   EXPECT_NE(message(with(kLipid, {{2, "DRUG", "X7"}}), "").find("the type of 1 bead is unknown: 'X7'"),
             std::string::npos)
       << message(with(kLipid, {{2, "DRUG", "X7"}}), "");
