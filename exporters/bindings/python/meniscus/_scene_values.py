@@ -51,7 +51,7 @@ class SurfaceValues(TypedDict, total=False):
     #: WIDTH: Width of lines where chains meet [--silhouettes]
     part_lines: Text
     #: F: Fade of the farthest atoms into the background, 0 to 1. A transparent background counts as white.
-    #: Presets do not fade where colours show numbers or a legend explains them
+    #: Presets do not fade where colours show numbers, a legend explains them or a surface is seen through
     depth_cue: float
     #: Make transparent edges for programs that blend in linear light. Without it .png and .tif pictures look
     #: right on a page
@@ -253,10 +253,9 @@ class SceneValues(SurfaceValues, total=False):
     #: EXPR: Draw the backbone of these atoms as a cartoon: tubes, ribbons, arrows. Helices are ribbons, strands
     #: are arrows
     tube: Union[Text, Sequence[Text]]
-    #: EXPR: Draw the bases of these nucleotides as filled rings, on rungs from where --tube draws their
-    #: backbone
+    #: EXPR: Draw the bases of these nucleotides as filled rings. Rungs lead to the tube
     bases: Union[Text, Sequence[Text]]
-    #: EXPR: Draw these sugars as solid symbols (3D-SNFG): spheres, cubes, cones, ... Their colours: --color
+    #: EXPR: Draw these sugars as solid symbols (3D-SNFG). Such as spheres, cubes, cones; their colours: --color
     #: snfg
     glycans: Union[Text, Sequence[Text]]
     #: Å: Radius of sticks in Å, also of bases and between glycans [0.25; 0.15 between balls]
