@@ -2,9 +2,12 @@
 // Makes shapes of marked atoms, and colours them by the scheme of the surface.
 #include "core/scene/representations.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/color/color_atoms.h"
@@ -50,6 +53,19 @@ void Representations::ask_for(ReadOptions& reading) const {
   }
 }
 
+namespace {
+
+/// Of residues that are known by whole rings: those that are selected may have none.
+Shapes found(const Structure& all, Shapes shapes, const std::vector<bool>& selected, const char* option,
+             const char* what) {
+  if (shapes.empty() && std::ranges::find(selected, true) != selected.end())
+    throw InputError(all.file, 0,
+                     fmt::format("{} draws nothing: its atoms are of no {} with a whole ring", option, what));
+  return shapes;
+}
+
+}  // namespace
+
 Shapes shapes_of_atoms(const Structure& all, Kind kind, const std::vector<bool>& selected,
                        const std::vector<Bond>& bonds, const ShapeRadii& radii) {
   switch (kind) {
@@ -60,9 +76,10 @@ Shapes shapes_of_atoms(const Structure& all, Kind kind, const std::vector<bool>&
     case Kind::backbone:
       return backbone(all, selected, radii.tube_radius.value_or(kTubeRadius));
     case Kind::bases:
-      return bases(all, selected, radii.stick_radius.value_or(kStickRadius));
+      return found(all, bases(all, selected, radii.stick_radius.value_or(kStickRadius)), selected, "--bases", "base");
     case Kind::sugar_symbols:
-      return sugar_symbols(all, selected, radii.stick_radius.value_or(kStickRadius));
+      return found(all, sugar_symbols(all, selected, radii.stick_radius.value_or(kStickRadius)), selected, "--glycans",
+                   "sugar");
     case Kind::spheres:
       break;
   }

@@ -47,7 +47,8 @@ Structure structure_of_shown(const Structure& structure);
 /// Of its atoms, those that the n-th of ReadOptions::shown selects.
 std::vector<bool> marked_atoms(const Structure& all, std::size_t mark);
 
-/// Some atoms of structure_of_shown(). bonds: Structure::shown_bonds.
+/// Some atoms of structure_of_shown(). bonds: Structure::shown_bonds. Throws InputError where bases or sugars are asked
+/// for and there are none.
 Shapes shapes_of_atoms(const Structure& all, RepresentationRequest::Kind kind, const std::vector<bool>& selected,
                        const std::vector<Bond>& bonds, const ShapeRadii& radii);
 
