@@ -150,14 +150,13 @@ class Classifier {
   }
 
   void run(std::vector<Warning>& warnings) {
-    std::vector<Names> names;
-    for (std::size_t r = 0; r + 1 < begins_.size(); ++r) names.push_back(names_of(r));
-    const bool of_beads = holds_beads(names);
+    const bool of_beads = holds_beads();
     for (std::size_t r = 0; r + 1 < begins_.size(); ++r) {
-      if (of_beads && !consists_of_atoms(r, names[r]))
-        classify_beads(r, names[r]);
+      const Names names = names_of(r);
+      if (of_beads && !consists_of_atoms(r, names))
+        classify_beads(r, names);
       else
-        classify(r, names[r]);
+        classify(r, names);
     }
     impossible_.warn(warnings, "an element that its residue cannot have; the atom's name was used instead");
   }
@@ -177,10 +176,15 @@ class Classifier {
     return is_named_like_polymer(names) || is_water_name(head(r).residue_name);
   }
 
-  bool holds_beads(const std::vector<Names>& names) const {
-    for (std::size_t r = 0; r < names.size(); ++r) {
-      const std::vector<std::string> list(names[r].begin(), names[r].end());
-      if (!consists_of_atoms(r, names[r]) && has_martini_names(head(r).residue_name, list)) return true;
+  bool holds_beads() const {
+    for (std::size_t r = 0; r + 1 < begins_.size(); ++r) {
+      const auto first = atoms_.begin() + static_cast<std::ptrdiff_t>(begins_[r]),
+                 last = atoms_.begin() + static_cast<std::ptrdiff_t>(begins_[r + 1]);
+      if (std::none_of(first, last, [](const Atom& atom) { return is_martini_mark(atom.name); })) continue;
+      const Names names = names_of(r);
+      if (!consists_of_atoms(r, names) &&
+          has_martini_names(first->residue_name, std::vector<std::string>(names.begin(), names.end())))
+        return true;
     }
     return false;
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -145,12 +146,6 @@ BeadClass class_of(std::string_view type) {
   }
 }
 
-/// Of lipids; none of these is the name of an atom in the wwPDB's components.
-bool is_lipid_mark(std::string_view name) {
-  static const std::set<std::string_view> kMarks{"PO4", "GL0", "GL1", "GL2", "AM1", "AM2", "CNO", "ROH"};
-  return kMarks.contains(name);
-}
-
 /// Runs of atoms of one residue: calls visit(first, last).
 template <typename Visit>
 void for_each_residue(std::span<const Atom> atoms, Visit&& visit) {
@@ -269,10 +264,15 @@ bool is_martini_ion(const std::string& residue_name) {
   return kIons.contains(residue_name);
 }
 
+bool is_martini_mark(std::string_view name) {
+  constexpr std::string_view kMarks[] = {"BB", "PO4", "GL0", "GL1", "GL2", "AM1", "AM2", "CNO", "ROH"};
+  return std::ranges::find(kMarks, name) != std::end(kMarks);
+}
+
 bool has_martini_names(const std::string& residue_name, std::span<const std::string> names) {
   const auto has = [&](std::string_view name) { return std::ranges::find(names, name) != names.end(); };
   if (has("BB")) return is_amino_acid_name(canonical_residue(residue_name)) || !type_of(residue_name, "BB", 3).empty();
-  return std::ranges::any_of(names, [](const std::string& name) { return is_lipid_mark(name); });
+  return std::ranges::any_of(names, [](const std::string& name) { return is_martini_mark(name); });
 }
 
 MartiniVersion martini_version(std::span<const Atom> atoms) {

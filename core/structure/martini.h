@@ -32,6 +32,8 @@ struct MartiniVersion {
 };
 MartiniVersion martini_version(std::span<const Atom> atoms);
 
+/// Is this the name of a bead, and of no atom in the wwPDB's components: BB, PO4, GL1, ...?
+bool is_martini_mark(std::string_view name);
 /// Does this residue consist of beads? names: of its atoms.
 bool has_martini_names(const std::string& residue_name, std::span<const std::string> names);
 /// W, WF, PW, SW or TW, which stand for several molecules of water.
