@@ -94,8 +94,10 @@ TEST(Beads, AreClassedByTheirTypes) {
                                                                                                 {"2POPC ", "  PO4"},
                                                                                                 {"2POPC ", "  GL1"},
                                                                                                 {"2POPC ", "  C1A"},
-                                                                                                {"2POPC ", "  D2A"}})
-    text += fmt::format("    {}{}{:5}{:8.3f}{:8.3f}{:8.3f}\n", residue, name, ++serial, 0.5 * serial, 0.0, 0.0);
+                                                                                                {"2POPC ", "  D2A"}}) {
+    ++serial;
+    text += fmt::format("    {}{}{:5}{:8.3f}{:8.3f}{:8.3f}\n", residue, name, serial, 0.5 * serial, 0.0, 0.0);
+  }
   const Structure structure = read_text("beads.gro", text + " 9.0 9.0 9.0\n");
   const ColorKey key = color_key(structure, scheme("bead"), {});
   std::vector<std::string> names;

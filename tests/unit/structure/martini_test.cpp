@@ -121,9 +121,11 @@ TEST(Martini, AtomsWithSuchNamesStayAtoms) {
   const TemporaryFolder folder;
   std::string heme;
   int serial = 0;
-  for (const char* name : {" C1A", " C2A", " C3A", " C1B", " C2B"})
-    heme += fmt::format("HETATM{:5} {:4} HEM A   1    {:8.3f}{:8.3f}{:8.3f}  1.00  0.00           C  \n", ++serial,
-                        name, 1.4 * serial, 0.0, 0.0);
+  for (const char* name : {" C1A", " C2A", " C3A", " C1B", " C2B"}) {
+    ++serial;
+    heme += fmt::format("HETATM{:5} {:4} HEM A   1    {:8.3f}{:8.3f}{:8.3f}  1.00  0.00           C  \n", serial, name,
+                        1.4 * serial, 0.0, 0.0);
+  }
   const Structure structure = read_structure(folder.file("heme.pdb", heme), {});
   for (const Atom& atom : structure.atoms) EXPECT_EQ(atom.element, 6);
   EXPECT_EQ(martini_version(structure.atoms).number, 0);
