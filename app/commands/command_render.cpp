@@ -43,7 +43,7 @@ void tell_memory(const RenderCommand& command) {
 
 void tell_hue_changes(const RenderCommand& command) {
   const std::string changes = hue_changes(command.scene.look);
-  if (changes.empty() || hues_of(command.scene.molecule.color, command.scene.legend.asked()) == Hues::free) return;
+  if (changes.empty() || hues_of(command.scene.molecule.color, command.scene.legend.asked()) != Hues::kept) return;
   say(command, "warning: colours of the surface are not those of the legend: " + changes);
 }
 

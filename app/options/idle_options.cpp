@@ -140,9 +140,9 @@ const std::vector<Need>& needs() {
        "all of the surface is opaque; add --opacity"},
       {{"--stick-radius"},
        [](const Asked& asked) {
-         return asked.any({"--sticks", "--balls"});
+         return asked.any({"--sticks", "--balls", "--bases", "--glycans"});
        },
-       "there are no sticks; add --sticks EXPR or --balls EXPR"},
+       "there are no sticks; add --sticks EXPR, --balls EXPR or --bases EXPR"},
       {{"--tube-radius"},
        [](const Asked& asked) { return asked.given("--tube"); },
        "there is no tube; add --tube EXPR"},

@@ -90,7 +90,7 @@ options whose values they take:
     page += fmt::format("  {:<26}{}\n", property->name(), property->long_option());
   }
   page += R"(
-"objects" is a list. Each object has a "representation" (surface, sticks, balls, spheres, tube) and a "selection".
+"objects" is a list. Each object has a "representation" (surface, sticks, balls, spheres, tube, bases, glycans) and a "selection".
 The first surface is that of the molecule. Its keys:
 
 )";
@@ -121,7 +121,7 @@ std::string scene_schema() {
   for (const ObjectKey& key : object_keys())
     if (const std::string name(key.name); !object.contains(name)) object[name] = described(*key.property);
   object["selection"] = {{"type", "string"}, {"description", "The atoms of the object"}};
-  object["representation"] = {{"enum", {"surface", "sticks", "balls", "spheres", "tube"}}};
+  object["representation"] = {{"enum", {"surface", "sticks", "balls", "spheres", "tube", "bases", "glycans"}}};
   sections["objects"] = {{"type", "array"}, {"items", strict(object)}};
   Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Meniscus scene"}};
   const Json body = strict(sections);

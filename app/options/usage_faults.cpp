@@ -20,7 +20,7 @@ struct ForeignWord {
 };
 
 // Of PyMOL, ChimeraX, VMD, POV-Ray, Blender, ffmpeg and ImageMagick.
-constexpr std::array<ForeignWord, 45> kForeignWords{{
+constexpr std::array<ForeignWord, 48> kForeignWords{{
     {"--colour", {"--color"}},
     {"--colors", {"--color"}},
     {"--color-by", {"--color"}},
@@ -59,6 +59,9 @@ constexpr std::array<ForeignWord, 45> kForeignWords{{
     {"--cartoon", {"--tube"}},
     {"--ribbon", {"--tube"}},
     {"--licorice", {"--sticks"}},
+    {"--nucleotides", {"--bases"}},
+    {"--ladder", {"--bases"}},
+    {"--snfg", {"--glycans", "--color"}},
     {"--probe-radius", {"--probe"}},
     {"--solvent-radius", {"--probe"}},
     {"--palette", {"--map"}},

@@ -87,8 +87,9 @@ Outcome hide(const CommandReader& command, PreviewState state, const Surrounding
 
 Outcome represent(const CommandReader& command, PreviewState state, const Surroundings&) {
   using Kind = RepresentationRequest::Kind;
-  constexpr std::array<Kind, 4> kKinds{Kind::sticks, Kind::balls_and_sticks, Kind::spheres, Kind::backbone};
-  const Kind kind = kKinds[command.choice("as", {"sticks", "balls", "spheres", "tube"})];
+  constexpr std::array<Kind, 6> kKinds{Kind::sticks, Kind::balls_and_sticks, Kind::spheres, Kind::backbone,
+                                       Kind::bases,  Kind::sugar_symbols};
+  const Kind kind = kKinds[command.choice("as", {"sticks", "balls", "spheres", "tube", "bases", "glycans"})];
   require_room_beside(command, state.figure);
   std::vector<RepresentationRequest>& requests = state.figure.representations.requests;
   requests.push_back({kind, command.selection()});

@@ -45,7 +45,12 @@ struct PreviewFigure {
   /// What the colours are by, kinds of patch too.
   ColorScheme told_scheme() const;
   /// What its light may do to them.
-  Hues hues() const { return patch_kinds && !legend ? Hues::free : hues_of(color, legend); }
+  Hues hues() const {
+    if (!patch_kinds || legend) return hues_of(color, legend);
+    ColorScheme kinds;
+    kinds.opacities = color.opacities;
+    return hues_of(kinds, false);
+  }
   /// How far from the atoms' balls something may be and still change their surface, Å.
   double probe_reach() const { return growth_of(kind, probe_radius) + rolling_probe(kind, probe_radius); }
 };

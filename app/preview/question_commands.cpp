@@ -204,7 +204,7 @@ Json tell_choices(const CommandReader&, const Surroundings& around) {
           {"actions", actions},
           {"presets", words_of(property_of("look.preset"))},
           {"sliders", look_sliders()},
-          {"representations", {"sticks", "balls", "spheres", "tube"}}};
+          {"representations", {"sticks", "balls", "spheres", "tube", "bases", "glycans"}}};
 }
 
 glm::ivec2 pixel_of(const CommandReader& command, const PreviewState& state) {

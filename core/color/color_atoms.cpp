@@ -39,8 +39,8 @@ std::vector<glm::vec3> colors_of(const Structure& structure, const ColorScheme& 
   if (scheme.by == By::chain) return by_chain(structure, scheme);
   std::vector<glm::vec3> colors;
   colors.reserve(structure.atoms.size());
-  if (scheme.by == By::secondary || scheme.by == By::plddt) {
-    const ClassedAtoms classed = scheme.by == By::plddt ? confidence_classes(structure) : secondary_classes(structure);
+  if (has_ordered_classes(scheme.by)) {
+    const ClassedAtoms classed = ordered_classes(structure, scheme.by);
     for (std::size_t a = 0; a < structure.atoms.size(); ++a) colors.push_back(classed.color(a));
     return colors;
   }

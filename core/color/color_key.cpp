@@ -358,12 +358,12 @@ ColorKey color_key(const Structure& structure, const ColorScheme& scheme, std::s
     key.title = "component";
     for (std::size_t n = 0; n < object_names.size(); ++n)
       key.classes.push_back({object_names[n], categorical_color(n)});
-  } else if (scheme.by == By::secondary) {
-    key.title = "secondary structure";
-    key.classes = secondary_classes(structure).classes;
-  } else if (scheme.by == By::plddt) {
-    key.title = "confidence (pLDDT)";
-    key.classes = confidence_classes(structure).classes;
+  } else if (has_ordered_classes(scheme.by)) {
+    key.title = scheme.by == By::secondary ? "secondary structure"
+                : scheme.by == By::plddt   ? "confidence (pLDDT)"
+                : scheme.by == By::snfg    ? "sugar"
+                                           : "bead";
+    key.classes = ordered_classes(structure, scheme.by).classes;
   } else if (scheme.by != By::fixed) {
     key.title = class_title(scheme.by);
     for (const Atom& atom : structure.atoms) {

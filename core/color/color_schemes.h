@@ -46,6 +46,8 @@ struct ColorScheme {
     fixed,      ///< one colour
     secondary,  ///< helix, strand, coil
     plddt,      ///< confidence of a predicted model, in four classes
+    snfg,       ///< sugars, as their symbols
+    bead,       ///< classes of Martini's beads
     bfactor,    ///< this one and those below are numbers, with a map and a range
     occupancy,
     charge,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sorts atoms into the classes of secondary structure and of confidence.
+// Sorts atoms into the classes of secondary structure, of confidence, of sugars and of beads.
 #include "core/color/ordered_classes.h"
 
 #include <algorithm>
@@ -12,8 +12,10 @@
 #include "core/base/text.h"
 #include "core/color/named_colors.h"
 #include "core/structure/element_tables.h"
+#include "core/structure/martini.h"
 #include "core/structure/secondary_structure.h"
 #include "core/structure/structure.h"
+#include "core/structure/sugars.h"
 
 namespace meniscus {
 namespace {
@@ -84,6 +86,96 @@ ClassedAtoms confidence_classes(const Structure& structure) {
   if (without > 0)
     result.classes.push_back({fmt::format("none ({} atoms)", with_thousands(without)), color_from_hex(kWithout)});
   return result;
+}
+
+namespace {
+
+/// Classes in the order in which they are asked for.
+class OccurringClasses {
+ public:
+  std::uint8_t place(std::string_view name, std::uint32_t color) {
+    const auto found = std::ranges::find(classes, name, &ColorClass::name);
+    if (found != classes.end()) return static_cast<std::uint8_t>(found - classes.begin());
+    classes.push_back({std::string(name), color_from_hex(color)});
+    return static_cast<std::uint8_t>(classes.size() - 1);
+  }
+
+  std::vector<ColorClass> classes;
+};
+
+constexpr std::uint32_t kOther = 0xb4b4b4, kWhiteHalf = 0xf5f5f5;
+
+// In the order of BeadClass.
+constexpr std::array<Row, 6> kBeads{{{"charged", 0xd55e00},
+                                     {"polar", 0x56b4e9},
+                                     {"intermediate", 0x009e73},
+                                     {"apolar", 0xe6d9b8},
+                                     {"water", 0x0072b2},
+                                     {"backbone", 0xf0e442}}};
+
+}  // namespace
+
+ClassedAtoms sugar_classes(const Structure& structure) {
+  ClassedAtoms result;
+  OccurringClasses classes;
+  const std::span<const Atom> atoms(structure.atoms);
+  std::size_t last = 0;
+  for (std::size_t first = 0; first < atoms.size(); first = last) {
+    while (last < atoms.size() && atoms[last].residue == atoms[first].residue && atoms[last].copy == atoms[first].copy)
+      ++last;
+    const std::span<const Atom> residue = atoms.subspan(first, last - first);
+    const Sugar* const sugar = sugar_of(residue);
+    if (!sugar) {
+      result.of_atom.insert(result.of_atom.end(), residue.size(), classes.place("other", kOther));
+      continue;
+    }
+    result.of_atom.insert(result.of_atom.end(), residue.size(), classes.place(sugar->name, sugar->color));
+    if (!sugar->is_divided()) continue;
+    const SugarRing ring = ring_of(residue);
+    const auto in_ring = [&](std::size_t n) {
+      return std::find(ring.atoms.begin(), ring.atoms.begin() + ring.count, n) != ring.atoms.begin() + ring.count;
+    };
+    for (std::size_t n = 0; n < residue.size(); ++n)
+      if (!in_ring(n)) result.of_atom[first + n] = classes.place("white half", kWhiteHalf);
+  }
+  result.classes = std::move(classes.classes);
+  return result;
+}
+
+ClassedAtoms bead_classes(const Structure& structure) {
+  ClassedAtoms result;
+  OccurringClasses classes;
+  const MartiniVersion version = martini_version(structure.atoms);
+  std::vector<std::optional<Bead>> beads;
+  std::array<bool, kBeads.size()> occurs{};
+  for (const Atom& atom : structure.atoms) {
+    const bool may_be = version.number != 0 && atom.element == 0;
+    beads.push_back(may_be ? martini_bead(atom.residue_name, atom.name, version.number) : std::nullopt);
+    if (beads.back()) occurs[static_cast<std::size_t>(beads.back()->kind)] = true;
+  }
+  for (std::size_t n = 0; n < kBeads.size(); ++n)
+    if (occurs[n]) classes.place(kBeads[n].name, kBeads[n].color);
+  for (const std::optional<Bead>& bead : beads) {
+    const Row row = bead ? kBeads[static_cast<std::size_t>(bead->kind)] : Row{"other", kOther};
+    result.of_atom.push_back(classes.place(row.name, row.color));
+  }
+  result.classes = std::move(classes.classes);
+  return result;
+}
+
+bool has_ordered_classes(ColorScheme::By by) { return by >= ColorScheme::By::secondary && by <= ColorScheme::By::bead; }
+
+ClassedAtoms ordered_classes(const Structure& structure, ColorScheme::By by) {
+  switch (by) {
+    case ColorScheme::By::plddt:
+      return confidence_classes(structure);
+    case ColorScheme::By::snfg:
+      return sugar_classes(structure);
+    case ColorScheme::By::bead:
+      return bead_classes(structure);
+    default:
+      return secondary_classes(structure);
+  }
 }
 
 std::string_view source_of_confidence(const Structure& structure) {

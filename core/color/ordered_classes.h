@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Classes of atoms with an order and colours of their own: secondary structure, and the confidence of predicted models.
+// Classes of atoms with an order and colours of their own: secondary structure, confidence of predicted models, sugars,
+// beads.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +10,8 @@
 #include <vector>
 
 #include <glm/vec3.hpp>
+
+#include "core/color/color_schemes.h"
 
 namespace meniscus {
 
@@ -34,6 +37,18 @@ ClassedAtoms secondary_classes(const Structure& structure);
 /// The four classes of the AlphaFold database, all of them, by pLDDT above 90, 70 and 50; a number on a limit is in
 /// the class below. After them "none (12 atoms)", if some atoms have no number. Throws InputError where none has one.
 ClassedAtoms confidence_classes(const Structure& structure);
+
+/// Each sugar that occurs by its symbol (core/structure/sugars.h). Of sugars whose symbol is half white, what is not in
+/// the ring is in the class "white half"; what is no sugar in "other".
+ClassedAtoms sugar_classes(const Structure& structure);
+
+/// The classes of Martini's beads that occur: "charged", "polar", "intermediate", "apolar", "water"; "backbone" of
+/// Martini 2, where it depends on the fold; "other" for what is no bead.
+ClassedAtoms bead_classes(const Structure& structure);
+
+/// Is this scheme one of these?
+bool has_ordered_classes(ColorScheme::By by);
+ClassedAtoms ordered_classes(const Structure& structure, ColorScheme::By by);
 
 /// From where these have their numbers: "_ma_qa_metric_local" if any atom has an Atom::confidence, else "B-factors".
 std::string_view source_of_confidence(const Structure& structure);

@@ -96,7 +96,7 @@ constexpr auto kTable = of_commands(
             .in(kLines, kLook | rare),
         number("look.depth_cue", "--depth-cue", "F",
                "Fade of the farthest atoms into the background, 0 to 1. A transparent background counts as white. "
-               "Presets do not fade where colours show numbers or a legend explains them")
+               "Presets do not fade where colours show numbers, a legend explains them or a surface is seen through")
             .from(0, 1)
             .slider("Depth", 1)
             .in(kLight, kLook),

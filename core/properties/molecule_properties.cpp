@@ -66,9 +66,11 @@ constexpr auto kTable = of_commands(
             .initially("auto")
             .in(kRadii, kShared),
         text("molecule.radii", "--radii", "SET",
-             "Van der Waals radii: bondi, united, protor or file. bondi: by element; united (Chothia 1976) and protor "
-             "(Tsai et al. 1999) include hydrogens; file: those of FILE")
-            .initially("file if it has radii, else bondi")
+             "Van der Waals radii: bondi, united, protor, martini2, martini3 or file. bondi: by element; united "
+             "(Chothia "
+             "1976) and protor (Tsai et al. 1999) include hydrogens; martini2 and martini3: of beads; file: those of "
+             "FILE")
+            .initially("file if it has radii, else bondi; of Martini's beads those of its version")
             .in(kRadii, kShared),
         file("molecule.radii_file", "--radii-file", "FILE",
              "File of radii by residue and atom, used before --radii. Formats: atmtypenumbers of MSMS, FreeSASA "

@@ -79,12 +79,13 @@ constexpr auto kTable = of_commands(
             .of(for_surface | for_render | kForExports | for_mesh | for_atoms | for_bench),
 
         text("surface.color", "--color", "SCHEME",
-             "Colour: a scheme, a colour (red, #rrggbb), or EXPR=COLOR. Schemes: element, element-cpk (darker), chain, "
-             "copy (of an assembly), residue (type), secondary (helix, strand, coil), plddt (AlphaFold's confidence), "
-             "kind (of patch), component; by a number: bfactor, occupancy, charge, hydrophobicity (Kyte & Doolittle "
-             "1982), lipophilicity (a potential), index, rainbow (along each chain), radial (for capsids). EXPR=COLOR "
-             "colours some atoms, as in 'ligand=orange'; 'ligand=orange:ATP' names them in the legend. Repeatable; the "
-             "last one counts. meniscus colors explains the schemes")
+             "Colour: a scheme, a colour (red, #rrggbb), or EXPR=COLOR. Schemes: element, element-cpk (darker), "
+             "chain, copy (of an assembly), residue (type), secondary (helix, strand, coil), plddt (AlphaFold's "
+             "confidence), snfg (sugars), bead (of Martini), kind (of patch), component; by a number: bfactor, "
+             "occupancy, charge, hydrophobicity (Kyte & Doolittle 1982), lipophilicity (a potential), index, rainbow "
+             "(along each chain), radial (for capsids). EXPR=COLOR colours some atoms, as in 'ligand=orange'; "
+             "'ligand=orange:ATP' names them in the legend. Repeatable; the last one counts. meniscus colors explains "
+             "the schemes")
             .initially("element")
             .in(kColour, kSeen | live | repeatable | of_objects)
             .in_short_help()
@@ -186,7 +187,17 @@ constexpr auto kTable = of_commands(
             .in(kBeside, in_bundle | live | repeatable)
             .in_short_help()
             .of(kForFigures | for_mesh),
-        number("shapes.stick_radius", "--stick-radius", "Å", "Radius of sticks in Å")
+        text("figure.bases", "--bases", "EXPR",
+             "Draw the bases of these nucleotides as filled rings. Rungs lead to the tube")
+            .in(kBeside, in_bundle | live | repeatable)
+            .in_short_help()
+            .of(kForFigures | for_mesh),
+        text("figure.glycans", "--glycans", "EXPR",
+             "Draw these sugars as solid symbols (3D-SNFG). Such as spheres, cubes, cones; their colours: --color snfg")
+            .in(kBeside, in_bundle | live | repeatable)
+            .in_short_help()
+            .of(kForFigures | for_mesh),
+        number("shapes.stick_radius", "--stick-radius", "Å", "Radius of sticks in Å, also of bases and between glycans")
             .from(0.001, 10)
             .initially("0.25; 0.15 between balls")
             .in(kBeside, kSeen | live)

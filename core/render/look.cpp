@@ -123,7 +123,12 @@ Look preset_look(LookPreset preset, glm::ivec2 picture_size) {
 
 std::span<const LookNumber> look_numbers() { return kNumbers; }
 
-Hues hues_of(const ColorScheme& color, bool legend) { return legend || color.uses_scale() ? Hues::kept : Hues::free; }
+Hues hues_of(const ColorScheme& color, bool legend) {
+  if (legend || color.uses_scale()) return Hues::kept;
+  const bool seen_through = std::ranges::any_of(
+      color.opacities, [](const OpacityRule& rule) { return rule.opacity > 0.0f && rule.opacity < 1.0f; });
+  return seen_through ? Hues::unfaded : Hues::free;
+}
 
 std::string hue_changes(const LookRequest& request) {
   std::string text;
@@ -140,6 +145,7 @@ Look look_of(const LookRequest& request, glm::ivec2 picture_size, const std::opt
              Hues hues) {
   Look look = preset_look(request.preset, picture_size);
   if (hues == Hues::kept) keep_hues(look);
+  if (hues == Hues::unfaded) look.depth_cue = 0.0f;
   look.background = background.value_or(glm::vec3(1.0f));
   take(request.light_direction, look.light_direction);
   for (const LookNumber& number : look_numbers())

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -156,10 +157,12 @@ struct LookNumber {
 std::span<const LookNumber> look_numbers();
 
 /// What light may do to colours. `kept`: each changes in lightness alone, so that it is found on the bar or among the
-/// swatches that explain it: white lamps, not too bright, no highlights, no fading into the background.
-enum class Hues : bool { free, kept };
+/// swatches that explain it: white lamps, not too bright, no highlights, no fading into the background. `unfaded`: the
+/// last alone.
+enum class Hues : std::uint8_t { free, kept, unfaded };
 
-/// Kept where colours stand for numbers, or a legend explains them.
+/// Kept where colours stand for numbers, or a legend explains them; unfaded where a surface is seen through, which
+/// covers what lies in it already.
 Hues hues_of(const ColorScheme& color, bool legend);
 
 /// What of the request lets colours change in more than lightness all the same: words for a message, such as

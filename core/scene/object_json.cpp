@@ -22,10 +22,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Kind = RepresentationRequest::Kind;
 
-constexpr std::array<std::pair<std::string_view, Kind>, 4> kShapeWords{{{"sticks", Kind::sticks},
+constexpr std::array<std::pair<std::string_view, Kind>, 6> kShapeWords{{{"sticks", Kind::sticks},
                                                                         {"balls", Kind::balls_and_sticks},
                                                                         {"spheres", Kind::spheres},
-                                                                        {"tube", Kind::backbone}}};
+                                                                        {"tube", Kind::backbone},
+                                                                        {"bases", Kind::bases},
+                                                                        {"glycans", Kind::sugar_symbols}}};
 /// Of sticks and of tubes.
 constexpr std::string_view kRadius = "radius", kRadiusProperty = "shapes.stick_radius";
 
@@ -55,8 +57,9 @@ std::optional<Kind> shapes_of(const std::string& representation) {
   const auto* const shape =
       std::ranges::find(kShapeWords, std::string_view(representation), &std::pair<std::string_view, Kind>::first);
   if (shape == kShapeWords.end())
-    throw RequestError(fmt::format("object: \"representation\": {} is not one of surface, sticks, balls, spheres, tube",
-                                   in_quotes(representation)));
+    throw RequestError(fmt::format(
+        "object: \"representation\": {} is not one of surface, sticks, balls, spheres, tube, bases, glycans",
+        in_quotes(representation)));
   return shape->second;
 }
 

@@ -2,14 +2,19 @@
 // Makes shapes of marked atoms, and colours them by the scheme of the surface.
 #include "core/scene/representations.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/color/color_atoms.h"
 #include "core/color/color_key.h"
 #include "core/shapes/backbone.h"
+#include "core/shapes/bases.h"
+#include "core/shapes/sugar_symbols.h"
 
 namespace meniscus {
 namespace {
@@ -27,6 +32,10 @@ const char* option_word(Kind kind) {
       return "--balls";
     case Kind::backbone:
       return "--tube";
+    case Kind::bases:
+      return "--bases";
+    case Kind::sugar_symbols:
+      return "--glycans";
     case Kind::spheres:
       break;
   }
@@ -44,6 +53,19 @@ void Representations::ask_for(ReadOptions& reading) const {
   }
 }
 
+namespace {
+
+/// Of residues that are known by whole rings: those that are selected may have none.
+Shapes found(const Structure& all, Shapes shapes, const std::vector<bool>& selected, const char* option,
+             const char* what) {
+  if (shapes.empty() && std::ranges::find(selected, true) != selected.end())
+    throw InputError(all.file, 0,
+                     fmt::format("{} draws nothing: its atoms are of no {} with a whole ring", option, what));
+  return shapes;
+}
+
+}  // namespace
+
 Shapes shapes_of_atoms(const Structure& all, Kind kind, const std::vector<bool>& selected,
                        const std::vector<Bond>& bonds, const ShapeRadii& radii) {
   switch (kind) {
@@ -53,6 +75,11 @@ Shapes shapes_of_atoms(const Structure& all, Kind kind, const std::vector<bool>&
       return balls_and_sticks(all, selected, bonds, kBallShare, radii.stick_radius.value_or(kThinStickRadius));
     case Kind::backbone:
       return backbone(all, selected, radii.tube_radius.value_or(kTubeRadius));
+    case Kind::bases:
+      return found(all, bases(all, selected, radii.stick_radius.value_or(kStickRadius)), selected, "--bases", "base");
+    case Kind::sugar_symbols:
+      return found(all, sugar_symbols(all, selected, radii.stick_radius.value_or(kStickRadius)), selected, "--glycans",
+                   "sugar");
     case Kind::spheres:
       break;
   }

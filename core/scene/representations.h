@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shapes beside a surface: the atoms drawn as sticks, balls, spheres or a backbone, and their colours.
+// Shapes beside a surface: the atoms drawn as sticks, balls, spheres, a backbone, bases or sugars, and their colours.
 #pragma once
 
 #include <optional>
@@ -16,17 +16,17 @@ namespace meniscus {
 
 /// Some atoms, drawn in one way. They need not be atoms of the surface.
 struct RepresentationRequest {
-  enum class Kind { sticks, balls_and_sticks, spheres, backbone };
+  enum class Kind { sticks, balls_and_sticks, spheres, backbone, bases, sugar_symbols };
   Kind kind = Kind::sticks;
   Selection atoms;
 };
 
-/// "--sticks", "--balls", "--spheres" or "--tube".
+/// The option that asks for it: "--sticks", "--balls", ...
 const char* option_word(RepresentationRequest::Kind kind);
 
 /// Å; nothing: the usual ones.
 struct ShapeRadii {
-  std::optional<double> stick_radius;  ///< kStickRadius, kThinStickRadius with balls
+  std::optional<double> stick_radius;  ///< of bases, too; kStickRadius, kThinStickRadius with balls
   std::optional<double> tube_radius;   ///< kTubeRadius
 };
 
@@ -47,7 +47,8 @@ Structure structure_of_shown(const Structure& structure);
 /// Of its atoms, those that the n-th of ReadOptions::shown selects.
 std::vector<bool> marked_atoms(const Structure& all, std::size_t mark);
 
-/// Some atoms of structure_of_shown(). bonds: Structure::shown_bonds.
+/// Some atoms of structure_of_shown(). bonds: Structure::shown_bonds. Throws InputError where bases or sugars are asked
+/// for and there are none.
 Shapes shapes_of_atoms(const Structure& all, RepresentationRequest::Kind kind, const std::vector<bool>& selected,
                        const std::vector<Bond>& bonds, const ShapeRadii& radii);
 

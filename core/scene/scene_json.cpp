@@ -24,8 +24,12 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kVersionKey = "meniscus_scene";
 constexpr int kVersion = 1;
 /// Representations of objects that have a property of their own.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kShapes{
-    {{"sticks", "figure.sticks"}, {"balls", "figure.balls"}, {"spheres", "figure.spheres"}, {"tube", "figure.tube"}}};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kShapes{{{"sticks", "figure.sticks"},
+                                                                                {"balls", "figure.balls"},
+                                                                                {"spheres", "figure.spheres"},
+                                                                                {"tube", "figure.tube"},
+                                                                                {"bases", "figure.bases"},
+                                                                                {"glycans", "figure.glycans"}}};
 
 /// The settings of one file.
 class SceneParser {

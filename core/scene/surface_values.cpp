@@ -294,6 +294,8 @@ constexpr auto kSurfaceRows = std::to_array<SceneValue>({
     shapes<Shape::balls_and_sticks>("figure.balls"),
     shapes<Shape::spheres>("figure.spheres"),
     shapes<Shape::backbone>("figure.tube"),
+    shapes<Shape::bases>("figure.bases"),
+    shapes<Shape::sugar_symbols>("figure.glycans"),
     plain(
         "shapes.stick_radius", [](auto& s) -> auto& { return s.figure.representations.stick_radius; }),
     plain(

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <string_view>
 
@@ -38,11 +39,7 @@ bool is_any(std::string_view name, std::initializer_list<std::string_view> names
 }
 
 std::vector<Guide> guides_of(std::span<const Atom> atoms, const std::vector<bool>& selected) {
-  std::vector<std::uint32_t> order(atoms.size());
-  for (std::uint32_t n = 0; n < order.size(); ++n) order[n] = n;
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return std::pair(atoms[a].copy, atoms[a].index) < std::pair(atoms[b].copy, atoms[b].index);
-  });
+  const std::vector<std::uint32_t> order = file_order(atoms);
   std::vector<Atom> sorted;
   for (const std::uint32_t n : order) sorted.push_back(atoms[n]);
   const std::vector<SecondaryStructure> kinds = secondary_structure(sorted);
@@ -54,7 +51,8 @@ std::vector<Guide> guides_of(std::span<const Atom> atoms, const std::vector<bool
       const Atom& atom = sorted[last];
       if (is_any(atom.name, {"O", "O1", "OT1", "OC1"}) && !oxygen) oxygen = last;
       if (!selected[order[last]] || atom.kind == AtomClass::ion || atom.kind == AtomClass::water) continue;
-      if (atom.name == "CA" && atom.element == 6 && !alpha) alpha = last;
+      const bool bead = atom.name == "BB" && atom.element == 0;  // of Martini, for a whole residue's backbone
+      if (((atom.name == "CA" && atom.element == 6) || bead) && !alpha) alpha = last;
       if (atom.name == "P" && !phosphorus) phosphorus = last;
       if (is_any(atom.name, {"C4'", "C4*"}) && !sugar) sugar = last;
     }
@@ -134,6 +132,8 @@ struct Section {
 class Sweep {
  public:
   Sweep(const std::vector<Guide>& piece, double radius) : piece_(piece), radius_(radius) { place(); }
+
+  const std::vector<Section>& sections() const { return sections_; }
 
   /// Appends a body with round ends.
   void add_to(MeshShape& mesh) const {
@@ -269,6 +269,30 @@ class Sweep {
 };
 
 }  // namespace
+
+std::vector<std::uint32_t> file_order(std::span<const Atom> atoms) {
+  std::vector<std::uint32_t> order(atoms.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return std::pair(atoms[a].copy, atoms[a].index) < std::pair(atoms[b].copy, atoms[b].index);
+  });
+  return order;
+}
+
+std::vector<MiddlePoint> nucleic_middle_lines(const Structure& structure) {
+  const std::vector<bool> all(structure.atoms.size(), true);
+  std::vector<MiddlePoint> points;
+  for (std::vector<Guide>& piece : pieces_of(structure.atoms, guides_of(structure.atoms, all))) {
+    if (!piece[0].nucleic) continue;
+    if (piece.size() == 1) {
+      points.push_back({piece[0].position, piece[0].atom});
+      continue;
+    }
+    const Sweep sweep(piece, kTubeRadius);
+    for (const Section& section : sweep.sections()) points.push_back({section.center, section.atom});
+  }
+  return points;
+}
 
 Shapes backbone(const Structure& structure, const std::vector<bool>& selected, double radius) {
   Shapes shapes;

@@ -4,6 +4,7 @@
 #include "core/math/ball.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace meniscus {
 namespace {
@@ -50,6 +51,31 @@ Shapes spheres(const Structure& structure, const std::vector<bool>& selected, do
   for (std::uint32_t n = 0; n < structure.atoms.size(); ++n)
     if (selected[n]) shapes.spheres.push_back({structure.atoms[n].position, share * structure.atoms[n].radius, n});
   return shapes;
+}
+
+void add_plate(MeshShape& mesh, std::span<const glm::dvec3> polygon, const glm::dvec3& normal, double half_thickness,
+               std::uint32_t atom) {
+  const auto count = static_cast<std::uint32_t>(polygon.size());
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  const glm::dvec3 middle =
+      std::accumulate(polygon.begin(), polygon.end(), glm::dvec3(0.0)) / static_cast<double>(polygon.size());
+  for (const double side : {1.0, -1.0}) {
+    const auto add = [&](const glm::dvec3& point) {
+      mesh.positions.push_back(point + side * half_thickness * normal);
+      mesh.normals.emplace_back(side * normal);
+      mesh.atoms.push_back(atom);
+    };
+    for (const glm::dvec3& point : polygon) add(point);
+    add(middle);
+  }
+  const std::uint32_t below = first + count + 1;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const std::uint32_t after = (k + 1) % count;
+    mesh.triangles.push_back({first + count, first + k, first + after});
+    mesh.triangles.push_back({below + count, below + after, below + k});
+    mesh.triangles.push_back({below + k, below + after, first + after});
+    mesh.triangles.push_back({below + k, first + after, first + k});
+  }
 }
 
 void append(Shapes& shapes, const Shapes& more) {

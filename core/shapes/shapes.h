@@ -66,6 +66,11 @@ Shapes balls_and_sticks(const Structure& structure, const std::vector<bool>& sel
 /// A sphere of the van der Waals radius, times a share, for each atom.
 Shapes spheres(const Structure& structure, const std::vector<bool>& selected, double share = 1.0);
 
+/// Adds a flat body: the polygon, counterclockwise around the normal (of length 1), which reaches as far as
+/// `half_thickness` (Å) to both sides. Each point of it is to be seen from its middle. Triangles are of this atom.
+void add_plate(MeshShape& mesh, std::span<const glm::dvec3> polygon, const glm::dvec3& normal, double half_thickness,
+               std::uint32_t atom);
+
 /// Adds the second to the first.
 void append(Shapes& shapes, const Shapes& more);
 

@@ -16,6 +16,7 @@
 #include <gemmi/metadata.hpp>
 #include <gemmi/resinfo.hpp>
 
+#include "core/structure/martini.h"
 #include "core/structure/plausibility.h"
 #include "core/structure/residue_names.h"
 #include "core/structure/residues.h"
@@ -149,7 +150,14 @@ class Classifier {
   }
 
   void run(std::vector<Warning>& warnings) {
-    for (std::size_t r = 0; r + 1 < begins_.size(); ++r) classify(r);
+    const bool of_beads = holds_beads();
+    for (std::size_t r = 0; r + 1 < begins_.size(); ++r) {
+      const Names names = names_of(r);
+      if (of_beads && !consists_of_atoms(r, names))
+        classify_beads(r, names);
+      else
+        classify(r, names);
+    }
     impossible_.warn(warnings, "an element that its residue cannot have; the atom's name was used instead");
   }
 
@@ -158,9 +166,44 @@ class Classifier {
 
   AtomHints hint(std::size_t atom) const { return hints_.empty() ? AtomHints{} : hints_[atom]; }
 
-  void classify(std::size_t r) {
+  Names names_of(std::size_t r) const {
     Names names;
     for (std::size_t n = begins_[r]; n < begins_[r + 1]; ++n) names.insert(atoms_[n].name);
+    return names;
+  }
+
+  bool consists_of_atoms(std::size_t r, const Names& names) const {
+    return is_named_like_polymer(names) || is_water_name(head(r).residue_name);
+  }
+
+  bool holds_beads() const {
+    for (std::size_t r = 0; r + 1 < begins_.size(); ++r) {
+      const auto first = atoms_.begin() + static_cast<std::ptrdiff_t>(begins_[r]),
+                 last = atoms_.begin() + static_cast<std::ptrdiff_t>(begins_[r + 1]);
+      if (std::none_of(first, last, [](const Atom& atom) { return is_martini_mark(atom.name); })) continue;
+      const Names names = names_of(r);
+      if (!consists_of_atoms(r, names) &&
+          has_martini_names(first->residue_name, std::vector<std::string>(names.begin(), names.end())))
+        return true;
+    }
+    return false;
+  }
+
+  /// A bead is several atoms and has no element, whatever its name or a column looks like.
+  void classify_beads(std::size_t r, const Names& names) {
+    const std::string& name = head(r).residue_name;
+    const bool of_chain = names.contains("BB") || (names.contains("BB1") && names.contains("BB2"));
+    const AtomClass kind = is_martini_water(name)                      ? AtomClass::water
+                           : names.size() == 1 && is_martini_ion(name) ? AtomClass::ion
+                           : of_chain                                  ? AtomClass::polymer
+                                                                       : AtomClass::ligand;
+    for (std::size_t n = begins_[r]; n < begins_[r + 1]; ++n) {
+      atoms_[n].kind = kind;
+      atoms_[n].element = 0;
+    }
+  }
+
+  void classify(std::size_t r, const Names& names) {
     const bool lone_without_element = names.size() == 1 && head(r).element == 0;
     const gemmi::Element ion = lone_without_element ? lone_ion_element(head(r)) : gemmi::Element(gemmi::El::X);
     const AtomHints first = hint(begins_[r]);

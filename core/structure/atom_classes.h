@@ -31,6 +31,9 @@ bool is_tabulated_residue(const std::string& residue_name);
 /// the name of an amino acid or nucleotide also where a chain is drawn by one atom a residue, or is missing on both
 /// their sides. All else is a ligand: free amino acids and nucleotides, cofactors, sugars.
 ///
+/// In a file that has residues of Martini's beads (martini.h), all residues but water and polymers of atoms are such,
+/// and have no element.
+///
 /// Sets `element` where it is 0 or cannot be right: names are ambiguous (CA is carbon or calcium, HG hydrogen or
 /// mercury), but amino acids and nucleotides hold H, C, N, O, S, P and Se only; stated elements that cannot be right
 /// are warned about. `hints` has one entry an atom, or none; `bonds` are those of a file without coordinates.

@@ -19,6 +19,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/math/ball_grid.h"
+#include "core/structure/martini.h"
 #include "core/structure/residue_names.h"
 
 namespace meniscus {
@@ -251,6 +252,11 @@ class MoleculeBonds {
     }
   }
 
+  void add_beads() {
+    const std::vector<Bond> between_beads = martini_bonds(atoms_);
+    bonds_.insert(bonds_.end(), between_beads.begin(), between_beads.end());
+  }
+
   std::vector<Bond> take() && {
     std::ranges::sort(bonds_);
     bonds_.erase(std::unique(bonds_.begin(), bonds_.end()), bonds_.end());
@@ -296,6 +302,7 @@ std::vector<Bond> molecule_bonds(std::span<const Atom> atoms, std::span<const Bo
   bonds.add_templates();
   bonds.add_listed(listed);
   bonds.add_near();
+  if (martini_version(atoms).number != 0) bonds.add_beads();
   return std::move(bonds).take();
 }
 

@@ -23,7 +23,7 @@ HOW = {"--threads", "--jobs", "--serve", "--device", "--require-gpu", "--verify"
 # They say what to do with something that a file may hold, and are right to be silent where it does not.
 POLICIES = {"--unknown-element", "--missing-color", "--altloc", "--hydrogens", "--keep-water", "--keep-ions", "--whole",
             "--select-once", "--cavities", "--instances", "--min-volume", "--cap-color", "--cap-hatching",
-            "--sticks", "--balls", "--spheres", "--tube", "--object"}
+            "--sticks", "--balls", "--spheres", "--tube", "--bases", "--glycans", "--object"}
 
 
 def pdb(atoms, record="ATOM"):
@@ -71,6 +71,14 @@ def sphere(lid, models=1):
     return "\n".join(lines + ["END", ""])
 
 
+def rings():
+    """A base and a sugar, each a flat ring."""
+    atoms = [(name, " ", residue, "A", number, 1.4 * math.cos(math.pi * n / 3) + 8 * number, 1.4 * math.sin(math.pi * n / 3), 0.0, name[0])
+             for number, residue, names in ((1, "LIG", "N1 C2 N3 C4 C5 C6"), (2, "NAG", "C1 C2 C3 C4 C5 O5"))
+             for n, name in enumerate(names.split())]
+    return "\n".join(pdb(atoms, "HETATM") + ["END", ""])
+
+
 def potential():
     """A volume map around the molecule that falls along x."""
     values = "\n".join(f"{0.3 * x - 2.0:.3f}" for x in range(14) for _ in range(14 * 14))
@@ -86,7 +94,7 @@ def camera(x):
 INPUTS = {
     "one.pdb": molecule(1), "run.pdb": molecule(4), "other.pdb": molecule(3, 0.9), "dry.pdb": molecule(3, water=False),
     "broken.pdb": molecule(3, broken=True), "moved.pdb": molecule(1, shift=9.0), "odd.pdb": molecule(1).replace(" H\n", " Q\n").replace(" H   ALA", " Q   ALA"),
-    "cup.pdb": sphere(lid=False), "hollow.pdb": sphere(lid=True), "cups.pdb": sphere(False, 3), "map.dx": potential(),
+    "rings.pdb": rings(), "cup.pdb": sphere(lid=False), "hollow.pdb": sphere(lid=True), "cups.pdb": sphere(False, 3), "map.dx": potential(),
     "numbers.csv": "chain,number,first,second\nA,1,1.0,7\nA,2,2.0,5\nB,1,3.0,1\n",
     "plain.txt": "A 1 1.0\nA 2 2.0\nB 1 3.0\n", "ramp.txt": "#ff0000\n#00ff00\n#0000ff\n", "radii.txt": "ALA CA 2.5\n",
     "curve.csv": "frame,time,area,volume\n" + "".join(f"{n},{n},{n * n},{5 - n}\n" for n in range(4)),
@@ -118,6 +126,7 @@ CONTEXTS = {
     "assembly": ["{one.pdb}", "--assembly", "1"], "hollow": ["{hollow.pdb}"],
     "exr": ["{one.pdb}"], "clip": ["{one.pdb}", "--clip", "depth>0.5"], "seen through": ["{one.pdb}", "--opacity", "0.4"],
     "shapes": ["{one.pdb}", "--sticks", "chain A"], "sticks": ["{one.pdb}", "--sticks", "chain A", "--hide-surface"],
+    "ring": ["{rings.pdb}", "--opacity", "0.1"],
     "tube": ["{one.pdb}", "--tube", "protein", "--hide-surface"],
     "mesh sticks": ["{one.pdb}", "--sticks", "chain A"], "mesh tube": ["{one.pdb}", "--tube", "protein"],
     "bare": ["{one.pdb}", "--opacity", "0.1"],
@@ -160,7 +169,8 @@ ROWS = {
     "--codec": ("h265", "film"), "--crf": ("40", "film"), "--bits": ("10", "film"), "--chroma": ("444", "film"),
     "--camera-path": ("{path.json}", "frames"), "--turntable": ("0.4", "frames"), "--follow": ("chain B", "frames"),
     "--sticks": ("chain A", "bare"), "--balls": ("chain A", "bare"), "--spheres": ("chain A", "bare"),
-    "--tube": ("protein", "bare"), "--stick-radius": ("0.7", "sticks"), "--tube-radius": ("0.9", "tube"),
+    "--tube": ("protein", "bare"), "--bases": ("resname LIG", "ring"), "--glycans": ("resname NAG", "ring"),
+    "--stick-radius": ("0.7", "sticks"), "--tube-radius": ("0.9", "tube"),
     "--object": ('{"representation": "surface", "selection": "resname LIG", "probe": 3}', "bare"),
     "--hide-surface": (None, "shapes"), "--opacity": ("0.4", "plain"), "--film-opacity": (None, "seen through"),
     "--clip": ("depth>0.5", "plain"), "--cap-color": ("red", "clip"), "--cap-hatching": ("1", "clip"),
@@ -239,8 +249,8 @@ for export in ("povray", "blender", "mitsuba", "pbrt"):
 for export in ("mesh", "ply"):
     OWN_ROWS["export " + export, "--stick-radius"] = ("0.7", "mesh sticks")
     OWN_ROWS["export " + export, "--tube-radius"] = ("0.9", "mesh tube")
-    for shape in ("--sticks", "--balls", "--spheres", "--tube"):
-        OWN_ROWS["export " + export, shape] = (ROWS[shape][0], "plain")
+    for shape in ("--sticks", "--balls", "--spheres", "--tube", "--bases", "--glycans"):
+        OWN_ROWS["export " + export, shape] = (ROWS[shape][0], "ring" if shape in ("--bases", "--glycans") else "plain")
     for option in ("--size", "--width", "--height", "--projection", "--zoom-to", "--camera"):
         OWN_ROWS["export " + export, option] = (ROWS[option][0], "pixels")
     for option in ("--dpi", "--view", "--turn"):

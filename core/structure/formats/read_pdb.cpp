@@ -22,6 +22,7 @@
 #include "core/structure/formats/pdb_records.h"
 #include "core/structure/formats/read_pqr.h"
 #include "core/structure/formats/structure_formats.h"
+#include "core/structure/martini.h"
 #include "core/structure/plausibility.h"
 #include "core/structure/residues.h"
 #include "core/structure/secondary_structure.h"
@@ -60,7 +61,8 @@ class PdbReader {
     number_.warn(warnings, "no readable residue number; counted on from the residue before");
     occupancy_.warn(warnings, "no readable occupancy; treated as missing");
     b_factor_.warn(warnings, "no readable B-factor; treated as missing");
-    element_.warn(warnings, "no element column; elements were guessed from the names");
+    if (martini_version(contents_.atoms).number == 0)
+      element_.warn(warnings, "no element column; elements were guessed from the names");
     symbol_.warn(warnings, "an unknown element symbol; the element was guessed from the name");
     if (unmarked_models_ > 0) {
       warnings.emplace_back(

@@ -15,6 +15,7 @@
 #include "core/base/text.h"
 #include "core/structure/bonds.h"
 #include "core/structure/formats/added_files.h"
+#include "core/structure/martini.h"
 #include "core/structure/plausibility.h"
 #include "core/structure/secondary_structure.h"
 #include "core/structure/selection/selection.h"
@@ -28,7 +29,7 @@ bool is_virtual_site(const Atom& atom) {
   if (atom.residue_name == "DUM") return true;
   if (atom.element != 0) return false;
   const std::string letters = atom.name.substr(0, atom.name.find_first_of("0123456789"));
-  for (const char* name : {"LP", "EP", "M", "MW", "EPW", "VS", "G", "TZ"}) {
+  for (const char* name : {"LP", "EP", "M", "MW", "EPW", "VS", "G", "TZ", "CA"}) {
     if (letters == name) return true;
   }
   return false;
@@ -222,6 +223,13 @@ void halt_on_unknown_elements(const Structure& structure, const std::vector<std:
     }
     examples += (examples.empty() ? "" : ", ") + escaped(name);
   }
+  if (martini_version(structure.atoms).number != 0)
+    throw InputError(
+        structure.file, 0,
+        fmt::format("the type of {} {} is unknown: {}; give {} radius by {} 'resname NAME=2.64', or choose "
+                    "{} guess",
+                    with_thousands(unknown.size()), unknown.size() == 1 ? "bead" : "beads", examples,
+                    unknown.size() == 1 ? "its" : "their", option_name("radius"), option_name("unknown-element")));
   throw InputError(structure.file, 0,
                    fmt::format("the element of {} {} is unknown: {}; correct the element column, or choose {} guess "
                                "or skip",
@@ -344,7 +352,8 @@ struct StructureFile::Parts {
     std::erase_if(report.excluded, [](const auto& reason) { return reason.second == 0; });
     report.warnings = contents.warnings;
     note_other_molecules();
-    radii.emplace(options.radii, file.path, contents.radii);
+    radii.emplace(options.radii, file.path, contents.radii, contents.atoms);
+    note_version_of_beads();
   }
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
@@ -354,6 +363,15 @@ struct StructureFile::Parts {
     report.warnings.emplace_back(
         fmt::format("{} molecules are in the file; the first is used, {} 2 takes the next, {} all unites them",
                     with_thousands(contents.models), option_name("model"), option_name("model")));
+  }
+
+  void note_version_of_beads() {
+    const MartiniVersion martini = martini_version(contents.atoms);
+    if (martini.number == 0 || martini.certain || !options.radii.set.empty()) return;
+    report.warnings.emplace_back(
+        fmt::format("nothing in the names tells Martini 2 from Martini 3; beads have the types and radii of 3; {} "
+                    "martini2 takes those of 2",
+                    option_name("radii")));
   }
 
   void add_files() {

@@ -13,6 +13,7 @@
 #include "core/base/text.h"
 #include "core/base/parse_number.h"
 #include "core/structure/element_tables.h"
+#include "core/structure/martini.h"
 #include "core/structure/structure.h"
 
 namespace meniscus {
@@ -49,7 +50,8 @@ RadiusOverride parse_radius_override(const std::string& text) {
   return {parse_selection(std::string_view(text).substr(0, sign)), radius};
 }
 
-RadiiChoice::RadiiChoice(const RadiiOptions& options, const std::string& molecule_file, FileRadii file_radii)
+RadiiChoice::RadiiChoice(const RadiiOptions& options, const std::string& molecule_file, FileRadii file_radii,
+                         std::span<const Atom> atoms)
     : options_(options), tables_(read_radii_files(options.files)) {
   if (options.set.empty()) {
     from_file_ = file_radii == FileRadii::usual && tables_.empty();
@@ -65,6 +67,14 @@ RadiiChoice::RadiiChoice(const RadiiOptions& options, const std::string& molecul
           fmt::format("{} is not a set of radii; choose one of {}", in_quotes(options.set), radii_set_names()));
     }
   }
+  const MartiniVersion martini = martini_version(atoms);
+  if (martini.number == 0 || from_file_) return;
+  if (options.set.empty()) set_ = martini.number == 2 ? &kMartini2Set : &kMartini3Set;
+  if (set_ != &kMartini2Set && set_ != &kMartini3Set)
+    throw InputError(molecule_file, 0,
+                     fmt::format("holds beads of Martini, for which {} has no radii; choose "
+                                 "martini2 or martini3, or leave {} out",
+                                 set_->name, option_name("radii")));
 }
 
 bool RadiiChoice::united(bool any_hydrogens) const {
@@ -80,7 +90,9 @@ RadiiChoice::Given RadiiChoice::radius_for(const Atom& atom, bool hydrogens_used
   }
   if (from_file_) return {{atom.radius, element_symbol(atom.element), "the molecule file"}};
   if (const auto found = set_->radius_of(atom)) return {*found, tables_.empty() || set_ != &kBondiSet};
-  return {*kBondiSet.radius_of(atom), false};
+  if (atom.element == 0 && (set_ == &kMartini2Set || set_ == &kMartini3Set))
+    return {{kRadiusWithoutSource, "unknown", source_name(RadiusSource::none)}};
+  return {*kBondiSet.radius_of(atom), set_ == &kMartini2Set || set_ == &kMartini3Set};
 }
 
 std::vector<RadiiChoice::Given> RadiiChoice::radii_for(const Structure& structure, bool hydrogens_used) const {

@@ -2,6 +2,7 @@
 // Gives each atom its radius: by tables, sets and overrides in their order, with an account of where each came from.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,8 +34,11 @@ RadiusOverride parse_radius_override(const std::string& text);
 /// Where radii come from, once files are read.
 class RadiiChoice {
  public:
-  /// Throws InputError: an unknown set, "file" for a molecule file without radii, or what read_radii_files throws.
-  RadiiChoice(const RadiiOptions& options, const std::string& molecule_file, FileRadii file_radii);
+  /// atoms: all of the file; beads of Martini among them get the radii of their version if no set is asked for. Throws
+  /// InputError: an unknown set, one that is not for beads where there are some, "file" for a molecule file without
+  /// radii, or what read_radii_files throws.
+  RadiiChoice(const RadiiOptions& options, const std::string& molecule_file, FileRadii file_radii,
+              std::span<const Atom> atoms = {});
 
   bool from_molecule_file() const { return from_file_; }
   /// Do the radii contain hydrogens, so that these are left out unless the user keeps them? `any`: the molecule has

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Holds the radii sets bondi, protor and united, and finds a set by its name.
+// Holds the radii sets bondi, protor, united and of Martini, and finds a set by its name.
 #include "core/structure/radii/radii_set.h"
 
 #include <map>
 
+#include "core/structure/martini.h"
 #include "core/structure/residue_names.h"
 #include "core/structure/element_tables.h"
 #include "core/structure/structure.h"
@@ -11,7 +12,7 @@
 namespace meniscus {
 namespace {
 
-constexpr const RadiiSet* kSets[] = {&kBondiSet, &kUnitedSet, &kProtorSet};
+constexpr const RadiiSet* kSets[] = {&kBondiSet, &kUnitedSet, &kProtorSet, &kMartini2Set, &kMartini3Set};
 
 }  // namespace
 
@@ -91,5 +92,27 @@ std::optional<FoundRadius> united_radius_of(const Atom& atom) {
 
 const RadiiSet kUnitedSet{"united", "united atoms: hydrogens are part of the atoms that carry them",
                           "Chothia 1976, J. Mol. Biol. 105, 1", true, united_radius_of};
+
+// Half the distance of the energy minimum of two equal beads, which is also what areas of Martini are measured with.
+
+namespace {
+
+std::optional<FoundRadius> bead_radius(const Atom& atom, int version, std::string_view source) {
+  if (atom.element != 0) return std::nullopt;
+  const std::optional<Bead> bead = martini_bead(atom.residue_name, atom.name, version);
+  if (!bead) return std::nullopt;
+  return FoundRadius{bead->radius, bead->type, source};
+}
+
+constexpr const char* kMartini2Source = "Marrink et al. 2007, J. Phys. Chem. B 111, 7812";
+constexpr const char* kMartini3Source = "Souza et al. 2021, Nat. Methods 18, 382";
+
+}  // namespace
+
+const RadiiSet kMartini2Set{"martini2", "beads of Martini 2: half the distance of their energy minimum",
+                            kMartini2Source, false,
+                            [](const Atom& atom) { return bead_radius(atom, 2, kMartini2Source); }};
+const RadiiSet kMartini3Set{"martini3", "beads of Martini 3, the same", kMartini3Source, false,
+                            [](const Atom& atom) { return bead_radius(atom, 3, kMartini3Source); }};
 
 }  // namespace meniscus

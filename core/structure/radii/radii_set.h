@@ -31,13 +31,14 @@ struct RadiiSet {
 extern const RadiiSet kBondiSet;
 extern const RadiiSet kUnitedSet;
 extern const RadiiSet kProtorSet;
+extern const RadiiSet kMartini2Set, kMartini3Set;
 
 std::span<const RadiiSet* const> radii_sets();
 
 /// The set of this name; nullptr: none.
 const RadiiSet* find_radii_set(std::string_view name);
 
-/// "bondi, united, protor, file".
+/// "bondi, united, protor, martini2, martini3, file".
 std::string radii_set_names();
 
 }  // namespace meniscus

@@ -7,6 +7,8 @@
 #include <string_view>
 
 #include "core/structure/residue_names.h"
+#include "core/structure/lipids.h"
+#include "core/structure/sugars.h"
 #include "core/structure/secondary_structure.h"
 #include "core/structure/structure.h"
 
@@ -67,6 +69,8 @@ bool answers(AtomFlag flag, Chemistry chemistry, const Atom& atom) {
 
 /// Of residues that are distinguished by all their atoms.
 bool answers(AtomFlag flag, std::span<const Atom> residue) {
+  if (flag == AtomFlag::glycan) return sugar_of(residue) != nullptr;
+  if (flag == AtomFlag::lipid) return is_lipid(residue);
   const bool carbon = std::any_of(residue.begin(), residue.end(), [](const Atom& atom) { return atom.element == 6; });
   const bool ligand = residue.front().kind == AtomClass::ligand;
   if (flag == AtomFlag::organic) return ligand && carbon;
@@ -99,7 +103,8 @@ bool answers(AtomFlag flag, const Atom& atom) {
 
 bool needs_residues(AtomFlag flag) {
   return flag == AtomFlag::protein || flag == AtomFlag::nucleic || flag == AtomFlag::backbone ||
-         flag == AtomFlag::sidechain || flag == AtomFlag::organic || flag == AtomFlag::inorganic;
+         flag == AtomFlag::sidechain || flag == AtomFlag::organic || flag == AtomFlag::inorganic ||
+         flag == AtomFlag::glycan || flag == AtomFlag::lipid;
 }
 
 }  // namespace
@@ -125,7 +130,8 @@ std::vector<bool> atoms_with(AtomFlag flag, std::span<const Atom> atoms) {
     while (last < atoms.size() && atoms[last].residue == head.residue && atoms[last].residue_name == head.residue_name)
       ++last;
     const std::span<const Atom> residue = atoms.subspan(first, last - first);
-    if (flag == AtomFlag::organic || flag == AtomFlag::inorganic) {
+    if (flag == AtomFlag::organic || flag == AtomFlag::inorganic || flag == AtomFlag::glycan ||
+        flag == AtomFlag::lipid) {
       const bool yes = answers(flag, residue);
       for (std::size_t n = first; n < last; ++n) result[n] = yes;
       continue;

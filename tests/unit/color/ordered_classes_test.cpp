@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Classes of confidence and of secondary structure, and places in chains: from files, with their gaps and doubts.
+// Classes of confidence, of secondary structure, of sugars and of beads, and places in chains: from files, with their
+// gaps and doubts.
 #include "core/color/ordered_classes.h"
 
 #include <cmath>
@@ -53,6 +54,57 @@ std::string metric(const std::string& type, const std::string& rows) {
 Structure read_text(const char* name, const std::string& text) {
   const test::TemporaryFolder folder;
   return read_structure(folder.file(name, text));
+}
+
+TEST(Sugars, HaveTheColoursOfTheirSymbols) {
+  const auto line = [](int serial, const char* name, const char* residue, int number, double x, double y,
+                       char element) {
+    return fmt::format("HETATM{:5}  {:<3} {:>3} A{:4}    {:8.3f}{:8.3f}{:8.3f}  1.00  0.00           {}  \n", serial,
+                       name, residue, number, x, y, 0.0, element);
+  };
+  std::string text;
+  int serial = 0;
+  for (const char* residue : {"NAG", "GCU", "ATP"}) {
+    const char* names[] = {"C1", "C2", "C3", "C4", "C5", "O5", "C6"};
+    const int number = serial;
+    for (int n = 0; n < 7; ++n, ++serial)
+      text +=
+          line(serial + 1, names[n], residue, number + 1, 20.0 * number + (n < 6 ? 1.4 : 2.9) * std::cos(1.0472 * n),
+               (n < 6 ? 1.4 : 2.9) * std::sin(1.0472 * n), names[n][0]);
+  }
+  const Structure structure = read_text("sugars.pdb", text);
+  const std::vector<glm::vec3> colors = colored("snfg", structure).atom;
+  EXPECT_EQ(colors[0], color_from_hex(0x0090bc));
+  EXPECT_EQ(colors[6], color_from_hex(0x0090bc));   // NAG is of one colour
+  EXPECT_EQ(colors[7], color_from_hex(0x0090bc));   // the ring of GCU
+  EXPECT_EQ(colors[13], color_from_hex(0xf5f5f5));  // beyond the ring: its white half
+  EXPECT_EQ(colors[14], color_from_hex(0xb4b4b4));
+  const ColorKey key = color_key(structure, scheme("snfg"), {});
+  ASSERT_EQ(key.classes.size(), 4u);
+  EXPECT_EQ(key.classes[0].name, "GlcNAc");
+  EXPECT_EQ(key.classes[1].name, "GlcA");
+}
+
+TEST(Beads, AreClassedByTheirTypes) {
+  std::string text = "beads\n    7\n";
+  int serial = 0;
+  for (const auto& [residue, name] : std::initializer_list<std::pair<const char*, const char*>>{{"1ALA  ", "   BB"},
+                                                                                                {"1ALA  ", "  SC1"},
+                                                                                                {"2POPC ", "  NC3"},
+                                                                                                {"2POPC ", "  PO4"},
+                                                                                                {"2POPC ", "  GL1"},
+                                                                                                {"2POPC ", "  C1A"},
+                                                                                                {"2POPC ", "  D2A"}}) {
+    ++serial;
+    text += fmt::format("    {}{}{:5}{:8.3f}{:8.3f}{:8.3f}\n", residue, name, serial, 0.5 * serial, 0.0, 0.0);
+  }
+  const Structure structure = read_text("beads.gro", text + " 9.0 9.0 9.0\n");
+  const ColorKey key = color_key(structure, scheme("bead"), {});
+  std::vector<std::string> names;
+  for (const ColorClass& each : key.classes) names.push_back(each.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"charged", "polar", "intermediate", "apolar"}));
+  const std::vector<glm::vec3> colors = colored("bead", structure).atom;
+  EXPECT_EQ(colors, colors_of_hex({0x56b4e9, 0xe6d9b8, 0xd55e00, 0xd55e00, 0x009e73, 0xe6d9b8, 0xe6d9b8}));
 }
 
 TEST(Confidence, HasTheFourClassesOfAlphaFold) {

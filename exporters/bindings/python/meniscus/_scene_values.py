@@ -14,10 +14,11 @@ class SurfaceValues(TypedDict, total=False):
     """Of the picture of a surface: look and size."""
     #: SCHEME: Colour: a scheme, a colour (red, #rrggbb), or EXPR=COLOR. Schemes: element, element-cpk (darker),
     #: chain, copy (of an assembly), residue (type), secondary (helix, strand, coil), plddt (AlphaFold's
-    #: confidence), kind (of patch), component; by a number: bfactor, occupancy, charge, hydrophobicity (Kyte &
-    #: Doolittle 1982), lipophilicity (a potential), index, rainbow (along each chain), radial (for capsids).
-    #: EXPR=COLOR colours some atoms, as in 'ligand=orange'; 'ligand=orange:ATP' names them in the legend.
-    #: Repeatable; the last one counts. meniscus colors explains the schemes [element]
+    #: confidence), snfg (sugars), bead (of Martini), kind (of patch), component; by a number: bfactor,
+    #: occupancy, charge, hydrophobicity (Kyte & Doolittle 1982), lipophilicity (a potential), index, rainbow
+    #: (along each chain), radial (for capsids). EXPR=COLOR colours some atoms, as in 'ligand=orange';
+    #: 'ligand=orange:ATP' names them in the legend. Repeatable; the last one counts. meniscus colors explains
+    #: the schemes [element]
     color: Union[Text, Sequence[Text]]
     #: WORD: Look: publication, cover, flat, soft or classic. publication: shade, thin lines, colours as given;
     #: cover: studio light, highlights; flat: constant colours and lines; soft: matt, no lines; classic: studio
@@ -57,7 +58,7 @@ class SurfaceValues(TypedDict, total=False):
     #: WIDTH: Width of lines where chains meet [--silhouettes]
     part_lines: Text
     #: F: Fade of the farthest atoms into the background, 0 to 1. A transparent background counts as white.
-    #: Presets do not fade where colours show numbers or a legend explains them
+    #: Presets do not fade where colours show numbers, a legend explains them or a surface is seen through
     depth_cue: float
     #: Make transparent edges for programs that blend in linear light. Without it .png and .tif pictures look
     #: right on a page
@@ -114,8 +115,9 @@ class SceneValues(SurfaceValues, total=False):
     unknown_element: Literal["halt", "guess", "skip"]
     #: WORD: Hydrogens: keep, drop or auto. auto: drop them if the radii of heavy atoms include them [auto]
     hydrogens: Literal["keep", "drop", "auto"]
-    #: SET: Van der Waals radii: bondi, united, protor or file. bondi: by element; united (Chothia 1976) and
-    #: protor (Tsai et al. 1999) include hydrogens; file: those of FILE [file if it has radii, else bondi]
+    #: SET: Van der Waals radii: bondi, united, protor, martini2, martini3 or file. bondi: by element; united
+    #: (Chothia 1976) and protor (Tsai et al. 1999) include hydrogens; martini2 and martini3: of beads; file:
+    #: those of FILE [file if it has radii, else bondi; of Martini's beads those of its version]
     radii: Text
     #: FILE: File of radii by residue and atom, used before --radii. Formats: atmtypenumbers of MSMS, FreeSASA
     #: .config, CHARMM .rtf with .prm (or .str), PDB2PQR .DAT, or lines RESIDUE ATOM RADIUS. Repeatable; the
@@ -259,7 +261,12 @@ class SceneValues(SurfaceValues, total=False):
     #: EXPR: Draw the backbone of these atoms as a cartoon: tubes, ribbons, arrows. Helices are ribbons, strands
     #: are arrows
     tube: Union[Text, Sequence[Text]]
-    #: Å: Radius of sticks in Å [0.25; 0.15 between balls]
+    #: EXPR: Draw the bases of these nucleotides as filled rings. Rungs lead to the tube
+    bases: Union[Text, Sequence[Text]]
+    #: EXPR: Draw these sugars as solid symbols (3D-SNFG). Such as spheres, cubes, cones; their colours: --color
+    #: snfg
+    glycans: Union[Text, Sequence[Text]]
+    #: Å: Radius of sticks in Å, also of bases and between glycans [0.25; 0.15 between balls]
     stick_radius: float
     #: Å: Radius of tubes in Å. Ribbons and arrows scale with it [0.3]
     tube_radius: float

@@ -49,7 +49,7 @@ Structure read_with(const char* file, const RadiiOptions& radii, Hydrogens hydro
 }
 
 TEST(RadiiSets, AreNamedAndGiveTheirSource) {
-  EXPECT_EQ(radii_set_names(), "bondi, united, protor, file");
+  EXPECT_EQ(radii_set_names(), "bondi, united, protor, martini2, martini3, file");
   for (const RadiiSet* set : radii_sets()) {
     EXPECT_EQ(find_radii_set(set->name), set);
     EXPECT_FALSE(set->description.empty() || set->source.empty());

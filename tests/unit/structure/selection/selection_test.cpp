@@ -175,6 +175,39 @@ TEST(Selection, WordsMeanWhatTheHelpSays) {
   for (const auto& [expression, expected] : cases) EXPECT_EQ(selected(expression), expected) << expression;
 }
 
+/// One residue of the ligand class: its name, and names of atoms that are carbon but where they say O or P.
+std::vector<Atom> residue_of(const char* residue, const std::vector<const char*>& names) {
+  std::vector<Atom> atoms;
+  for (const char* name : names) {
+    Atom& atom = atoms.emplace_back();
+    atom.name = name;
+    atom.residue_name = residue;
+    atom.kind = AtomClass::ligand;
+    atom.element = name[0] == 'O' ? 8 : name[0] == 'P' ? 15 : 6;
+    const double angle = static_cast<double>(atoms.size()) * 3.14159265358979 / 3.0;
+    atom.position = {1.4 * std::cos(angle), 1.4 * std::sin(angle), 0.0};
+  }
+  return atoms;
+}
+
+TEST(Selection, KnowsGlycansAndLipids) {
+  const std::vector<const char*> ring{"C1", "C2", "C3", "C4", "C5", "O5"};
+  const std::vector<const char*> tail(12, "C1");
+  const auto is = [](const char* word, const std::vector<Atom>& atoms) -> bool {
+    return parse_selection(word).evaluate(atoms).front();
+  };
+  for (const char* name : {"NAG", "BMA", "SIA", "BGLC", "4YB", "0fA"})
+    EXPECT_TRUE(is("glycan", residue_of(name, ring))) << name;
+  EXPECT_FALSE(
+      is("glycan", residue_of("2MA", {"C1'", "C2'", "N1", "C2", "N3", "C4"})));  // a letter of GLYCAM, no sugar
+  for (const char* name : {"HEM", "ATP", "POPC"}) EXPECT_FALSE(is("glycan", residue_of(name, ring))) << name;
+  for (const char* name : {"POPC", "DPPE", "CHL1", "CLR", "OLA", "PA"})
+    EXPECT_TRUE(is("lipid", residue_of(name, tail))) << name;
+  for (const char* name : {"NAG", "ATP", "LMT", "POPX"}) EXPECT_FALSE(is("lipid", residue_of(name, tail))) << name;
+  EXPECT_FALSE(is("lipid", residue_of("PA", {"C1", "O2"})));  // too short for a tail
+  EXPECT_TRUE(is("lipids", residue_of("POPC", tail)));
+}
+
 TEST(Selection, ResiduesAreCountedByTheirRunningNumber) {
   EXPECT_EQ(selected("byres index 7"), "7");
   EXPECT_EQ(selected("byres index 6"), "6");
