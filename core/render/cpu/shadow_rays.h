@@ -219,11 +219,13 @@ class SkyWatcher : LightedScene {
   explicit SkyWatcher(const LaneScene& scene) : LightedScene(scene) {}
 
   void watch(const vec3* points, const vec3* normals, float* seen, int count) const {
-    real3 x(0.0f), outward(0.0f);
-    for (int n = 0; n < kLanes; ++n) {
-      put(points[n < count ? n : 0], n, x);
-      put(normals[n < count ? n : 0], n, outward);
-    }
+    Floats lanes[6];
+    for (int n = 0; n < kLanes; ++n)
+      for (int axis = 0; axis < 3; ++axis) {
+        lanes[axis][n] = points[n < count ? n : 0][axis];
+        lanes[3 + axis][n] = normals[n < count ? n : 0][axis];
+      }
+    const real3 x(lanes[0], lanes[1], lanes[2]), outward(lanes[3], lanes[4], lanes[5]);
     const real result = sky_seen(x + outward * scene_.light->lift, outward, lane_numbers() < integer(count), 0);
     for (int n = 0; n < count; ++n) seen[n] = lane(result, n);
   }
