@@ -63,8 +63,8 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kSession, live | value_optional)
         .in_short_help(),
     file("preview.token_file", "--token-file", "FILE",
-         "Take the token of the page's address from this file, so that the address stays. Without it from the variable "
-         "MENISCUS_TOKEN. 16 to 128 letters and digits")
+         "Take the token of the page's address from this file. The address then stays; the token has 16 to 128 letters "
+         "and digits. Without this option the variable MENISCUS_TOKEN is read")
         .initially("a random one")
         .in(kSession, live),
     file("preview.commands", "--commands", "FILE", "Run commands from this file first, one JSON object per line")
