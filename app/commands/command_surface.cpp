@@ -109,9 +109,10 @@ void add_surface(CLI::App& command) {
   options.add("report.least_patch", state.least_patch);
   command.callback([declared] {
     declared->options.take();
-    // Parts of surfaces are cut out by planes.
+    // Parts of surfaces are cut out by planes, and rays meet patches within theirs.
     const Division& division = declared->state.scene.molecule.division;
-    declared->state.scene.molecule.surface.drawn = division.components || division.cavities != Cavities::keep;
+    declared->state.scene.molecule.surface.drawn =
+        division.components || division.cavities != Cavities::keep || declared->state.open_sky;
     print_surface(declared->state);
   });
 }

@@ -44,7 +44,7 @@ std::string prefix_of(const std::optional<FrameNote>& note) { return note ? fram
 
 /// Of each atom; of several copies what each sees past its own object.
 AreaColumn open_sky(const Molecule& molecule) {
-  constexpr double kTolerance = 0.1;  // Å
+  constexpr double kTolerance = 0.3;  // Å: points enough for a mean
   AreaColumn column{"open_sky", std::vector<double>(molecule.structure.atoms.size(), 0.0), 0.0};
   for (const SurfaceObject& object : molecule.objects) {
     const TriangleMesh mesh = tessellate(object.surface, {.tolerance = kTolerance});

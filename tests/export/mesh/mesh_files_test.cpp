@@ -213,6 +213,24 @@ TEST(MeshFiles, AreasOfAtomsAndPatchesStandAtTheirVertices) {
     })) << area;
 }
 
+TEST(MeshFiles, TheSkyIsSeenFromOutsideAndNotFromCavities) {
+  const Surface surface = compute_surface_cpu(c60(1.45, 1.0), 0.8);
+  const FileObject object =
+      file_of(surface, gray(surface), 0.1, {"ses_component", "open_sky", "atom_open_sky"}).objects.front();
+  const std::vector<float>& part = numbers(object, "ses_component");
+  double outside = 0.0, inside = 0.0;
+  for (std::size_t v = 0; v < part.size(); ++v) {
+    const auto component = static_cast<std::size_t>(part[v]);
+    const bool is_cavity = surface.components[component].kind == ComponentKind::cavity;
+    const float seen = numbers(object, "open_sky")[v];
+    (is_cavity ? inside : outside) = std::max<double>(is_cavity ? inside : outside, seen);
+    EXPECT_GT(numbers(object, "atom_open_sky")[v], 0.1f);  // of its outer part and its inner one
+    EXPECT_LT(numbers(object, "atom_open_sky")[v], 0.95f);
+  }
+  EXPECT_EQ(inside, 0.0);
+  EXPECT_GT(outside, 0.9);
+}
+
 // A fullerene's cage: one point in the hollow, one in its wall.
 TEST(MeshFiles, InnerPointsLieInCavitiesAndSolids) {
   for (const double radius : {1.0, 1.7}) {
