@@ -136,8 +136,8 @@ const auto kColumns = std::to_array<Column>({
      [](const NumberSource& s) {
        return of_faces(s, [&](std::uint32_t face, std::uint32_t) { return s.object.surface.faces[face].area; });
      }},
-    {{"open_sky", "share of the sky it sees past the surface, by cosine, 0 to 1", false, false}, skies},
-    {{"atom_open_sky", "its mean over the atom's surface", false, false}, atom_skies},
+    {{"open_sky", "share of the sky it sees past the surface, by cosine, 0 to 1", false, false, true}, skies},
+    {{"atom_open_sky", "its mean over the atom's surface", false, false, true}, atom_skies},
     {{"charge", "partial charge of the atom, e", false, true},
      [](const NumberSource& s) { return of_atoms(s, [](const Atom& a) { return a.charge; }); }},
     {{"hydrophobicity", "of its residue (Kyte & Doolittle 1982)", false, true},
@@ -156,7 +156,7 @@ const auto kKinds = [] {
 bool is_wanted(const VertexNumberKind& kind, std::span<const std::string> words, AtomSource atoms) {
   return (atoms == AtomSource::molecule || !kind.of_molecule) &&
          std::ranges::any_of(words, [&](const std::string& word) {
-           return word == kind.name || word == "all" || (word == "usual" && kind.usual);
+           return word == kind.name || (word == "all" && !kind.slow) || (word == "usual" && kind.usual);
          });
 }
 

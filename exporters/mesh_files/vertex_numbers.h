@@ -23,6 +23,7 @@ struct VertexNumberKind {
   std::string_view description;
   bool usual;        ///< there unless others are asked for
   bool of_molecule;  ///< told by a molecule's file alone
+  bool slow = false;  ///< takes seconds or minutes, so that only its own name asks for it
 };
 
 std::span<const VertexNumberKind> vertex_number_kinds();

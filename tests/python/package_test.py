@@ -526,7 +526,7 @@ class MeshFiles(unittest.TestCase):
         self.assertEqual(table.dtype.names[9:], ("vdw_radii", "atom_index", "ses_kind", "ses_component", "mean_curvature",
                                                  "gaussian_curvature", "smooth_mean_curvature",
                                                  "smooth_gaussian_curvature", "atom_area", "accessible_area",
-                                                 "patch_area", "open_sky", "atom_open_sky"))
+                                                 "patch_area"))
         np.testing.assert_allclose(table["vdw_radii"], self.radii[table["atom_index"].astype(int)], rtol=1e-6)
         np.testing.assert_allclose(table["atom_area"], self.surface.atom_areas[table["atom_index"].astype(int)], rtol=1e-5)
         np.testing.assert_allclose(table["accessible_area"], self.surface.atom_sas_areas[table["atom_index"].astype(int)],

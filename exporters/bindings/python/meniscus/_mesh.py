@@ -151,7 +151,7 @@ class Mesh:
         "ply-ascii" or "py", a script for PyMOL, by the ending of the path unless `format` says which. colors: one (3,), or one per atom (n, 3), in [0, 1]. attributes:
         of vertices in GLB, PLY and VTP, with commas between; "vdw_radii", "atom_index", "ses_kind", "ses_component" are
         the usual ones, "mean_curvature", "gaussian_curvature", "smooth_mean_curvature", "smooth_gaussian_curvature",
-        "atom_area", "accessible_area", "patch_area", "open_sky" and "atom_open_sky" the others; "all", "none". scale:
+        "atom_area", "accessible_area", "patch_area", "open_sky" and "atom_open_sky" the others; "all" but the last two, "none". scale:
         length in the file of 1 Å. Edges shorter than 0.001 Å and triangles without area in single precision are welded in the file. OutputError
         where the path cannot be written, or is there already and not to be replaced.
 

@@ -567,7 +567,7 @@ typedef struct meniscus_mesh_file {
                                "atom_index", "ses_kind" and "ses_component", which are the usual ones,
                                "mean_curvature", "gaussian_curvature", "smooth_mean_curvature",
                                "smooth_gaussian_curvature", "atom_area", "accessible_area", "patch_area",
-                               "open_sky", "atom_open_sky"; "all", "none" */
+                               "open_sky", "atom_open_sky"; "all" but the last two, "none" */
   const float* atom_colors; /* [NULL: all have `color`] sRGB in [0, 1], three per atom; read during the call only */
   double scale;             /* [1] length in the file of 1 Å, 1e-12 to 1e6; 3MF has mm, GLB m; DMS is in Å always */
   float color[3];           /* [0.75, 0.82, 0.9] sRGB in [0, 1] */
