@@ -424,7 +424,8 @@ TEST_F(FigureSession, SchemesThatAreOfferedAreThoseItCanShow) {
   for (const char* word : {"element", "chain", "bfactor"}) EXPECT_TRUE(words.contains(word)) << word;
   // Of the others the reason is told.
   std::map<std::string, std::string> lacks;
-  for (const Json& scheme : apply(R"({"command":"choices"})")["schemes"])
+  const Json choices = apply(R"({"command":"choices"})");
+  for (const Json& scheme : choices["schemes"])
     lacks[scheme["word"].get<std::string>()] = scheme.value("lacks", "");
   EXPECT_EQ(lacks["charge"], "has no partial charges to colour by");
   EXPECT_EQ(lacks["model"], "has one model");
