@@ -45,7 +45,7 @@ constexpr auto kTable = of_commands(
         text("camera.look_into", "--look-into", "EXPR",
              "Look at these atoms from the open side, with the surface cut before them. Short for --zoom-to EXPR "
              "--view open --clip 'before EXPR'")
-            .in(kCamera)
+            .in(kCamera, in_bundle)
             .in_short_help()
             .of(kForFigures)
             .excludes("camera.from|camera.view|camera.zoom_to"),
