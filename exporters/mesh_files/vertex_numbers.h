@@ -21,8 +21,8 @@ struct Atom;
 struct VertexNumberKind {
   std::string_view name;  ///< of the column
   std::string_view description;
-  bool usual;        ///< there unless others are asked for
-  bool of_molecule;  ///< told by a molecule's file alone
+  bool usual;         ///< there unless others are asked for
+  bool of_molecule;   ///< told by a molecule's file alone
   bool slow = false;  ///< takes seconds or minutes, so that only its own name asks for it
 };
 

@@ -425,8 +425,7 @@ TEST_F(FigureSession, SchemesThatAreOfferedAreThoseItCanShow) {
   // Of the others the reason is told.
   std::map<std::string, std::string> lacks;
   const Json choices = apply(R"({"command":"choices"})");
-  for (const Json& scheme : choices["schemes"])
-    lacks[scheme["word"].get<std::string>()] = scheme.value("lacks", "");
+  for (const Json& scheme : choices["schemes"]) lacks[scheme["word"].get<std::string>()] = scheme.value("lacks", "");
   EXPECT_EQ(lacks["charge"], "has no partial charges to colour by");
   EXPECT_EQ(lacks["model"], "has one model");
   EXPECT_EQ(lacks["copy"], "has no copies");
