@@ -258,9 +258,11 @@ class Page(PageCase):
                                 "document.getElementById('view-form').requestSubmit(); 0")
             await page.until("document.querySelector('#views .recall')?.textContent === 'front'")
             before = (await self.state(page))["camera"]
+            x, y = await page.evaluate("(({left, top, width, height}) => [left + 0.36 * width, top + 0.42 * height])("
+                                       "document.getElementById('picture').getBoundingClientRect())")
             for count in (1, 2):
                 for kind in ("mousePressed", "mouseReleased"):
-                    await page.mouse(kind, 380, 450, button="left", clickCount=count)
+                    await page.mouse(kind, x, y, button="left", clickCount=count)
             await page.until("JSON.stringify(JSON.parse(document.getElementById('picture').dataset.state).camera.target)"
                              f" !== {json.dumps(json.dumps(before['target'], separators=(',', ':')))}")
             await page.click("#views .recall")
