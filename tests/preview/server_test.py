@@ -128,7 +128,7 @@ class Server(unittest.IsolatedAsyncioTestCase):
             preview.process.stdin = None
             ended = await receive(client, lambda message: message.get("event") == "ended")
             self.assertIn("standard input", ended["error"])
-        self.assertEqual(preview.end()[0], 3)
+        self.assertEqual(preview.process.wait(timeout=30), 3)
 
     def test_a_token_of_the_users_own(self):
         token = "my-token_0123456789"
