@@ -48,7 +48,7 @@ class Completion(Installation):
             self.assertEqual(long, self.proposed(shell, *words, "--"), words)
         self.assertEqual(self.proposed(shell, "surface", "--surface", ""), {"ses", "sas", "vdw"})
         self.assertEqual(self.proposed(shell, "export", "povray", "--proj"), {"--projection"})
-        self.assertEqual(self.proposed(shell, "render", "x.pdb", "--color", "b"), {"bfactor", "buried"})
+        self.assertEqual(self.proposed(shell, "render", "x.pdb", "--color", "b"), {"bead", "bfactor", "buried"})
         self.assertIn("selections", self.proposed(shell, "help", "s"))
         self.assertIn("zsh", self.proposed(shell, "completion", ""))
 
