@@ -209,8 +209,8 @@ TEST_F(FigureSession, AtomsBesideTheSurfaceAreThoseOfTheWholeFile) {
   EXPECT_FALSE(apply(R"({"command":"zoom_to","selection":"resn LIG"})")["ok"]) << "it is not shown";
   const auto alone = picture();
   expect_ok(R"({"command":"represent","as":"balls","selection":"resn LIG"})");
-  EXPECT_NE(picture(), alone);
   EXPECT_EQ(apply(R"({"command":"zoom_to","selection":"resn LIG"})")["atoms"], 2);
+  EXPECT_NE(picture(), alone);
   const Json pick = apply(R"({"command":"pick","x":40,"y":30})");
   ASSERT_TRUE(pick["hit"]);
   EXPECT_EQ(pick["residue"], "LIG");

@@ -78,7 +78,7 @@ TEST(Properties, RangesAreThoseOfTheCode) {
 // A number of the look that had no property, or whose property is not one of scenes, bundles and the preview, would be
 // missing there without a word.
 TEST(Properties, EveryNumberOfALookIsEverywhere) {
-  EXPECT_EQ(look_numbers().size(), 12u);
+  EXPECT_EQ(look_numbers().size(), 15u);
   for (const LookNumber& number : look_numbers()) {
     const Property& property = property_of(number.key);
     EXPECT_TRUE(property.has_range() && property.has(in_scene) && property.has(in_bundle) && property.has(live))

@@ -41,8 +41,8 @@ class SurfaceValues(TypedDict, total=False):
     ambient_occlusion: float
     #: Å: Largest distance at which shade is cast, in Å
     ambient_occlusion_radius: float
-    #: N: Rays a pixel that find shade, such as 64. All that is drawn casts it then, shown or not, and it stays where
-    #: it is in films. 0: from the picture alone [0]
+    #: N: Rays a pixel that find shade, such as 64. All that is drawn casts it then, shown or not, and it stays
+    #: where it is in films. 0: from the picture alone [0]
     ambient_occlusion_rays: float
     #: F: Darkness of shadows that the lamp casts, 0 (none) to 1. What is seen through casts none [0]
     shadows: float
@@ -286,6 +286,9 @@ class SceneValues(SurfaceValues, total=False):
     turn: Union[Text, Sequence[Text]]
     #: EXPR: Fill the picture with these atoms [all that --show leaves]
     zoom_to: Text
+    #: EXPR: Look at these atoms from the open side, with the surface cut before them. Short for --zoom-to EXPR
+    #: --view open --clip 'before EXPR'
+    look_into: Text
     #: FILE: JSON file of key frames (frame, camera) of a moving camera
     camera_path: Path
     #: TURNS: Turns of the camera around the molecule over the run. Negative numbers turn the other way
