@@ -84,7 +84,7 @@ def main():
     parser.add_argument("files", nargs="*")
     parser.add_argument("--least", type=float, default=90.0)
     parser.add_argument("--size", type=int, default=300)
-    asked = parser.parse_args()
+    asked = parser.parse_intermixed_args()
     cases = failures = 0
     print(f"{'file':28} {'ligand':34} {'drawn':8} {'front':>6} {'open':>6} {'front, cut':>11} {'open, cut':>10}")
     with tempfile.TemporaryDirectory() as name:
