@@ -94,6 +94,11 @@ const std::vector<Need>& needs() {
       {{"--min-patch"},
        [](const Asked& asked) { return asked.given("--patches"); },
        "it is about patches; add --patches EXPR"},
+      {{"--patches"},
+       [](const Asked& asked) {
+         return !asked.is_run() || asked.any({"--csv-patches", "--json"});
+       },
+       "of a run, patches are written by --csv-patches FILE or --json; add one of them"},
       {{"--jobs", "--progress"},
        [](const Asked& asked) { return !asked.has("--stride") || asked.is_run(); },
        "there is no run of frames"},
