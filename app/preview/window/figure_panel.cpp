@@ -54,18 +54,21 @@ void FigurePanel::atoms() {
   tooltip("A selection; then one of the buttons below");
   const bool empty = selection_.empty();
   if (empty) ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 0.5f);
+  constexpr int kInRow = 4;  // more are wider than the panel
+  int count = 0;
   for (const Json& shape : link_.choices()["representations"]) {
+    if (count++ % kInRow != 0) same_line();
     if (ImGui::Button(shape.get<std::string>().c_str()) && !empty)
       link_.send({{"command", "represent"}, {"as", shape}, {"selection", selection_}});
-    if (shape != link_.choices()["representations"].back()) same_line();
   }
+  if (count % kInRow != 0) same_line();
   if (ImGui::Button("surface") && !empty)
     link_.send({{"command", "object"}, {"object", {{"selection", selection_}, {"color", hex_color(paint_)}}}});
   tooltip("A surface of their own, in this colour");
   same_line();
   if (ImGui::Button("hide") && !empty) link_.send({{"command", "hide"}, {"selection", selection_}});
-  same_line();
   if (ImGui::Button("only") && !empty) link_.send({{"command", "show"}, {"selection", selection_}});
+  same_line();
   if (ImGui::Button("paint") && !empty)
     link_.send({{"command", "paint"}, {"selection", selection_}, {"color", hex_color(paint_)}});
   Gui::mark("paint");
