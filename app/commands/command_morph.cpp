@@ -51,8 +51,9 @@ CommonAtoms read_common(const MorphCommand& command) {
 
 /// How good a path is.
 struct PathFaults {
-  double bonds = 0.0;  ///< most by which a bond is longer or shorter than between both ends, Å
-  double step = 0.0;   ///< longest way of an atom from a model to the next, Å
+  double bonds = 0.0;    ///< most by which a bond is longer or shorter than between both ends, Å
+  double step = 0.0;     ///< longest way of an atom from a model to the next, Å
+  double overlap = 0.0;  ///< Morph::overlap() of any model
 
   void look(const Morph& morph, std::size_t stop, double share, const std::vector<glm::dvec3>& before,
             const std::vector<glm::dvec3>& now) {
@@ -63,6 +64,7 @@ struct PathFaults {
     for (const Bond& bond : morph.bonds())
       bonds = std::max(bonds, std::abs(length(now, bond) - (1.0 - share) * length(morph.at(stop), bond) -
                                        share * length(morph.at(next), bond)));
+    if (share > 0.0) overlap = std::max(overlap, morph.overlap(stop, now));
     for (std::size_t a = 0; a < before.size(); ++a) step = std::max(step, glm::distance(before[a], now[a]));
   }
 };

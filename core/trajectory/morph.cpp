@@ -127,6 +127,13 @@ std::vector<Distance> Morph::too_near(std::size_t stop, const std::vector<glm::d
   return near;
 }
 
+double Morph::overlap(std::size_t stop, const std::vector<glm::dvec3>& positions) const {
+  double most = 0.0;
+  for (const Distance& distance : too_near(stop, positions))
+    most = std::max(most, distance.wanted - glm::distance(positions[distance.a], positions[distance.b]));
+  return most;
+}
+
 std::vector<glm::dvec3> Morph::between(std::size_t stop, double share) const {
   constexpr double kBodyStays = 1e-3, kGroupsStay = 0.05;
   constexpr int kBodyRounds = 300, kGroupRounds = 60;
@@ -144,12 +151,8 @@ void Morph::hold(std::size_t stop, double share, std::vector<glm::dvec3>& positi
   constexpr int kTries = 5;
   constexpr double kEnough = 0.05;  // Å
   for (int n = 0; n < kTries; ++n) {
-    const std::vector<Distance> near = too_near(stop, positions);
-    path_[stop].hold_lengths(share, near, positions);
-    if (std::ranges::none_of(near, [&](const Distance& distance) {
-          return glm::distance(positions[distance.a], positions[distance.b]) < distance.wanted - kEnough;
-        }))
-      return;
+    path_[stop].hold_lengths(share, too_near(stop, positions), positions);
+    if (overlap(stop, positions) < kEnough) return;
   }
 }
 

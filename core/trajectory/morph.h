@@ -44,6 +44,9 @@ class Morph {
   /// The models from a stop to before the next one, `steps` of them; the first is the stop itself.
   std::vector<std::vector<glm::dvec3>> way(std::size_t stop, std::size_t steps) const;
 
+  /// By how much two atoms of a model are nearer than they may be, Å; 0: none are. stop: where its way begins.
+  double overlap(std::size_t stop, const std::vector<glm::dvec3>& positions) const;
+
   /// The bonds that are held.
   std::span<const Bond> bonds() const { return bonds_.bonds(); }
 

@@ -115,6 +115,11 @@ TEST(Morphs, NothingPassesThroughAnything) {
     for (std::size_t a = 0; a < 4; ++a)
       for (std::size_t b = 4; b < 8; ++b) nearest = std::min(nearest, glm::distance(now[a], now[b]));
   EXPECT_GT(nearest, 0.8 * 3.4 - 0.1);
+  // What does is told: on the straight way they meet.
+  std::vector<glm::dvec3> straight;
+  for (std::size_t a = 0; a < 8; ++a) straight.push_back(0.5 * (morph.at(0)[a] + morph.at(1)[a]));
+  EXPECT_GT(morph.overlap(0, straight), 2.0);
+  EXPECT_EQ(morph.overlap(0, morph.at(0)), 0.0);
 }
 
 TEST(Morphs, AtomsThatAllHaveAreMovedWhateverTheirChainsAreCalled) {

@@ -82,7 +82,7 @@ std::array<std::string, 4> pick_lines(const nlohmann::json& pick);
 /// All keys and gestures, in the middle of the window beside a panel of this width.
 void draw_help(float panel);
 
-/// A line there while there is no picture yet.
+/// A line of text where the picture will be, until there is one.
 void draw_notice(float panel, const std::string& text);
 
 /// Asks there whether unsaved work may be lost: true to close, false to stay; nothing while there is no answer.
