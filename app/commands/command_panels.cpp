@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "app/commands/commands.h"
-#include "app/commands/render_command.h"
+#include "app/commands/scene_files.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
 #include "app/process/program_error.h"
@@ -35,49 +35,22 @@ struct PanelsCommand : SceneCommand {
 };
 using DeclaredPanels = DeclaredCommand<PanelsCommand>;
 
-/// What of the page's command line holds for each panel, as words of the panel's own.
-std::vector<std::string> shared_words(const DeclaredPanels& page) {
+/// What of the page's command line holds for each panel.
+std::vector<std::string> words_of_panels(const DeclaredPanels& page) {
   constexpr std::array<std::string_view, 5> kOfPage{"output.file", "image.size", "image.width", "image.height",
                                                     "molecule.superpose_on"};
-  std::vector<std::string> words;
-  for (const Property* property : properties()) {
-    if ((property->commands & for_panels) == 0 || !page.options.typed(property->key) ||
-        std::ranges::find(kOfPage, property->key) != kOfPage.end() || property->section() == "panels")
-      continue;
-    const std::string name(property->long_option());
-    if (property->type == ValueType::flag) {
-      words.push_back(name);
-      continue;
-    }
-    for (const std::string& text : page.options.typed_texts(*property)) {
-      words.push_back(name);
-      words.push_back(text);
-    }
-  }
+  std::vector<std::string> words = shared_words(page.options, for_panels, "panels", kOfPage);
   const double dots_per_inch = page.state.scene.picture.dots_per_inch;
   if (dots_per_inch > 0.0 && !page.options.typed("image.dpi"))
     words.insert(words.end(), {"--dpi", fmt::format("{}", dots_per_inch)});
   return words;
 }
 
-/// The scene of a panel, as `meniscus render --scene` takes it.
-SceneCommand read_panel(const std::string& path, std::vector<std::string> words, const SceneCommand& page) {
-  CLI::App app("", "render");
-  DeclaredCommand<RenderCommand> panel(app, for_render);
-  panel.state.reporting.quiet = true;
-  words.insert(words.begin(), {"--scene", path});
-  std::ranges::reverse(words);
-  app.parse(words);
-  panel.state.reporting.quiet = true;  // about options that do nothing in one of the panels
-  panel.options.take();
-  SceneCommand command = std::move(static_cast<SceneCommand&>(panel.state));
-  if (command.scene.image.extent || command.scene.image.aovs)
-    throw UsageError(fmt::format("{}: panels show complete surfaces as colours; leave image.extent and image.aovs out",
-                                 escaped(path)));
+SceneCommand read_panel(const std::string& path, const std::vector<std::string>& words, const SceneCommand& page) {
+  SceneCommand command = read_scene_file(path, words, page.reporting);
   command.scene = readied(command.scene);
   settle_selections(command.scene.molecule, command.scene.frames,
                     {.figure = &command.scene.figure, .view = &command.scene.picture});
-  command.reporting = page.reporting;
   return command;
 }
 
@@ -165,7 +138,7 @@ void run(const DeclaredPanels& declared) {
   if (holds_aovs(page.scene.output))
     throw UsageError("-o: panels are written as .png, .jpg, .webp, .tif, .svg or .pdf");
   std::vector<SceneCommand> panels;
-  for (const std::string& file : page.files) panels.push_back(read_panel(file, shared_words(declared), page));
+  for (const std::string& file : page.files) panels.push_back(read_panel(file, words_of_panels(declared), page));
   const PanelArrangement arrangement = arrangement_of(declared, panels.front().scene);
   PanelPage made(read_panels(page, panels), arrangement);
   SurfaceRequest request = panels.front().scene.molecule.surface;

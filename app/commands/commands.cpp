@@ -32,6 +32,7 @@ constexpr Command kCommands[] = {
     {"surface", "Compute the surface; print area, volume, components, chains, and areas of atoms", add_surface},
     {"pockets", "Find pockets, tunnels and cavities: volume, mouths, depth, the atoms around", add_pockets},
     {"render", "Make a picture of the surface by ray casting its exact patches", add_render},
+    {"film", "Make a film that goes from one scene to the next", add_film},
     {"panels", "Make one picture of several, side by side, with letters and one legend", add_panels},
     {"preview", "Show the surface in a window or a browser, and change it", add_preview},
     {"morph", "Make a path from one structure to another, as models of a PDB file", add_morph},

@@ -44,6 +44,7 @@ void add_farm_bundle(CLI::App& command);
 void add_farm_log(CLI::App& command);
 void add_farm_status(CLI::App& command);
 void add_farm_verify(CLI::App& command);
+void add_film(CLI::App& command);
 void add_formats(CLI::App& command);
 void add_help(CLI::App& command);
 void add_info(CLI::App& command);

@@ -80,13 +80,31 @@ void tell_small_letters(const RenderCommand& command, const PictureLayout& layou
 
 }  // namespace
 
-PictureSink::PictureSink(const RenderCommand& command, const PictureLayout& layout, FrameRun* run)
-    : command_(command), layout_(layout), run_(run) {
-  tell_small_letters(command, layout);
+FrameAnnotations::FrameAnnotations(const Scene& scene, FrameRun* run)
+    : request_(scene.annotations), is_run_(run != nullptr) {
   if (!run) return;
-  name_files(command.scene.output);
-  curve_ = curve_of_run(command.scene, *run);
-  if (command.scene.annotations.time_stamp) longest_ = run->last_time().value_or(0.0);
+  curve_ = curve_of_run(scene, *run);
+  if (request_.time_stamp) longest_ = run->last_time().value_or(0.0);
+}
+
+Annotations FrameAnnotations::of(const SinkPicture& picture, const Structure& structure) const {
+  Annotations annotations = annotations_of(request_, structure);
+  if (!is_run_) return annotations;
+  if (request_.time_stamp) annotations.time = time_text(picture.time, picture.source, longest_);
+  annotations.curve = curve_;
+  if (curve_) annotations.curve->now = picture.place;
+  return annotations;
+}
+
+std::optional<glm::vec3> ground_of_film(const std::optional<glm::vec3>& background, const FilmPixels& pixels) {
+  if (background || pixels.channels == 4) return background;
+  return glm::vec3(1.0f);
+}
+
+PictureSink::PictureSink(const RenderCommand& command, const PictureLayout& layout, FrameRun* run)
+    : command_(command), layout_(layout), run_(run), annotations_(command.scene, run) {
+  tell_small_letters(command, layout);
+  if (run) name_files(command.scene.output);
 }
 
 void PictureSink::name_files(const std::string& path) {
@@ -105,15 +123,6 @@ void PictureSink::name_files(const std::string& path) {
                     "{}, or name a film (.mp4)",
                     in_quotes(path), in_quotes(numbered_name(path))));
   check_image_path(path);
-}
-
-Annotations PictureSink::annotations(const SinkPicture& picture, const Structure& structure) const {
-  Annotations annotations = annotations_of(command_.scene.annotations, structure);
-  if (!run_) return annotations;
-  if (command_.scene.annotations.time_stamp) annotations.time = time_text(picture.time, picture.source, longest_);
-  annotations.curve = curve_;
-  if (curve_) annotations.curve->now = picture.place;
-  return annotations;
 }
 
 FinishFrame PictureSink::keep(const SinkPicture& picture, const Annotations& annotations, const Draw& draw) {
@@ -146,19 +155,13 @@ FinishFrame PictureSink::to_film(const SinkPicture& picture, const Annotations& 
     if (layout_.legend) lock.lock();
     drawn = finished_picture(std::move(drawn), annotations, layout_, picture.camera, command_.scene.image.background);
   }
-  auto pixels =
-      std::make_shared<const std::vector<std::uint8_t>>(srgb_pixels(drawn, ground_of_film(), film_->pixels().bytes));
+  const FilmPixels& format = film_->pixels();
+  auto pixels = std::make_shared<const std::vector<std::uint8_t>>(
+      srgb_pixels(drawn, ground_of_film(command_.scene.image.background, format), format.bytes));
   return [this, pixels, shows_nothing] {
     film_->add(*pixels);
     return MadeFrame{{}, shows_nothing};
   };
-}
-
-/// White where none was asked for, but in a film that keeps what is transparent.
-std::optional<glm::vec3> PictureSink::ground_of_film() const {
-  const std::optional<glm::vec3>& background = command_.scene.image.background;
-  if (background || film_->pixels().channels == 4) return background;
-  return glm::vec3(1.0f);
 }
 
 void PictureSink::finish() {

@@ -28,6 +28,25 @@ struct SinkPicture {
   Camera camera{};
 };
 
+/// What is written into the pictures of a molecule, or of a run.
+class FrameAnnotations {
+ public:
+  /// run: whose frames they are; nullptr: there is one picture. The scene must stay. Throws InputError for its curve.
+  FrameAnnotations(const Scene& scene, FrameRun* run);
+  /// Throws InputError for a label of no atoms.
+  Annotations of(const SinkPicture& picture, const Structure& structure) const;
+
+ private:
+  const AnnotationRequest& request_;
+  bool is_run_;
+  std::optional<Curve> curve_;  ///< the same in all pictures but for its mark
+  double longest_ = 0.0;        ///< time of the run, ps
+};
+
+/// The ground of a film of such pixels: white where no background was asked for, but in a film that keeps what is
+/// transparent.
+std::optional<glm::vec3> ground_of_film(const std::optional<glm::vec3>& background, const FilmPixels& pixels);
+
 class PictureSink {
  public:
   /// run: whose frames they are; nullptr: there is one picture. Throws UsageError for a name that does not fit, and for
@@ -38,7 +57,9 @@ class PictureSink {
   /// a whole.
   using Draw = std::function<Framebuffer(const RenderSettings& settings)>;
   /// What is written into a picture of the structure. Throws InputError for a label of no atoms.
-  Annotations annotations(const SinkPicture& picture, const Structure& structure) const;
+  Annotations annotations(const SinkPicture& picture, const Structure& structure) const {
+    return annotations_.of(picture, structure);
+  }
   /// Draws a picture, on any thread; what it returns adds it to a film.
   FinishFrame keep(const SinkPicture& picture, const Annotations& annotations, const Draw& draw);
 
@@ -49,16 +70,14 @@ class PictureSink {
   void name_files(const std::string& path);
   FinishFrame to_file(const SinkPicture& picture, const Annotations& annotations, const Draw& draw);
   FinishFrame to_film(const SinkPicture& picture, const Annotations& annotations, const Draw& draw);
-  std::optional<glm::vec3> ground_of_film() const;
 
   const RenderCommand& command_;
   const PictureLayout& layout_;
   const FrameRun* run_;
   std::optional<NumberedPath> numbered_;
   std::unique_ptr<FilmWriter> film_;
-  std::optional<Curve> curve_;  ///< the same in all pictures but for its mark
-  double longest_ = 0.0;        ///< time of the run, ps
-  std::mutex legend_;           ///< its letters come from one font, which one thread uses at a time
+  FrameAnnotations annotations_;
+  std::mutex legend_;  ///< its letters come from one font, which one thread uses at a time
 };
 
 }  // namespace meniscus

@@ -129,6 +129,7 @@ const std::vector<Need>& needs() {
        true},
       {{"--fps"},
        [](const Asked& asked) {
+         if (asked.has("--hold")) return true;
          return asked.has("--samples") ? asked.is_film() : !asked.has("--stride") || asked.is_run();
        },
        "the output is not a film"},
@@ -157,7 +158,7 @@ const std::vector<Need>& needs() {
       {{"--letter-size", "--letter-color"},
        [](const Asked& asked) {
          return has_legend(asked) || asked.name() == "preview" ||
-                asked.any({"--label", "--scale-bar", "--panel", "--time-stamp", "--curve"});
+                asked.any({"--label", "--scale-bar", "--panel", "--title", "--time-stamp", "--curve"});
        },
        "there are no letters in the picture; add --legend, --label, --scale-bar or --panel"},
       {{"--color-title", "--color-unit"},

@@ -42,6 +42,9 @@ constexpr auto kTable = of_commands(
         text("annotations.panel", "--panel", "TEXT", "Letter of the panel, such as a, at the top left")
             .in(kLabels, kShared)
             .in_short_help(),
+        text("annotations.title", "--title", "TEXT", "Title of the picture, at the top")
+            .in(kLabels, kShared)
+            .in_short_help(),
         text("annotations.scale_bar", "--scale-bar", "Å",
              "Draw a scale bar of this length, or of a round one (auto). With a perspective camera it is true at the "
              "camera's target")

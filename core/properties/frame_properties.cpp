@@ -89,31 +89,31 @@ constexpr auto kTable = of_commands(
             .one_of("auto|bar|plain|json|openjd|none")
             .initially("auto")
             .in(kFrames)
-            .of(kForRuns & ~for_preview),
+            .of((kForRuns & ~for_preview) | for_film),
 
         number("frames.fps", "--fps", "N", "Frames per second of a film")
             .from(0.1, 240)
             .initially("25")
             .in(kFilm, kShared)
-            .of(for_render | for_blender),
+            .of(for_render | for_blender | for_film),
         text("frames.codec", "--codec", "WORD",
              "Codec: h264, h265, vp9, prores, prores4444, dnxhr or gif. h264 is for .mp4, .mov and .mkv, vp9 for "
              ".webm; prores4444 (.mov) keeps transparency")
             .initially("by the file's ending")
             .in(kFilm, in_scene)
-            .of(for_render),
+            .of(for_render | for_film),
         count("frames.crf", "--crf", "N", "Quality of a film (rate factor): lower is better and larger")
             .initially("h264 18, h265 20, vp9 24")
             .in(kFilm, in_scene)
-            .of(for_render),
+            .of(for_render | for_film),
         count("frames.bits", "--bits", "N", "Bits per channel of a film: 8 or 10")
             .initially("8; prores 10")
             .in(kFilm, in_scene | rare)
-            .of(for_render),
+            .of(for_render | for_film),
         count("frames.chroma", "--chroma", "N", "Chroma subsampling of a film: 420, 422 or 444")
             .initially("420; prores, dnxhr 422")
             .in(kFilm, in_scene | rare)
-            .of(for_render),
+            .of(for_render | for_film),
     }));
 
 }  // namespace

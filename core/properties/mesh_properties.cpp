@@ -62,11 +62,11 @@ constexpr auto kTable = std::to_array<Property>({
     new_file("output.file", "-o,--output", "PATH", "Output file or folder")
         .in(kOutput, in_scene)
         .in_short_help()
-        .of(for_render | for_panels | for_morph | kForExports | for_mesh | for_atoms),
+        .of(for_render | for_panels | for_film | for_morph | kForExports | for_mesh | for_atoms),
     flag("output.force", "--force", "Replace an output that already exists")
         .in(kOutput)
         .in_short_help()
-        .of(kForRuns | for_panels | for_morph),
+        .of(kForRuns | for_panels | for_film | for_morph),
     file("scene.read", "--scene", "FILE",
          "Take options from a scene file or from a picture that meniscus made. Options on the command line override "
          "those of the scene")
@@ -75,7 +75,7 @@ constexpr auto kTable = std::to_array<Property>({
         .of(kForRuns),
     flag("scene.trust", "--trust-scene", "Let the scene read and write files anywhere. Use it only for your own scenes")
         .in(kScene)
-        .of(kForRuns | for_panels),
+        .of(kForRuns | for_panels | for_film),
     text("scene.set", "--set", "KEY=VALUE",
          "Set a value by its scene key, such as look.outer_lines=2. Repeatable; meniscus help scenes lists the keys")
         .in(kScene, repeatable)

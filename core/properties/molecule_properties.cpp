@@ -58,7 +58,7 @@ constexpr auto kTable = of_commands(
         flag("molecule.quiet", "-q,--quiet", "Print errors only")
             .in(kInput, in_bundle)
             .in_short_help()
-            .of(kForMolecules | for_bench | for_panels | for_morph),
+            .of(kForMolecules | for_bench | for_panels | for_film | for_morph),
 
         word("molecule.hydrogens", "--hydrogens", "WORD",
              "Hydrogens: keep, drop or auto. auto: drop them if the radii of heavy atoms include them")

@@ -69,7 +69,7 @@ constexpr auto kTable = of_commands(
             .initially("1280x960")
             .in(kPicture, kShared | live)
             .in_short_help()
-            .of(kForFigures | for_mesh | for_bench | for_panels),
+            .of(kForFigures | for_mesh | for_bench | for_panels | for_film),
         text("image.width", "--width", "LENGTH", "Width of the picture: 85mm, 8.5cm, 3.5in or 1000px")
             .in(kPicture, kShared | live)
             .in_short_help()

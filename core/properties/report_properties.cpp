@@ -7,7 +7,7 @@
 namespace meniscus {
 namespace {
 
-constexpr std::string_view kOutput = "Output", kSession = "Session", kPanels = "Picture";
+constexpr std::string_view kOutput = "Output", kSession = "Session", kPanels = "Picture", kStoryboard = "Film";
 
 constexpr auto kTable = std::to_array<Property>({
     flag("report.json", "--json", "Print JSON instead of a table").in(kOutput).in_short_help(),
@@ -95,6 +95,25 @@ constexpr auto kTable = std::to_array<Property>({
         .in_short_help(),
     flag("panels.one_scale", "--one-scale", "Colour all panels by one range, from the least number to the greatest")
         .in(kPanels)
+        .in_short_help(),
+
+    file("storyboard.scenes", "SCENE", "", "Scene files, or pictures of meniscus render, in their order")
+        .in(kStoryboard),
+    text("storyboard.hold", "--hold", "SECONDS",
+         "Time that each scene is shown. One number, or one for each scene, with commas between. A scene with a run of "
+         "frames shows each of them once instead")
+        .initially("2")
+        .in(kStoryboard)
+        .in_short_help(),
+    text("storyboard.transition", "--transition", "SECONDS",
+         "Time from each scene to the next. One number, or one for each transition; 0 is a cut")
+        .initially("2")
+        .in(kStoryboard)
+        .in_short_help(),
+    word("storyboard.ease", "--ease", "WORD", "Pace of transitions. smooth: starts and ends slowly; even: steady")
+        .one_of("smooth|even")
+        .initially("smooth")
+        .in(kStoryboard)
         .in_short_help(),
 
     file("morph.files", "MOLECULE", "", "Structures of one molecule, or of alike ones, in the order of the path")

@@ -64,16 +64,16 @@ constexpr auto kTable = of_commands(
             .initially("auto")
             .in(kDevice)
             .in_short_help()
-            .of(kForRuns | for_bench | for_panels),
+            .of(kForRuns | for_bench | for_panels | for_film),
         flag("surface.require_gpu", "--require-gpu",
              "Fail with exit code 4 if there is no hardware GPU. Without it the CPU or software OpenGL is used")
             .in(kDevice)
-            .of(kForRuns | for_bench | for_panels),
+            .of(kForRuns | for_bench | for_panels | for_film),
         count("surface.threads", "--threads", "N", "Number of CPU threads")
             .from(1, 4096)
             .initially("all")
             .in(kDevice)
-            .of((kForRuns & ~for_preview) | for_bench | for_panels),
+            .of((kForRuns & ~for_preview) | for_bench | for_panels | for_film),
         flag("surface.verify", "--verify", "Compute on GPU and CPU, and report every difference")
             .in(kDevice, in_bundle)
             .of(for_surface | for_render | kForExports | for_mesh | for_atoms | for_bench),

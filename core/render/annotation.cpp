@@ -172,6 +172,25 @@ class Writer {
     write({text, {height / 2, panel_row(heights_)}, height, Weight::bold});
   }
 
+  /// Between the letter of the panel and the time, in smaller letters where it has to be.
+  void title(const std::string& text) {
+    int left = heights_.usual, right = size_.x - heights_.usual;
+    for (const PixelBox& box : taken_) {
+      const int margin = heights_.usual;
+      if (2 * box.low.x < size_.x)
+        left = std::max(left, box.high.x + margin);
+      else
+        right = std::min(right, box.low.x - margin);
+    }
+    int height = heights_.title;
+    while (height > kLeastTitle && fonts_.at(height).width(text) > right - left) --height;
+    const int width = fonts_.at(height).width(text);
+    if (width > right - left)
+      throw RequestError(fmt::format("--title: {} is {} pixels long and has {}; make it shorter, or the picture wider",
+                                     in_quotes(text), width, right - left));
+    write({text, {std::clamp((size_.x - width) / 2, left, right - width), panel_row(heights_)}, height});
+  }
+
   void time(const std::string& text) {
     const int em = heights_.usual;
     write({text, {size_.x - em - fonts_.at(em).width(text), em}, em});
@@ -269,6 +288,7 @@ class Writer {
         option_name("label"), shown.size(), size_.x, size_.y, option_name("label-size")));
   }
 
+  static constexpr int kLeastTitle = 8;  // pixels
   static int panel_row(const LetterHeights& heights) { return heights.panel; }
   static double curve_height(const LetterHeights& heights, glm::ivec2 size) {
     return std::max(3.0 * heights.usual, 0.1 * size.y);
@@ -329,14 +349,16 @@ Strips strips_for(const StripContents& contents, const LetterStyle& letters, glm
   const LetterHeights heights(letters, size);
   Strips strips;
   if (contents.time) strips.top = 2 * heights.usual;
-  if (contents.panel) strips.top = std::max(strips.top, Writer::panel_row(heights) + 3 * heights.panel / 5);
+  if (contents.panel || contents.title)
+    strips.top = std::max(strips.top, Writer::panel_row(heights) + 3 * heights.panel / 5);
   if (contents.curve) strips.bottom = static_cast<int>(Writer::curve_height(heights, size)) + 3 * heights.usual;
   const bool is_room_left = 2 * (size.y - strips.top - strips.bottom) >= size.y;
   return is_room_left ? strips : Strips{};
 }
 
 StripContents strip_contents(const Annotations& annotations) {
-  return {!annotations.panel.empty(), !annotations.time.empty(), annotations.curve.has_value()};
+  return {!annotations.panel.empty(), !annotations.title.empty(), !annotations.time.empty(),
+          annotations.curve.has_value()};
 }
 
 AnnotationLayer::AnnotationLayer(const Annotations& annotations, const Camera& camera, glm::ivec2 picture_size,
@@ -346,6 +368,7 @@ AnnotationLayer::AnnotationLayer(const Annotations& annotations, const Camera& c
   Writer writer(picture_size, strips, annotations.letters, camera, fonts_);
   if (!annotations.panel.empty()) writer.panel(annotations.panel);
   if (!annotations.time.empty()) writer.time(annotations.time);
+  if (!annotations.title.empty()) writer.title(annotations.title);
   if (annotations.curve) writer.curve(*annotations.curve);
   if (annotations.scale_bar) writer.scale_bar(annotations.bar_length);
   writer.labels(annotations.labels, annotations.atoms);

@@ -34,6 +34,7 @@ struct Curve {
 /// Texts are drawn as they are given, so they are the user's and never a molecule file's; empty ones are not drawn.
 struct Annotations {
   std::string panel;                 ///< at the top left
+  std::string title;                 ///< at the top, in the middle
   std::string time;                  ///< at the top right
   bool scale_bar = false;            ///< at the bottom left
   std::optional<double> bar_length;  ///< Å, > 0; nothing: a round number, at most a quarter of what the picture shows
@@ -43,7 +44,9 @@ struct Annotations {
   std::vector<glm::vec4> atoms;  ///< their centres and radii, Å; labels keep clear of them where they can
   LetterStyle letters;
 
-  bool any() const { return !panel.empty() || !time.empty() || scale_bar || !labels.empty() || curve; }
+  bool any() const {
+    return !panel.empty() || !title.empty() || !time.empty() || scale_bar || !labels.empty() || curve;
+  }
 };
 
 /// Å between two pixels of a picture: of an orthographic camera everywhere, of a perspective one where it looks at.
@@ -60,9 +63,9 @@ struct Strips {
   int top = 0, bottom = 0;
 };
 
-/// What needs such rows: the letter of a panel and the time above the molecule, a curve below it.
+/// What needs such rows: the letter of a panel, the title and the time above the molecule, a curve below it.
 struct StripContents {
-  bool panel = false, time = false, curve = false;
+  bool panel = false, title = false, time = false, curve = false;
 };
 
 /// For a picture of this size, without its legend. None where they would take more than half of it: then what they are
@@ -75,8 +78,8 @@ StripContents strip_contents(const Annotations& annotations);
 /// or light as the background needs, dark where there is none, and have a rim where the molecule is behind them.
 class AnnotationLayer {
  public:
-  /// picture_size: with the strips. Throws RequestError when there is no font, the bar is longer than the picture, or
-  /// labels have no room in which they neither overlap nor cross.
+  /// picture_size: with the strips. Throws RequestError when there is no font, the bar or the title is longer than the
+  /// picture, or labels have no room in which they neither overlap nor cross.
   AnnotationLayer(const Annotations& annotations, const Camera& camera, glm::ivec2 picture_size,
                   const std::optional<glm::vec3>& background, const Strips& strips = {});
 

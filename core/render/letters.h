@@ -24,7 +24,7 @@ struct LetterStyle {
 struct LetterHeights {
   int usual;   ///< of the time and of the curve's title
   int labels;  ///< and so on
-  int scale_bar, panel;
+  int scale_bar, panel, title;
   int small;  ///< of the numbers at the ends of the curve
 
   /// In a picture of this size without its legend.
@@ -34,6 +34,7 @@ struct LetterHeights {
     labels = style.labels.value_or(usual);
     scale_bar = style.scale_bar.value_or(usual);
     panel = style.panel.value_or(style.all ? 3 * *style.all / 2 : std::max(12, side / 16));
+    title = style.all ? *style.all : std::max(10, side / 20);
     small = style.all ? std::max(6, 7 * *style.all / 10) : std::max(8, side / 36);
   }
 };

@@ -22,6 +22,8 @@ struct Material {
   float roughness = 0.0f;   ///< in [0, 1]: from light that falls off early, as on wax, to an even one, as on chalk
   float specular = 0.10f;   ///< strength of the highlight, 0 to 1
   float shininess = 40.0f;  ///< how small it is: the exponent of Blinn and Phong, 1 to 1000
+
+  bool operator==(const Material&) const = default;
 };
 
 /// What differs from a look's material. Nothing: as the look has it.
@@ -84,6 +86,8 @@ struct Look {
   float depth_cue = 0.0f;
   /// True: they take the background's colour, and stay as opaque as they are. False: they get transparent.
   bool depth_cue_keeps_alpha = false;
+
+  bool operator==(const Look&) const = default;
 
   /// True if colours change after they are cast.
   bool has_effects() const { return ambient_occlusion > 0.0f || widest_line() > 0.0f || depth_cue > 0.0f; }

@@ -82,12 +82,14 @@ LegendStyle legend_style(const LegendStyle& asked, const LetterStyle& letters) {
 }
 
 StripContents strip_contents(const AnnotationRequest& request, bool is_run) {
-  return {!request.panel.empty(), is_run && request.time_stamp, is_run && !request.curve.empty()};
+  return {!request.panel.empty(), !request.title.empty(), is_run && request.time_stamp,
+          is_run && !request.curve.empty()};
 }
 
 Annotations annotations_of(const AnnotationRequest& request, const Structure& structure) {
   Annotations annotations;
   annotations.panel = request.panel;
+  annotations.title = request.title;
   annotations.scale_bar = request.scale_bar;
   annotations.bar_length = request.bar_length;
   annotations.letters = request.letters;

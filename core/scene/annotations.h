@@ -31,7 +31,7 @@ struct LegendRequest {
 };
 
 struct AnnotationRequest {
-  std::string panel;
+  std::string panel, title;
   bool scale_bar = false, time_stamp = false;
   std::optional<double> bar_length;  ///< Å
   std::vector<LabelRequest> labels;

@@ -288,6 +288,8 @@ constexpr auto kPictureRows = std::to_array<SceneValue>({
     {"annotations.letter_color", read_letter_color, write_letter_color},
     plain(
         "annotations.panel", [](auto& s) -> auto& { return s.annotations.panel; }),
+    plain(
+        "annotations.title", [](auto& s) -> auto& { return s.annotations.title; }),
     {"annotations.scale_bar", read_scale_bar, write_scale_bar},
     {"annotations.labels", read_labels, write_labels},
     plain(

@@ -150,6 +150,8 @@ CONTEXTS = {
     "panels scale": ["{a.json}", "{b.json}", "--one-scale"],
     "panels length": ["{a.json}", "{b.json}", "--width", "20mm"], "panels chains": ["{chains.json}", "--legend"],
     "panels camera": ["{a.json}", "{b.json}", "--one-camera"],
+    "story": ["{a.json}", "{b.json}"], "story legend": ["{a.json}", "{b.json}", "--legend"], "story film": ["{a.json}", "{b.json}"],
+    "story chains": ["{chains.json}", "{chains.json}", "--legend"],
     "path": ["{one.pdb}", "{bent.pdb}"],
     "bundle": [], "bundled film": ["--film", "f.mp4"], "": [],
 }
@@ -191,7 +193,7 @@ ROWS = {
     "--legend-name": ("A=Alpha", "named legend"), "--letter-size": ("7", "legend"), "--letter-color": ("red", "legend"),
     "--label-size": ("7", "label"), "--scale-bar-size": ("7", "bar"), "--panel-size": ("8", "panel"),
     "--legend-title": ("Heat", "legend"), "--legend-size": ("7", "legend"), "--legend-place": ("below", "legend"),
-    "--panel": ("B", "plain"), "--scale-bar": ("5", "plain"), "--label": ("resid 9=Here", "plain"),
+    "--panel": ("B", "plain"), "--title": ("One", "plain"), "--scale-bar": ("5", "plain"), "--label": ("resid 9=Here", "plain"),
     "--time-stamp": (None, "frames"), "--curve": ("{curve.csv}", "frames"), "--curve-column": ("volume", "curve"),
     "--aovs": (None, "plain"), "--provenance": (None, "plain"), "--no-provenance": (None, "plain"),
     "--save-camera": ("saved.json", "plain"), "--scene": ("{scene.json}", "plain"), "--save-scene": ("saved.json", "plain"),
@@ -209,9 +211,9 @@ ROWS = {
 # Options of which the help says nothing, as few need them.
 RARE = {
     **{option: ("render", "preview") for option in ("--outer-lines", "--inner-lines", "--part-lines", "--linear-alpha")},
-    "--legend-place": ("render", "preview", "panels"),
+    "--legend-place": ("render", "preview", "panels", "film"),
     **{option: ("render",) for option in ("--curve-column", "--stats")},
-    **{option: ("render", "farm bundle") for option in ("--bits", "--chroma")},
+    **{option: ("render", "film", "farm bundle") for option in ("--bits", "--chroma")},
     "--map-offset": ("render", "preview", "export povray", "export blender", "export mitsuba", "export pbrt", "export mesh",
                      "export atoms"),
 }
@@ -239,6 +241,13 @@ OWN_ROWS = {
         ("--legend-title", "Heat", "panels legend"), ("--legend-size", "7", "panels legend"),
         ("--legend-place", "below", "panels legend"), ("--legend-name", "A=Alpha", "panels chains"),
         ("--letter-size", "7", "panels"), ("--letter-color", "red", "panels"))},
+    **{("film", option): (value, context) for option, value, context in (
+        ("--hold", "0.08", "story"), ("--transition", "0.12", "story"), ("--ease", "even", "story"), ("--size", "40x20", "story"),
+        ("--samples", "3", "story"), ("--background", "white", "story"), ("--legend", None, "story"),
+        ("--legend-title", "Heat", "story legend"), ("--legend-size", "7", "story legend"), ("--legend-place", "below", "story legend"),
+        ("--legend-name", "A=Alpha", "story chains"), ("--letter-size", "7", "story legend"), ("--letter-color", "red", "story legend"),
+        ("--fps", "10", "story film"), ("--codec", "h265", "story film"), ("--crf", "40", "story film"), ("--bits", "10", "story film"),
+        ("--chroma", "444", "story film"), ("--progress", "json", "story"))},
     ("morph", "--select"): ("chain A", "path"), ("morph", "--superpose-on"): ("name CB or backbone and chain A", "path"),
     ("morph", "--steps"): ("3", "path"),
     **{("farm bundle", option): (value, "bundled film")
@@ -257,7 +266,8 @@ for export in ("mesh", "ply"):
         OWN_ROWS["export " + export, option] = (ROWS[option][0], None)
 
 SMALL = {"render": ["--size", "32x24", "--samples", "1", "--no-provenance"], "preview": ["--size", "32x24", "--samples", "1"],
-         "panels": ["--size", "200x100", "--samples", "1"]}
+         "panels": ["--size", "200x100", "--samples", "1"],
+         "film": ["--size", "32x24", "--samples", "1", "--hold", "0", "--transition", "0.08"]}
 MESHES = {"export blender", "export mitsuba", "export pbrt", "export mesh", "export ply"}
 EXCLUDES = {"--tolerance-pixels": "--tolerance", "--density": "--tolerance", "--width": "--size", "--height": "--size",
             "--provenance": "--no-provenance", "--no-provenance": "--no-provenance"}
@@ -265,7 +275,7 @@ EXCLUDES = {"--tolerance-pixels": "--tolerance", "--density": "--tolerance", "--
 
 def output_of(command, context):
     of_run = "--frames" in CONTEXTS[context] or "--trajectory" in CONTEXTS[context]
-    return {"render": "a.mp4" if context == "film" else "a.exr" if context == "exr" else "a_#.png" if of_run else "a.png", "export mesh": "a_#.glb" if of_run else "a.glb",
+    return {"film": "a.mp4" if context == "story film" else "a_#.png", "render": "a.mp4" if context == "film" else "a.exr" if context == "exr" else "a_#.png" if of_run else "a.png", "export mesh": "a_#.glb" if of_run else "a.glb",
             "panels": "a.png", "morph": "a.pdb", "export ply": "a_#.ply" if of_run else "a.ply", "export atoms": "a.atoms", "export blender": "a" if of_run else "a.mns"}.get(command, "a")
 
 
@@ -339,7 +349,7 @@ class OptionUse(unittest.TestCase):
             words += ["--device", "cpu", *(["--threads", "1"] if command != "preview" else [])]
         if command == "preview":
             words += ["--serve", "--commands", str(self.folder / "look.jsonl")]
-        if command in ("render", "panels", "morph") or command.startswith("export"):
+        if command in ("render", "film", "panels", "morph") or command.startswith("export"):
             words += ["-o", output_of(command, context)]
         tail = ["--", "render", str(self.folder / "run.pdb"), "--frames", "all", "--size", "64x48"] if command == "farm bundle" else []
         asked = [option] if value is None else [option, filled(value)]
@@ -355,7 +365,7 @@ class OptionUse(unittest.TestCase):
                     continue
                 value, own = OWN_ROWS.get((command, option)) or ROWS[option]
                 for context in dict.fromkeys([own, *contexts]):
-                    if context is None or (context != own and command in ("formats", "farm bundle", "pockets", "panels", "morph")):
+                    if context is None or (context != own and command in ("formats", "farm bundle", "pockets", "film", "panels", "morph")):
                         continue
                     if any(word.startswith("--") and word not in options for word in CONTEXTS[context]):
                         continue
@@ -400,7 +410,7 @@ class OptionUse(unittest.TestCase):
                 self.assertTrue(more.differs_from(base) or any(option in line for line in said), more.err)
 
 
-TESTED = ["surface", "pockets", "info", "render", "panels", "morph", "preview", "export povray", "export blender", "export mitsuba", "export pbrt",
+TESTED = ["surface", "pockets", "info", "render", "film", "panels", "morph", "preview", "export povray", "export blender", "export mitsuba", "export pbrt",
           "export mesh", "export ply", "export atoms", "formats", "farm bundle"]
 # What it is for is nothing that the command can do, or not with an output of that name.
 REFUSED = {("pockets", "--instances"), ("render", "--frames"), ("render", "--trajectory"),

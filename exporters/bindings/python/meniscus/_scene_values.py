@@ -310,6 +310,8 @@ class SceneValues(SurfaceValues, total=False):
     legend_place: Literal["auto", "right", "below"]
     #: TEXT: Letter of the panel, such as a, at the top left
     panel: Text
+    #: TEXT: Title of the picture, at the top
+    title: Text
     #: Å: Draw a scale bar of this length, or of a round one (auto). With a perspective camera it is true at the
     #: camera's target [auto]
     scale_bar: Text

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Turns options that scenes share into words, and has each scene parse them.
+#include "app/commands/scene_files.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "app/commands/render_command.h"
+#include "app/process/program_error.h"
+#include "core/base/text.h"
+
+namespace meniscus {
+
+std::vector<std::string> shared_words(const SceneOptions& options, CommandBit bit, std::string_view section,
+                                      std::span<const std::string_view> but) {
+  std::vector<std::string> words;
+  for (const Property* property : properties()) {
+    if ((property->commands & bit) == 0 || !options.typed(property->key) ||
+        std::ranges::find(but, property->key) != but.end() || property->section() == section)
+      continue;
+    const std::string name(property->long_option());
+    if (property->type == ValueType::flag) {
+      words.push_back(name);
+      continue;
+    }
+    for (const std::string& text : options.typed_texts(*property)) {
+      words.push_back(name);
+      words.push_back(text);
+    }
+  }
+  return words;
+}
+
+SceneCommand read_scene_file(const std::string& path, std::vector<std::string> words, const Reporting& reporting) {
+  CLI::App app("", "render");
+  DeclaredCommand<RenderCommand> read(app, for_render);
+  read.state.reporting.quiet = true;
+  // What the scene's own output was is not written, so it may be there.
+  words.insert(words.begin(), {"--scene", path, "-o", "picture.png"});
+  std::ranges::reverse(words);
+  app.parse(words);
+  read.state.reporting.quiet = true;  // an option that does nothing in one scene may do something in another
+  read.options.take();
+  SceneCommand command = std::move(static_cast<SceneCommand&>(read.state));
+  if (command.scene.image.extent || command.scene.image.aovs)
+    throw UsageError(fmt::format(
+        "{}: this command shows complete surfaces as colours; leave image.extent and image.aovs out", escaped(path)));
+  command.reporting = reporting;
+  return command;
+}
+
+}  // namespace meniscus

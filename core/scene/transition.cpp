@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Draws both sides of a transition with what they have in common on the way, and blends them.
+#include "core/scene/transition.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string_view>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "core/base/error.h"
+#include "core/image/color_space.h"
+#include "core/scene/molecule.h"
+#include "core/scene/scene_values.h"
+
+namespace meniscus {
+namespace {
+
+double between(double from, double to, double share) { return std::lerp(from, to, share); }
+float between(float from, float to, double share) { return std::lerp(from, to, static_cast<float>(share)); }
+
+template <glm::length_t count, typename Number>
+glm::vec<count, Number> between(glm::vec<count, Number> from, const glm::vec<count, Number>& to, double share) {
+  for (glm::length_t n = 0; n < count; ++n) from[n] = between(from[n], to[n], share);
+  return from;
+}
+
+glm::vec3 color_between(const glm::vec3& from, const glm::vec3& to, double share) {
+  return srgb_from_linear(between(linear_from_srgb(from), linear_from_srgb(to), share));
+}
+
+/// The camera with another projection: it shows the same of the plane of its target. lens: has that projection.
+Camera seen_through(const Camera& camera, const Camera& lens) {
+  if (camera.projection == lens.projection) return camera;
+  const auto half_angle = [](double fov) { return fov * std::numbers::pi / 360.0; };
+  Camera seen = camera;
+  seen.projection = lens.projection;
+  const double distance = glm::distance(camera.position, camera.target);
+  if (lens.projection == Projection::orthographic) {
+    seen.height = 2.0 * distance * std::tan(half_angle(camera.vertical_fov));
+  } else {
+    seen.vertical_fov = lens.vertical_fov;
+    const double from = 0.5 * camera.height / std::tan(half_angle(lens.vertical_fov));
+    seen.position = camera.target - view_basis(camera).forward * from;
+  }
+  return seen;
+}
+
+/// The offset at which a plane with this normal cuts nothing of the balls.
+double offset_outside(const glm::dvec3& normal, std::span<const Ball> balls) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Ball& ball : balls) most = std::max(most, glm::dot(normal, ball.center) + ball.radius);
+  return most;
+}
+
+/// Values that change steadily, and those that say nothing about what is drawn.
+bool is_drawn_as_it_is(const Property& property) {
+  constexpr std::array<std::string_view, 5> kSections{"molecule", "frames", "surface", "shapes", "objects"};
+  constexpr std::array<std::string_view, 6> kOthers{"surface.probe",       "surface.clip",       "surface.device",
+                                                    "shapes.stick_radius", "shapes.tube_radius", "surface.threads"};
+  return is_scene_value(property) && property.heading != "Film" &&
+         std::ranges::find(kSections, property.section()) != kSections.end() &&
+         std::ranges::find(kOthers, property.key) == kOthers.end();
+}
+
+/// Radii in Å that both scenes have.
+struct Radii {
+  double probe, stick, tube;
+
+  bool operator==(const Radii&) const = default;
+};
+
+Radii radii_of(const Scene& scene) {
+  const ShapeRadii& shapes = scene.figure.representations;
+  return {scene.molecule.surface.probe_radius, shapes.stick_radius.value_or(0.0), shapes.tube_radius.value_or(0.0)};
+}
+
+Radii between(const Radii& from, const Radii& to, double share) {
+  // A radius that only one of them names, or that of no probe, is not on the way to another.
+  const auto one = [share](double a, double b) { return a > 0.0 && b > 0.0 ? between(a, b, share) : a; };
+  return {one(from.probe, to.probe), one(from.stick, to.stick), one(from.tube, to.tube)};
+}
+
+void set_radii(const Radii& radii, Scene& scene) {
+  scene.molecule.surface.probe_radius = radii.probe;
+  ShapeRadii& shapes = scene.figure.representations;
+  if (shapes.stick_radius) shapes.stick_radius = radii.stick;
+  if (shapes.tube_radius) shapes.tube_radius = radii.tube;
+}
+
+/// Blends into the first, pixel by pixel.
+void blend(Framebuffer& from, const Framebuffer& to, double share) {
+  assert(from.size == to.size);
+  for (std::size_t n = 0; n < from.color.size(); ++n) from.color[n] = between(from.color[n], to.color[n], share);
+}
+
+/// Both with alpha multiplied in.
+void lay_over(Framebuffer& picture, const Framebuffer& over) {
+  assert(picture.size == over.size);
+  for (std::size_t n = 0; n < picture.color.size(); ++n)
+    picture.color[n] = over.color[n] + picture.color[n] * (1.0f - over.color[n].w);
+}
+
+std::vector<Cut> cuts_at(std::span<const ClipPlane> planes) {
+  std::vector<Cut> cuts;
+  for (const ClipPlane& plane : planes) {
+    Cut cut;
+    cut.direction = plane.normal;
+    cut.bound = plane.offset;
+    cuts.push_back(cut);
+  }
+  return cuts;
+}
+
+RenderSettings settings_of(const Shot& shot) {
+  RenderSettings settings = render_settings(shot.scene, *shot.layout);
+  settings.aovs = false;
+  return settings;
+}
+
+}  // namespace
+
+Framebuffer picture_of(const Shot& shot, SurfaceRenderer& renderer) {
+  Framebuffer drawn = draw(renderer, shot.figure, shot.scene.figure, shot.camera, settings_of(shot));
+  return finished_picture(std::move(drawn), shot.annotations, *shot.layout, shot.camera, shot.scene.image.background);
+}
+
+Camera camera_between(const Camera& from, const Camera& to, double share) {
+  if (share == 0.0) return from;
+  return CameraPath({{0.0, from}, {1.0, seen_through(to, from)}}).at(share);
+}
+
+std::vector<ClipPlane> planes_between(std::span<const ClipPlane> from, std::span<const ClipPlane> to,
+                                      std::span<const Ball> balls, double share) {
+  glm::dvec3 middle(0.0);
+  for (const Ball& ball : balls) middle += ball.center / static_cast<double>(balls.size());
+  std::vector<ClipPlane> planes;
+  const auto leave = [&](const ClipPlane& plane, double way) {
+    if (way < 1.0) planes.push_back({plane.normal, between(plane.offset, offset_outside(plane.normal, balls), way)});
+  };
+  for (std::size_t n = 0; n < std::max(from.size(), to.size()); ++n) {
+    if (n < from.size() && n < to.size() && glm::dot(from[n].normal, to[n].normal) > 0.0) {
+      const auto beyond = [&](const ClipPlane& plane) { return plane.offset - glm::dot(plane.normal, middle); };
+      const glm::dvec3 normal = glm::normalize(between(from[n].normal, to[n].normal, share));
+      planes.push_back({normal, glm::dot(normal, middle) + between(beyond(from[n]), beyond(to[n]), share)});
+      continue;
+    }
+    if (n < from.size()) leave(from[n], share);
+    if (n < to.size()) leave(to[n], 1.0 - share);
+  }
+  return planes;
+}
+
+Look look_between(const Look& from, const Look& to, double share) {
+  Look look = from;
+  Look other = to;
+  for (const LookNumber& number : look_numbers()) {
+    // Few rays are a noisy picture, and not on the way to many.
+    if (!number.in || &number.in(look) == &look.ambient_occlusion_rays) continue;
+    number.in(look) = between(number.in(look), number.in(other), share);
+  }
+  const auto widths = [&](std::optional<float> Look::*width) {
+    if (from.*width || to.*width)
+      look.*width = between((from.*width).value_or(from.silhouettes), (to.*width).value_or(to.silhouettes), share);
+  };
+  widths(&Look::outer_lines);
+  widths(&Look::inner_lines);
+  widths(&Look::part_lines);
+  look.silhouettes = between(from.silhouettes, to.silhouettes, share);
+  look.line_step = between(from.line_step, to.line_step, share);
+  look.background = color_between(from.background, to.background, share);
+  const glm::vec3 light = between(glm::normalize(from.light_direction), glm::normalize(to.light_direction), share);
+  if (glm::length(light) > 1e-3f) look.light_direction = light;
+  return look;
+}
+
+Transition::Side Transition::side_of(Shot shot) {
+  const Figure& figure = shot.figure;
+  std::vector<ClipPlane> planes;
+  if (!shot.scene.figure.hides_surface)
+    planes = surface_planes(shot.scene.figure, figure.beside.cut_atoms, shot.camera, figure.molecule.objects);
+  const Look look = settings_of(shot).look;
+  return {std::move(shot), std::move(planes), look};
+}
+
+Transition::Transition(Shot from, Shot to, const EglContext* context)
+    : from_(side_of(std::move(from))), to_(side_of(std::move(to))), context_(context) {
+  Scene &first = from_.shot.scene, &second = to_.shot.scene;
+  assert(first.picture.size() == second.picture.size());
+  if (from_.planes.empty()) first.figure.cap = second.figure.cap;
+  if (to_.planes.empty()) second.figure.cap = first.figure.cap;
+  for (const Side* side : {&from_, &to_}) {
+    const double reach = side->shot.scene.molecule.surface.probe_radius;
+    for (Ball ball : side->shot.figure.balls()) {
+      ball.radius += reach;
+      balls_.push_back(ball);
+    }
+  }
+  is_steady_ = from_.shot.camera.projection == to_.shot.camera.projection &&
+               look_between(from_.look, to_.look, 1.0) == look_between(to_.look, from_.look, 0.0) &&
+               std::ranges::all_of(properties(),
+                                   [&](const Property* property) {
+                                     return !is_drawn_as_it_is(*property) ||
+                                            value_texts(first, *property) == value_texts(second, *property);
+                                   }) &&
+               between(radii_of(first), radii_of(second), 1.0) == radii_of(second);
+}
+
+Camera Transition::camera_of(const Side& side, double share) const {
+  return &side == &from_ ? camera_between(from_.shot.camera, to_.shot.camera, share)
+                         : camera_between(to_.shot.camera, from_.shot.camera, 1.0 - share);
+}
+
+Transition::Place Transition::place(double share) const {
+  const PictureLayout &from = *from_.shot.layout, &to = *to_.shot.layout;
+  const auto pixels = [share](int a, int b) {
+    return static_cast<int>(std::lround(between(double(a), double(b), share)));
+  };
+  return {{pixels(from.size.width, to.size.width), pixels(from.size.height, to.size.height)},
+          {pixels(from.strips.top, to.strips.top), pixels(from.strips.bottom, to.strips.bottom)}};
+}
+
+Framebuffer Transition::drawn(const Side& side, const Side& other, double share, SurfaceRenderer& renderer) const {
+  const double way = &side == &from_ ? share : 1.0 - share;
+  Scene scene = side.shot.scene;
+  const Radii radii = between(radii_of(scene), radii_of(other.shot.scene), way);
+  const bool is_computed = radii == radii_of(scene);
+  set_radii(radii, scene);
+  Figure figure =
+      is_computed ? side.shot.figure
+                  : make_figure(MoleculeBuilder(scene.molecule, context_).build(side.shot.figure.molecule.structure),
+                                scene.figure);
+  scene.figure.cuts = cuts_at(planes_between(from_.planes, to_.planes, balls_, share));
+  figure.beside.cut_atoms.clear();
+  RenderSettings settings = settings_of(side.shot);
+  settings.size = place(share).size;
+  settings.look = look_between(side.look, other.look, way);
+  return draw(renderer, std::move(figure), scene.figure, camera_of(side, share), settings);
+}
+
+Framebuffer Transition::finished(Framebuffer drawn, const Side& side, double share) const {
+  const std::optional<glm::vec3>& background = side.shot.scene.image.background;
+  const Strips strips = place(share).strips;
+  Framebuffer picture = with_margin(drawn, drawn.size + glm::ivec2(0, strips.top + strips.bottom), strips.top, false);
+  Annotations annotations = side.shot.annotations;
+  try {
+    annotate(picture, annotations, camera_of(side, share), background, strips);
+  } catch (const RequestError&) {
+    annotations.labels.clear();  // that have no room on the way
+    annotate(picture, annotations, camera_of(side, share), background, strips);
+  }
+  picture = with_margin(picture, side.shot.scene.picture.size(), 0, false);
+  if (!side.shot.layout->legend) return picture;
+  Framebuffer none;
+  none.size = side.shot.layout->legend->molecule_size();
+  none.color.assign(static_cast<std::size_t>(none.size.x) * none.size.y, glm::vec4(0.0f));
+  lay_over(picture, side.shot.layout->legend->add_to(none, background));
+  return picture;
+}
+
+Framebuffer Transition::picture(double share, SurfaceRenderer& renderer) {
+  Framebuffer first = drawn(from_, to_, share, renderer);
+  Framebuffer second = is_steady_ ? first : drawn(to_, from_, share, renderer);
+  first = finished(std::move(first), from_, share);
+  blend(first, finished(std::move(second), to_, share), share);
+  return first;
+}
+
+std::optional<glm::vec3> Transition::background(double share) const {
+  const std::optional<glm::vec3>&from = from_.shot.scene.image.background, &to = to_.shot.scene.image.background;
+  if (!from && !to) return {};
+  return color_between(from.value_or(glm::vec3(1.0f)), to.value_or(glm::vec3(1.0f)), share);
+}
+
+}  // namespace meniscus
