@@ -66,15 +66,26 @@ const Frame& PreparedFrames::placed(std::uint64_t number) {
 
 void PreparedFrames::read(std::uint64_t number, Frame& frame) {
   if (number >= trajectory_.frame_count()) return trajectory_.read(number, frame);  // says what is wrong
-  const std::uint64_t half = std::min({preparation_.smooth_half, number, trajectory_.frame_count() - 1 - number});
+  const auto last = static_cast<std::int64_t>(trajectory_.frame_count()) - 1;
+  const std::int64_t half = std::min(static_cast<std::int64_t>(preparation_.smooth_half), last);
   if (half == 0) {
     frame = placed(number);
     return;
   }
   std::vector<glm::dvec3> sum(trajectory_.atom_count(), glm::dvec3(0.0));
-  for (std::uint64_t n = number - half; n <= number + half; ++n) {
-    const Frame& one = placed(n);
-    for (std::size_t a = 0; a < sum.size(); ++a) sum[a] += one.positions[a];
+  const auto add = [&](std::int64_t n, double weight) {
+    const Frame& one = placed(static_cast<std::uint64_t>(n));
+    for (std::size_t a = 0; a < sum.size(); ++a) sum[a] += weight * one.positions[a];
+  };
+  const auto here = static_cast<std::int64_t>(number);
+  for (std::int64_t n = here - half; n <= here + half; ++n) {
+    const std::int64_t end = n < 0 ? 0 : last;
+    if (n >= 0 && n <= last) {
+      add(n, 1.0);
+    } else {
+      add(end, 2.0);
+      add(2 * end - n, -1.0);
+    }
   }
   frame = placed(number);
   for (std::size_t a = 0; a < sum.size(); ++a) frame.positions[a] = sum[a] / static_cast<double>(2 * half + 1);

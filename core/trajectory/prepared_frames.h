@@ -54,9 +54,11 @@ struct Preparation {
   std::vector<std::uint32_t> superposed;
   /// Moved, not turned, so that the mean of their positions stays where it is in the reference frame; empty: not.
   std::vector<std::uint32_t> centered;
-  std::uint64_t reference = 0;    ///< a frame of the trajectory
-  std::uint64_t smooth_half = 0;  ///< each position becomes the mean over the frames from this many before to as many
-                                  ///< behind; near the ends of the trajectory over fewer, as many on both sides
+  std::uint64_t reference = 0;  ///< a frame of the trajectory
+  /// Each position becomes the mean over the frames from this many before to as many after. Beyond an end of the
+  /// trajectory are the frames before it, reflected in the end: so the first and the last frame stay as they are, and
+  /// steps near them are as even as others.
+  std::uint64_t smooth_half = 0;
   /// For read_between(): atoms that are followed from frame to frame, and their bonds.
   std::vector<std::uint32_t> followed;
   std::optional<BondNetwork> bonds;

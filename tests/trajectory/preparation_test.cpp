@@ -226,7 +226,7 @@ class MadeUp : public Trajectory {
   }
 };
 
-TEST(PreparedFrames, MeansOverSymmetricWindows) {
+TEST(PreparedFrames, MeansOverWindowsThatAreReflectedAtTheEnds) {
   MadeUp trajectory(20);
   Preparation preparation;
   preparation.smooth_half = 3;
@@ -234,12 +234,62 @@ TEST(PreparedFrames, MeansOverSymmetricWindows) {
   Frame frame;
   for (const std::uint64_t number : {10u, 0u, 1u, 19u, 17u, 11u}) {
     frames.read(number, frame);
-    const int half = std::min({3, int(number), 19 - int(number)});
     for (std::size_t a = 0; a < 5; ++a) {
+      const auto at = [a](int n) {
+        if (n < 0) return 2.0 * MadeUp::at(0, a) - MadeUp::at(-n, a);
+        if (n > 19) return 2.0 * MadeUp::at(19, a) - MadeUp::at(38 - n, a);
+        return MadeUp::at(n, a);
+      };
       glm::dvec3 mean(0.0);
-      for (int n = int(number) - half; n <= int(number) + half; ++n) mean += MadeUp::at(n, a);
-      EXPECT_LT(glm::distance(frame.positions[a], mean / (2.0 * half + 1.0)), 1e-12);
+      for (int n = int(number) - 3; n <= int(number) + 3; ++n) mean += at(n);
+      EXPECT_LT(glm::distance(frame.positions[a], mean / 7.0), 1e-12);
+      const bool is_end = number == 0 || number == 19;
+      EXPECT_TRUE(!is_end || glm::distance(frame.positions[a], MadeUp::at(number, a)) < 1e-12);
     }
+  }
+}
+
+/// Frames that tremble about a steady way.
+class Trembling : public Trajectory {
+ public:
+  explicit Trembling() : Trajectory("trembling", "formula") {
+    atom_count_ = 1;
+    frame_count_ = 40;
+  }
+
+ private:
+  void read_unchecked(std::uint64_t number, Frame& frame) override {
+    frame.positions = {glm::dvec3(0.2 * double(number) + (number % 2 == 0 ? 0.5 : -0.5), 0.0, 0.0)};
+  }
+};
+
+TEST(PreparedFrames, NothingJerksAtTheEnds) {
+  Trembling trajectory;
+  Preparation preparation;
+  preparation.smooth_half = 4;
+  PreparedFrames frames(trajectory, preparation);
+  Frame before, frame;
+  frames.read(0, before);
+  for (std::uint64_t number = 1; number < 40; ++number) {
+    frames.read(number, frame);
+    // A step of the mean: what comes in is nine frames from what goes out.
+    EXPECT_NEAR(frame.positions[0].x - before.positions[0].x, 0.2, 2.0 * 0.5 / 9.0 + 1e-12) << number;
+    before = frame;
+  }
+}
+
+TEST(PreparedFrames, AWindowLongerThanTheRunIsTheRun) {
+  MadeUp trajectory(3);
+  Preparation preparation;
+  preparation.smooth_half = 50;
+  PreparedFrames frames(trajectory, preparation);
+  Frame frame;
+  frames.read(1, frame);
+  for (std::size_t a = 0; a < 5; ++a) {
+    const glm::dvec3 first = MadeUp::at(0, a), middle = MadeUp::at(1, a), last = MadeUp::at(2, a);
+    // -1, 0, 1, 2, 3 with both ends reflected
+    const glm::dvec3 sum = (2.0 * first - middle) + first + middle + last + (2.0 * last - middle);
+    EXPECT_LT(glm::distance(frame.positions[a], sum / 5.0), 1e-12);
   }
 }
 
