@@ -14,7 +14,9 @@
 #include "app/commands/figure_run.h"
 #include "app/commands/picture_sink.h"
 #include "app/commands/render_command.h"
+#include "app/commands/resumed_run.h"
 #include "app/film/film_format.h"
+#include "app/options/numbered_path.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
 #include "app/process/program_error.h"
@@ -23,8 +25,11 @@
 #include "core/base/text.h"
 #include "core/render/image_output.h"
 #include "core/render/picture_file.h"
+#include "core/scene/frame_run.h"
 #include "core/scene/picture_device.h"
 #include "core/scene/scene_picture.h"
+#include "core/scene/scene_values.h"
+#include "core/scene/settled_selections.h"
 
 namespace meniscus {
 namespace {
@@ -129,11 +134,28 @@ void render_figures(const RenderCommand& command) {
   if (!run.is_run()) say_times(command, device.renderer().device(), device.renderer().times());
 }
 
-void run(const RenderCommand& command) {
+/// Leaves the frames whose pictures are missing; false: none is.
+bool leave_missing(RenderCommand& command) {
+  const std::optional<NumberedPath> pictures = NumberedPath::parse(command.scene.output);
+  if (!command.scene.frames.asked() || !pictures)
+    throw UsageError("--resume: this is for runs of frames as pictures; name them, such as -o frame_#####.png");
+  command.made_of = made_of(command.scene);
+  Scene scene = readied(command.scene);
+  settle_selections(scene.molecule, scene.frames, {});
+  const std::vector<std::uint64_t> frames = FrameRun(scene.molecule, scene.frames).chunk();
+  const std::vector<std::uint64_t> missing = missing_frames(*pictures, frames, command.made_of, command.existing());
+  say(command, fmt::format("{} of {} pictures are there", with_thousands(frames.size() - missing.size()),
+                           with_thousands(frames.size())));
+  command.scene.frames.only = frame_list_text(missing);
+  return !missing.empty();
+}
+
+void run(RenderCommand& command) {
   tell_hue_changes(command);
   check_scene(command);
   check_files(command);
   tell_memory(command);
+  if (command.resumes && !leave_missing(command)) return;
   command.scene.image.extent ? render_views(command) : render_figures(command);
 }
 
@@ -146,6 +168,7 @@ ImageSettings image_settings(const RenderCommand& command) {
   settings.names_program = command.names_program;
   if (command.provenance) settings.command = command_line();
   if (command.names_program && !scene.frames.asked()) settings.scene = scene_text(scene, "");
+  settings.made_of = command.made_of;
   return settings;
 }
 
@@ -175,6 +198,7 @@ void add_render(CLI::App& command) {
       OutputName::optional);
   PropertyOptions options(command);
   options.add("picture.stats", state.stats);
+  options.add("picture.resume", state.resumes);
   CLI::Option* const provenance = options.add("picture.provenance", state.provenance);
   options.add_switch("picture.no_provenance", [&state] { state.names_program = false; })->excludes(provenance);
   command.callback([declared] {

@@ -32,6 +32,7 @@ struct ImageToEncode {
   std::string software;                         ///< written into the file; "" for nothing
   std::string command;                          ///< how it was made, likewise
   std::string scene;                            ///< what it was made of (JSON), likewise
+  std::string made_of;                          ///< PNG: kMadeOfNote, likewise
   std::string date;                             ///< "YYYY:MM:DD HH:MM:SS", in EXR and TIFF, which always have one
   double dots_per_inch = 0.0;                   ///< likewise; 0 for nothing
   std::span<const std::uint8_t> color_profile;  ///< ICC; empty for none

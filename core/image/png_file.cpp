@@ -139,6 +139,7 @@ Bytes header(const ImageToEncode& image) {
   if (!image.software.empty()) add_note(file, "Software", image.software);
   if (!image.command.empty()) add_unicode_note(file, "Description", image.command);
   if (!image.scene.empty()) add_unicode_note(file, kSceneNote, image.scene);
+  if (!image.made_of.empty()) add_unicode_note(file, kMadeOfNote, image.made_of);
   return file;
 }
 

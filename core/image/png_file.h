@@ -51,6 +51,8 @@ std::vector<std::uint8_t> encode_png(const ImageToEncode& image, std::span<const
 
 /// Under which key a picture has the scene that it was made of.
 inline constexpr std::string_view kSceneNote = "Meniscus scene";
+/// And a picture of a run that can be resumed, of what the run was made.
+inline constexpr std::string_view kMadeOfNote = "Meniscus run";
 
 /// Whether a file begins as PNG files do.
 bool is_png(const std::filesystem::path& path);

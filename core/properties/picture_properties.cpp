@@ -8,7 +8,7 @@ namespace meniscus {
 namespace {
 
 constexpr unsigned kShared = in_scene | in_bundle;
-constexpr std::string_view kCamera = "Camera", kPicture = "Picture";
+constexpr std::string_view kCamera = "Camera", kPicture = "Picture", kFramesOfPicture = "Frames";
 
 constexpr auto kTable = of_commands(
     kForFigures | for_mesh,
@@ -110,6 +110,12 @@ constexpr auto kTable = of_commands(
             .of(for_render),
         flag("picture.stats", "--stats", "With --extent: print counts and times of each group of stages")
             .in(kPicture, rare)
+            .of(for_render),
+        flag("picture.resume", "--resume",
+             "Keep the pictures of this run that are there, and make the rest. Give it from the start: pictures then "
+             "say "
+             "of what they were made")
+            .in(kFramesOfPicture)
             .of(for_render),
         flag("picture.provenance", "--provenance", "Store the command line in the picture (.png, .tif, .jpg, .exr)")
             .in(kPicture, in_bundle)

@@ -174,7 +174,7 @@ class Writer {
 
   /// Between the letter of the panel and the time, in smaller letters where it has to be.
   void title(const std::string& text) {
-    int left = heights_.usual, right = size_.x - heights_.usual;
+    int left = heights_.usual / 2, right = size_.x - heights_.usual / 2;
     for (const PixelBox& box : taken_) {
       const int margin = heights_.usual;
       if (2 * box.low.x < size_.x)

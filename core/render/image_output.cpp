@@ -200,6 +200,7 @@ ImageToEncode described(glm::ivec2 size, const std::vector<std::string>& channel
   if (exr || tiff) image.date = date_of_pictures();
   image.command = settings.command;
   image.scene = settings.scene;
+  image.made_of = settings.made_of;
   image.dots_per_inch = settings.dots_per_inch;
   return image;
 }

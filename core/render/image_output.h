@@ -24,6 +24,7 @@ struct ImageSettings {
   bool names_program = true;   ///< the program's version is in the file
   std::string command = {};    ///< how it was made, in words; empty: not said. Not in WebP.
   std::string scene = {};      ///< what it was made of, JSON; likewise
+  std::string made_of = {};    ///< of PNG: by which a picture of a run is known again (kMadeOfNote); empty: nothing
 };
 
 /// True if the extension names a format that can hold AOVs (.exr).
