@@ -28,6 +28,7 @@
 #include "core/base/progress.h"
 #include "core/base/text.h"
 #include "core/render/image_output.h"
+#include "core/scene/motion_blur.h"
 #include "core/scene/picture_device.h"
 #include "core/scene/transition.h"
 
@@ -176,6 +177,9 @@ class Film {
     const glm::u64vec2 size(scene.run.scene().picture.size());
     constexpr std::uint64_t kBytesPerPixel = 100;  // as in `meniscus render`
     const std::uint64_t count = scene.pictures(1);
+    std::optional<MotionBlur> blur;
+    if (const int moments = scene.run.scene().image.motion_blur; moments > 1 && scene.run.is_run())
+      blur.emplace(scene.run.scene(), moments, scene.run.framing().cameras, device_.context());
     const FigureWork work{kSurfaceBytesPerAtom, kBytesPerPixel * size.x * size.y, device_.context()};
     scene.run.make(work, [&]() -> FigureRun::Sink {
       return [&](FigureFrame frame) -> FinishFrame {
@@ -183,10 +187,13 @@ class Film {
         Annotations annotations = scene.annotations.of(picture, frame.figure.molecule.structure);
         auto shot = std::make_shared<Shot>(
             Shot{scene.run.scene(), std::move(frame.figure), frame.camera, scene.layout, std::move(annotations)});
-        return [this, n, shot, count, place = frame.place] {
+        return [this, &blur, n, shot, count, place = frame.place] {
           if (place == 0 && n > 0) go_over(*shot, timing_.between[n - 1]);
           const bool is_run = scenes_[n]->run.is_run();
-          add(picture_of(*shot, device_.renderer()), shot->scene.image.background, is_run ? 1 : timing_.held[n]);
+          Framebuffer molecule =
+              blur ? blur->draw(place, device_.renderer(), settings_of(*shot))
+                   : draw(device_.renderer(), shot->figure, shot->scene.figure, shot->camera, settings_of(*shot));
+          add(picture_of(*shot, std::move(molecule)), shot->scene.image.background, is_run ? 1 : timing_.held[n]);
           if (place + 1 == count) last_ = std::move(*shot);
           return MadeFrame{};
         };

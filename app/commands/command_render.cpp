@@ -26,6 +26,7 @@
 #include "core/render/image_output.h"
 #include "core/render/picture_file.h"
 #include "core/scene/frame_run.h"
+#include "core/scene/motion_blur.h"
 #include "core/scene/picture_device.h"
 #include "core/scene/scene_picture.h"
 #include "core/scene/scene_values.h"
@@ -71,6 +72,11 @@ void name_output(RenderCommand& command) {
 void check_scene(const RenderCommand& command) {
   const Scene& scene = command.scene;
   if (!scene.frames.asked()) check_image_path(scene.output);
+  if (scene.image.motion_blur > 1 && !scene.frames.asked())
+    throw UsageError("--motion-blur: one molecule does not move; add the frames of a run (--frames)");
+  if (scene.image.motion_blur > 1 && (scene.image.aovs || scene.image.extent))
+    throw UsageError(
+        fmt::format("--motion-blur: {} has no mean; leave one of them out", scene.image.aovs ? "--aovs" : "--extent"));
   if (scene.image.aovs && !holds_aovs(scene.output))
     throw UsageError("--aovs needs an .exr output; other formats hold colour only");
   if (scene.image.extent && scene.image.aovs) throw UsageError("--aovs needs the complete surface; leave --extent out");
@@ -98,10 +104,18 @@ void check_files(const RenderCommand& command) {
 /// On the CPU all of a picture is made while others are; by GL the surface, if it comes from the CPU, and one picture
 /// after another.
 void draw_figures(FigureRun& run, PictureSink& sink, PictureDevice& device) {
+  std::optional<MotionBlur> blur;
+  if (const int moments = run.scene().image.motion_blur; moments > 1)
+    blur.emplace(run.scene(), moments, run.framing().cameras, device.context());
   const auto keep = [&](SurfaceRenderer& renderer, FigureFrame frame) {
     const SinkPicture picture{frame.number, frame.place, frame.source, frame.time, frame.camera};
     const Annotations annotations = sink.annotations(picture, frame.figure.molecule.structure);
     return sink.keep(picture, annotations, [&](const RenderSettings& settings) {
+      if (blur) {
+        Framebuffer drawn = blur->draw(frame.place, renderer, settings);
+        if (settings.take_band) settings.take_band(Framebuffer(drawn), 0);
+        return drawn;
+      }
       return draw(renderer, std::move(frame.figure), run.scene().figure, frame.camera, settings);
     });
   };

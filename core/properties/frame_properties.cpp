@@ -96,6 +96,12 @@ constexpr auto kTable = of_commands(
             .initially("25")
             .in(kFilm, kShared)
             .of(for_render | for_blender | for_film),
+        count("frames.motion_blur", "--motion-blur", "N",
+              "Blur what moves. Each picture is the mean of N moments, over half the time from a frame to the next")
+            .from(1, 256)
+            .initially("1, no blur")
+            .in(kFilm, kShared)
+            .of(for_render),
         text("frames.codec", "--codec", "WORD",
              "Codec: h264, h265, vp9, prores, prores4444, dnxhr or gif. h264 is for .mp4, .mov and .mkv, vp9 for "
              ".webm; prores4444 (.mov) keeps transparency")

@@ -15,6 +15,7 @@ namespace meniscus {
 /// Of a picture, beside its size, which is that of its camera (ViewRequest).
 struct PictureOutput {
   int samples = 9;                      ///< rays per pixel
+  int motion_blur = 1;                  ///< moments that a picture of a run is the mean of
   std::optional<glm::vec3> background;  ///< sRGB; nothing: transparent
   bool aovs = false;                    ///< depth, normals, atoms and the like beside colour
   std::optional<Extent> extent;         ///< nothing: the complete surface, computed and certified before the picture

@@ -259,6 +259,8 @@ constexpr auto kPictureRows = std::to_array<SceneValue>({
     plain(
         "image.dpi", [](auto& s) -> auto& { return s.picture.dots_per_inch; }),
     plain(
+        "frames.motion_blur", [](auto& s) -> auto& { return s.image.motion_blur; }),
+    plain(
         "image.samples", [](auto& s) -> auto& { return s.image.samples; }),
     {"image.background", read_background, write_background},
     plain(

@@ -118,17 +118,17 @@ std::vector<Cut> cuts_at(std::span<const ClipPlane> planes) {
   return cuts;
 }
 
+}  // namespace
+
 RenderSettings settings_of(const Shot& shot) {
   RenderSettings settings = render_settings(shot.scene, *shot.layout);
   settings.aovs = false;
   return settings;
 }
 
-}  // namespace
-
-Framebuffer picture_of(const Shot& shot, SurfaceRenderer& renderer) {
-  Framebuffer drawn = draw(renderer, shot.figure, shot.scene.figure, shot.camera, settings_of(shot));
-  return finished_picture(std::move(drawn), shot.annotations, *shot.layout, shot.camera, shot.scene.image.background);
+Framebuffer picture_of(const Shot& shot, Framebuffer molecule) {
+  return finished_picture(std::move(molecule), shot.annotations, *shot.layout, shot.camera,
+                          shot.scene.image.background);
 }
 
 Camera camera_between(const Camera& from, const Camera& to, double share) {

@@ -29,8 +29,11 @@ struct Shot {
   Annotations annotations;
 };
 
-/// The whole picture of a shot, without its background.
-Framebuffer picture_of(const Shot& shot, SurfaceRenderer& renderer);
+/// How the molecule of a shot is drawn.
+RenderSettings settings_of(const Shot& shot);
+
+/// The whole picture of a shot, without its background. molecule: drawn so.
+Framebuffer picture_of(const Shot& shot, Framebuffer molecule);
 
 /// The camera, `share` (0 to 1) of the way from one to the other along a CameraPath. It has the projection of the
 /// first; where that of the second differs, it ends with what the second shows in the plane of its target.

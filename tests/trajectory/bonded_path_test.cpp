@@ -156,9 +156,10 @@ TEST(FramesBetween, RunsKeepWholeFramesAndMakeEachFrameByItself) {
   // z is a parabola of the number.
   for (const std::uint64_t number : run.numbers())
     EXPECT_NEAR(run.positions(number)[0].z, 0.3 * double(number * number) / 9.0, 1e-3) << number;
-  while (const std::optional<RunFrame> frame = run.next())
-    if (frame->number > 0 && frame->number < 9)
-      EXPECT_NEAR(frame->velocities[1].z, 0.6 * double(frame->number) / 9.0, 1e-3) << frame->number;
+  while (const std::optional<RunFrame> frame = run.next()) {
+    if (frame->number == 0 || frame->number >= 9) continue;
+    EXPECT_NEAR(frame->velocities[1].z, 0.6 * double(frame->number) / 9.0, 1e-3) << frame->number;
+  }
   request.only = "8,4";
   FrameRun share(molecule, request);
   EXPECT_EQ(share.at(8).atoms[1].position, eighth[1]);

@@ -172,6 +172,9 @@ class SceneValues(SurfaceValues, total=False):
     smooth: int
     #: N: Frames per second of a film [25]
     fps: float
+    #: N: Blur what moves. Each picture is the mean of N moments, over half the time from a frame to the next
+    #: [1, no blur]
+    motion_blur: int
     #: WORD: Codec: h264, h265, vp9, prores, prores4444, dnxhr or gif. h264 is for .mp4, .mov and .mkv, vp9 for
     #: .webm; prores4444 (.mov) keeps transparency [by the file's ending]
     codec: Text
