@@ -41,6 +41,7 @@ struct FilmCommand : SceneCommand {
   std::vector<std::string> files;
   std::string hold = "2", transition = "2";
   Pace pace = Pace::smooth;
+  bool is_draft = false;
 };
 using DeclaredFilm = DeclaredCommand<FilmCommand>;
 
@@ -226,8 +227,8 @@ class Film {
 
 /// All in the size of the first, unless the command line names one.
 std::vector<std::unique_ptr<FilmScene>> read_scenes(const DeclaredFilm& declared) {
-  constexpr std::array<std::string_view, 7> kOfFilm{"output.file", "frames.fps",    "frames.codec",   "frames.crf",
-                                                    "frames.bits", "frames.chroma", "frames.progress"};
+  constexpr std::array<std::string_view, 8> kOfFilm{"output.file", "picture.draft", "frames.fps",    "frames.codec",
+                                                    "frames.crf",  "frames.bits",   "frames.chroma", "frames.progress"};
   const FilmCommand& film = declared.state;
   std::vector<std::string> words = shared_words(declared.options, for_film, "storyboard", kOfFilm);
   Reporting reporting = film.reporting;
@@ -241,7 +242,10 @@ std::vector<std::unique_ptr<FilmScene>> read_scenes(const DeclaredFilm& declared
     words.insert(words.end(), {"--size", fmt::format("{}x{}", size.x, size.y)});
   }
   std::vector<std::unique_ptr<FilmScene>> scenes;
-  for (const SceneCommand& command : read) scenes.push_back(std::make_unique<FilmScene>(command));
+  for (SceneCommand& command : read) {
+    if (film.is_draft) make_draft(command.scene);
+    scenes.push_back(std::make_unique<FilmScene>(command));
+  }
   return scenes;
 }
 
@@ -270,6 +274,7 @@ void add_film(CLI::App& command) {
   options.add("storyboard.scenes", state.files)->required();
   options.add("storyboard.hold", state.hold);
   options.add("storyboard.transition", state.transition);
+  options.add("picture.draft", state.is_draft);
   options.add_word("storyboard.ease", state.pace, {Pace::smooth, Pace::even});
   declared->options.option("image.size")->description("Size of the film in pixels [that of the first scene]");
   command.callback([declared] {

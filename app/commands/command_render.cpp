@@ -15,6 +15,7 @@
 #include "app/commands/picture_sink.h"
 #include "app/commands/render_command.h"
 #include "app/commands/resumed_run.h"
+#include "app/commands/scene_files.h"
 #include "app/film/film_format.h"
 #include "app/options/numbered_path.h"
 #include "app/options/property_options.h"
@@ -164,7 +165,9 @@ bool leave_missing(RenderCommand& command) {
   return !missing.empty();
 }
 
-void run(RenderCommand& command) {
+/// command: a copy, for a scene is saved as it was asked for.
+void run(RenderCommand command) {
+  if (command.is_draft) make_draft(command.scene);
   tell_hue_changes(command);
   check_scene(command);
   check_files(command);
@@ -212,6 +215,7 @@ void add_render(CLI::App& command) {
       OutputName::optional);
   PropertyOptions options(command);
   options.add("picture.stats", state.stats);
+  options.add("picture.draft", state.is_draft);
   options.add("picture.resume", state.resumes);
   CLI::Option* const provenance = options.add("picture.provenance", state.provenance);
   options.add_switch("picture.no_provenance", [&state] { state.names_program = false; })->excludes(provenance);

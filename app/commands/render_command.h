@@ -12,6 +12,7 @@ struct RenderCommand : SceneCommand {
   bool provenance = false;    ///< the command line is in the picture
   bool names_program = true;  ///< the program's version is, and of single pictures the scene
   bool stats = false;
+  bool is_draft = false;
   bool resumes = false;  ///< pictures of a run that are there stay
   std::string made_of;   ///< made_of() of a run that resumes
 };

@@ -3,6 +3,7 @@
 #include "app/commands/scene_files.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -49,6 +50,25 @@ SceneCommand read_scene_file(const std::string& path, std::vector<std::string> w
         "{}: this command shows complete surfaces as colours; leave image.extent and image.aovs out", escaped(path)));
   command.reporting = reporting;
   return command;
+}
+
+void make_draft(Scene& scene) {
+  ViewRequest& picture = scene.picture;
+  // Even, as films need it.
+  const auto half = [](int pixels) { return std::max(2, (pixels / 2 + 1) / 2 * 2); };
+  picture.width = half(picture.width);
+  picture.height = half(picture.height);
+  picture.dots_per_inch /= 2.0;
+  constexpr int kLeastLetter = 6;
+  LetterStyle& letters = scene.annotations.letters;
+  for (std::optional<int>* const height :
+       {&letters.all, &letters.labels, &letters.scale_bar, &letters.panel, &scene.legend.style.letters})
+    if (*height) *height = std::max(**height / 2, kLeastLetter);
+  LookRequest& look = scene.look;
+  for (std::optional<float>* const width : {&look.silhouettes, &look.outer_lines, &look.inner_lines, &look.part_lines})
+    if (*width) *width = **width / 2.0f;
+  look.ambient_occlusion_rays.reset();
+  scene.image.samples = 1;
 }
 
 }  // namespace meniscus

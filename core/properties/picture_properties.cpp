@@ -111,6 +111,11 @@ constexpr auto kTable = of_commands(
         flag("picture.stats", "--stats", "With --extent: print counts and times of each group of stages")
             .in(kPicture, rare)
             .of(for_render),
+        flag("picture.draft", "--draft",
+             "Draw a draft in a fraction of the time. It has half the width and height, and one ray per pixel")
+            .in(kPicture)
+            .in_short_help()
+            .of(for_render | for_film),
         flag("picture.resume", "--resume",
              "Keep the pictures of this run that are there, and make the rest. Give it from the start: pictures then "
              "say "

@@ -164,7 +164,7 @@ ROWS = {
     "--by": ("chain", "plain"), "--cavities": ("drop", "hollow"), "--hydrogens": ("drop", "plain"),
     "--radii": ("united", "plain"), "--radii-file": ("{radii.txt}", "plain"), "--radius": ("chain A=2.2", "plain"),
     "--assembly": ("1", "plain"), "--instances": ("separate", "assembly"), "--trajectory": ("{other.pdb}", "plain"),
-    "--trajectory-atoms": ("not water", "dry"), "--repeat": ("2", "frames"), "--resume": (None, "frames"), "--motion-blur": ("3", "frames"), "--interpolate": ("2", "frames"),
+    "--trajectory-atoms": ("not water", "dry"), "--repeat": ("2", "frames"), "--resume": (None, "frames"), "--draft": (None, "plain"), "--motion-blur": ("3", "frames"), "--interpolate": ("2", "frames"),
     "--frames": ("1-2", "models"), "--stride": ("2", "frames"), "--begin": ("1", "frames"), "--end": ("1", "frames"),
     "--only": ("1", "frames"), "--select-once": (None, "near"), "--whole": ("guess", "broken"), "--superpose": ("name CA", "frames"),
     "--center": ("name CA", "frames"), "--reference": ("2", "fit"), "--smooth": ("3", "frames"), "--fps": ("10", "film"),
@@ -242,7 +242,7 @@ OWN_ROWS = {
         ("--legend-place", "below", "panels legend"), ("--legend-name", "A=Alpha", "panels chains"),
         ("--letter-size", "7", "panels"), ("--letter-color", "red", "panels"))},
     **{("film", option): (value, context) for option, value, context in (
-        ("--hold", "0.08", "story"), ("--transition", "0.12", "story"), ("--ease", "even", "story"), ("--size", "40x20", "story"),
+        ("--hold", "0.08", "story"), ("--transition", "0.12", "story"), ("--ease", "even", "story"), ("--draft", None, "story"), ("--size", "40x20", "story"),
         ("--samples", "3", "story"), ("--background", "white", "story"), ("--legend", None, "story"),
         ("--legend-title", "Heat", "story legend"), ("--legend-size", "7", "story legend"), ("--legend-place", "below", "story legend"),
         ("--legend-name", "A=Alpha", "story chains"), ("--letter-size", "7", "story legend"), ("--letter-color", "red", "story legend"),
