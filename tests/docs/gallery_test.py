@@ -93,7 +93,7 @@ class Gallery(unittest.TestCase):
         made = 0
         for name, words in rendered():
             molecule = words[1]
-            if molecule not in INPUTS:
+            if molecule not in INPUTS and not (self.folder / molecule).exists():
                 self.assertIn(f"/download/{molecule}\n", PAGE)
                 continue
             with self.subTest(scene=name):
