@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Casts rays from balls, all around or towards a viewer, and finds those that meet no other ball.
+// Casts rays from balls, all around or towards a viewer, and finds those that meet no other ball; and shadows of balls,
+// and finds their holes.
 #include "core/camera/open_side.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <map>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -134,6 +139,168 @@ ViewBasis open_side(std::span<const Ball> seen, std::span<const Ball> all) {
   }
   const glm::dvec3 right = longest_across(best, seen);
   return {right, glm::cross(best, right), -best};
+}
+
+namespace {
+
+/// Squares on which the shadows lie.
+struct Grid {
+  double square;  ///< Å; narrower gaps are not counted
+  int most;       ///< of a side; larger molecules have wider squares
+};
+constexpr Grid kCoarse{0.75, 130}, kFine{0.3, 500};
+constexpr int kNear = 6;  // directions about the best one, to each side,
+constexpr double kNearStep = 0.035;  // radians from one to the next
+constexpr double kLeastWidth = 2.0;       // Å, between balls that are wider by kClosed
+constexpr std::size_t kTriedAxes = 2000;  // over the sphere: 4.5 degrees from one to the next
+
+/// Parallel shadows of balls on squares of a plane.
+class Shadows {
+ public:
+  Shadows(std::span<const Ball> around, std::span<const Ball> all, const Grid& grid) : around_(around), all_(all) {
+    for (const Ball& ball : around) middle_ += ball.center / static_cast<double>(around.size());
+    double reach = 0.0;
+    for (const Ball& ball : around)
+      reach = std::max(reach, glm::distance(ball.center, middle_) + ball.radius + kClosed);
+    square_ = std::max(grid.square, 2.0 * reach / (grid.most - 4));
+    side_ = static_cast<int>(std::ceil(2.0 * reach / square_)) + 4;
+  }
+
+  struct Cylinder {
+    double width = 0.0, length = 0.0;  // Å
+  };
+
+  /// The widest one through what is seen through along this direction, as long as atoms surround it.
+  Cylinder channel(const glm::dvec3& toward) {
+    const glm::dvec3 some = std::abs(toward.z) < 0.9 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(0.0, 1.0, 0.0);
+    u_ = glm::normalize(glm::cross(some, toward));
+    v_ = glm::cross(toward, u_);
+    squares_.assign(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_), Square::hole);
+    cast(around_);
+    flood();
+    if (std::ranges::find(squares_, Square::hole) == squares_.end()) return {};
+    if (all_.size() > around_.size()) cast(all_);  // around_ is among them
+    double widest = 0.0;
+    glm::ivec2 middle(0);
+    for (int row = 0; row < side_; ++row) {
+      for (int column = 0; column < side_; ++column) {
+        const double width = at(column, row) == Square::hole ? 2.0 * square_ * room({column, row}) : 0.0;
+        if (width <= widest) continue;
+        widest = width;
+        middle = {column, row};
+      }
+    }
+    if (widest < kLeastWidth) return {};
+    const glm::dvec2 from_corner = square_ * (glm::dvec2(middle) + 0.5 - 0.5 * side_);
+    return {widest, surrounded(middle_ + from_corner.x * u_ + from_corner.y * v_, toward)};
+  }
+
+ private:
+  enum class Square : std::uint8_t { hole, wall, outside };
+
+  Square& at(int column, int row) {
+    return squares_[static_cast<std::size_t>(row) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(column)];
+  }
+
+  /// Marks the squares whose middle the shadows cover.
+  void cast(std::span<const Ball> balls) {
+    for (const Ball& ball : balls) {
+      const glm::dvec3 from = ball.center - middle_;
+      const double x = glm::dot(from, u_) / square_ + 0.5 * side_, y = glm::dot(from, v_) / square_ + 0.5 * side_,
+                   radius = (ball.radius + kClosed) / square_;
+      const int last_row = std::min(side_ - 1, static_cast<int>(std::floor(y + radius - 0.5)));
+      for (int row = std::max(0, static_cast<int>(std::ceil(y - radius - 0.5))); row <= last_row; ++row) {
+        const double up = row + 0.5 - y, half = std::sqrt(std::max(0.0, radius * radius - up * up));
+        const int last = std::min(side_ - 1, static_cast<int>(std::floor(x + half - 0.5)));
+        for (int column = std::max(0, static_cast<int>(std::ceil(x - half - 0.5))); column <= last; ++column)
+          at(column, row) = Square::wall;
+      }
+    }
+  }
+
+  /// From a corner, which no shadow covers.
+  void flood() {
+    std::vector<glm::ivec2> waiting{{0, 0}};
+    at(0, 0) = Square::outside;
+    while (!waiting.empty()) {
+      const glm::ivec2 here = waiting.back();
+      waiting.pop_back();
+      for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)}) {
+        const glm::ivec2 next = here + step;
+        if (next.x < 0 || next.y < 0 || next.x >= side_ || next.y >= side_ || at(next.x, next.y) != Square::hole)
+          continue;
+        at(next.x, next.y) = Square::outside;
+        waiting.push_back(next);
+      }
+    }
+  }
+
+  /// Squares, from the middle of this one to that of the nearest which is not of a hole. Those at the rim never are.
+  double room(glm::ivec2 here) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int ring = 1; ring < nearest; ++ring)
+      for (int along = -ring; along <= ring; ++along)
+        for (const glm::ivec2 step :
+             {glm::ivec2(along, ring), glm::ivec2(along, -ring), glm::ivec2(ring, along), glm::ivec2(-ring, along)})
+          if (at(here.x + step.x, here.y + step.y) != Square::hole)
+            nearest = std::min(nearest, std::hypot(step.x, step.y));
+    return nearest;
+  }
+
+  /// Å; of slices across the line through this point those that have atoms on all its sides.
+  double surrounded(const glm::dvec3& point, const glm::dvec3& along) const {
+    constexpr double kSlice = 3.0;  // Å
+    constexpr double kSides = 6.0;
+    std::map<int, unsigned> sides;  // of each slice, a bit for each side
+    for (const Ball& ball : around_) {
+      const glm::dvec3 from = ball.center - point;
+      const double turn = std::atan2(glm::dot(from, v_), glm::dot(from, u_)) / (2.0 * std::numbers::pi) + 0.5;
+      sides[static_cast<int>(std::floor(glm::dot(from, along) / kSlice))] |=
+          1U << static_cast<unsigned>(std::min(kSides * turn, kSides - 1.0));
+    }
+    const unsigned all = (1U << static_cast<unsigned>(kSides)) - 1U;
+    return kSlice * static_cast<double>(std::ranges::count(sides, all, &std::pair<const int, unsigned>::second));
+  }
+
+  std::span<const Ball> around_, all_;
+  glm::dvec3 middle_{0.0}, u_{0.0}, v_{0.0};
+  double square_ = 1.0;  // Å
+  int side_ = 0;
+  std::vector<Square> squares_;
+};
+
+}  // namespace
+
+std::optional<ViewBasis> channel_end(std::span<const Ball> around, std::span<const Ball> all) {
+  glm::dvec3 best(0.0);
+  double most = 0.0;
+  // What is seen through is the same from both ends.
+  Shadows coarse(around, all, kCoarse);
+  for (std::size_t n = kTriedAxes / 2; n < kTriedAxes; ++n) {
+    const glm::dvec3 toward = spiral_direction(n, kTriedAxes);
+    const Shadows::Cylinder cylinder = coarse.channel(toward);
+    const double volume = cylinder.width * cylinder.width * cylinder.length;
+    if (volume <= most) continue;
+    most = volume;
+    best = toward;
+  }
+  if (most <= 0.0) return {};
+  // The middle of the directions along which one sees through it.
+  Shadows fine(around, all, kFine);
+  const glm::dvec3 x = longest_across(best, around), y = glm::cross(best, x);
+  glm::dvec3 sum(0.0);
+  for (int row = -kNear; row <= kNear; ++row) {
+    for (int column = -kNear; column <= kNear; ++column) {
+      const glm::dvec3 toward =
+          glm::normalize(best + kNearStep * (static_cast<double>(column) * x + static_cast<double>(row) * y));
+      const double width = fine.channel(toward).width;
+      sum += width * width * toward;
+    }
+  }
+  if (const glm::dvec3 middle = glm::normalize(sum + 1e-9 * best); fine.channel(middle).width > 0.0) best = middle;
+  if (best.z < 0.0) best = -best;
+  const glm::dvec3 right = longest_across(best, around);
+  return ViewBasis{right, glm::cross(best, right), -best};
 }
 
 namespace {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The side from which some atoms are hidden least by the others, and how much must be cut away for them to be seen.
+// Sides from which one looks into a molecule or through it, and how much must be cut away for atoms to be seen.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "core/camera/camera.h"
@@ -14,6 +15,13 @@ namespace meniscus {
 /// points on the balls of `seen` are free of the others, or, where several have as many, along which the covered points
 /// lie least deep. Points and directions are samples: about 500 of each.
 ViewBasis open_side(std::span<const Ball> seen, std::span<const Ball> all);
+
+/// Axes of a picture along a straight channel, from the end that lies nearest to +z; the longest extent of `around`
+/// across the view lies horizontally. Of directions spread over the sphere the one along which the largest cylinder
+/// goes through what `around` encloses: as wide as none of `all` is in its way, as long as `around` has atoms on all its
+/// sides. Of those near it the middle is taken, each weighted by what is seen along it. Nothing where there is no
+/// cylinder of 2 Å. around: at least one ball. all: with those of `around` among them. Directions are samples.
+std::optional<ViewBasis> channel_end(std::span<const Ball> around, std::span<const Ball> all);
 
 /// Where a plane that faces the viewer has to be.
 struct OpenDepth {

@@ -8,10 +8,13 @@
 #include <numbers>
 #include <utility>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "core/base/error.h"
 #include "core/base/parse_number.h"
+#include "core/base/text.h"
 #include "core/camera/camera_json.h"
 #include "core/camera/foreign_cameras.h"
 #include "core/camera/open_side.h"
@@ -29,7 +32,7 @@ struct NamedDirection {
   bool has_opposite;  ///< may be behind a minus sign
 };
 
-constexpr std::array<NamedDirection, 15> kDirections{{
+constexpr std::array<NamedDirection, 16> kDirections{{
     {"front", {Frame::inertia, 2, false}, false},
     {"back", {Frame::inertia, 2, true}, false},
     {"top", {Frame::inertia, 1, false}, false},
@@ -45,6 +48,7 @@ constexpr std::array<NamedDirection, 15> kDirections{{
     {"symmetry", {Frame::symmetry, 2, false}, true},
     {"symmetry-side", {Frame::beside, 2, false}, true},
     {"open", {Frame::open, 2, false}, true},
+    {"channel", {Frame::channel, 2, false}, true},
 }};
 
 /// Seen from where `toward` points, with `up` made perpendicular to it.
@@ -72,6 +76,15 @@ ViewBasis view_basis(const ViewDirection& direction, const ViewedBalls& balls) {
   if (direction.frame == Frame::open) {
     const ViewBasis open = open_side(balls.framed, balls.shown);
     return direction.opposite ? opposite_of(open) : open;
+  }
+  if (direction.frame == Frame::channel) {
+    const std::optional<ViewBasis> end = channel_end(balls.framed, balls.shown);
+    if (!end)
+      throw RequestError(fmt::format(
+          "{} channel: from no side can anything be seen through these atoms; a channel must be straight and open, and "
+          "{} may name the atoms around it",
+          option_name("view"), option_name("zoom-to")));
+    return direction.opposite ? opposite_of(*end) : *end;
   }
   if (direction.frame == Frame::symmetry) return facing(sign * symmetry, across(symmetry));
   if (direction.frame == Frame::beside) return facing(sign * across(symmetry), symmetry);

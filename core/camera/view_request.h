@@ -26,7 +26,8 @@ struct ViewDirection {
     inertia,   ///< principal axes of the atoms' centres, longest first; the third is that of the default view
     symmetry,  ///< along the symmetry axis of an assembly
     beside,    ///< at a right angle to it, which is up in the picture
-    open       ///< from where what fills the picture is hidden least (open_side)
+    open,      ///< from where what fills the picture is hidden least (open_side)
+    channel    ///< along the straight channel through what fills the picture (channel_end)
   };
   Frame frame = Frame::inertia;
   int axis = 2;           ///< of a file's frame or of inertia: 0 to 2
@@ -35,8 +36,8 @@ struct ViewDirection {
   bool operator==(const ViewDirection&) const = default;
 };
 
-/// Understands open, x, y, z (file), 1, 2, 3 (inertia), symmetry, symmetry-side, each with - before it for the other
-/// side, and front (3), back (-3), top (2), bottom (-2), right (1), left (-1). Nothing for other words.
+/// Understands open, channel, x, y, z (file), 1, 2, 3 (inertia), symmetry, symmetry-side, each with - before it for the
+/// other side, and front (3), back (-3), top (2), bottom (-2), right (1), left (-1). Nothing for other words.
 std::optional<ViewDirection> parse_view_direction(std::string_view text);
 
 /// Those words, to be proposed.
@@ -81,14 +82,15 @@ struct ViewedBalls {
 
 /// Axes of the picture from that side. Up in it are: of file axes y, but z for ±y so that +x stays right of y; of
 /// inertia 1 the second axis, of 2 the one that is turned away from the default view, of 3 the second; beside the
-/// symmetry axis that axis; of the open side what open_side() says.
+/// symmetry axis that axis; of the open side and a channel what open_side() and channel_end() say. Throws RequestError
+/// where nothing can be seen through.
 ViewBasis view_basis(const ViewDirection& direction, const ViewedBalls& balls);
 
 /// The camera of the file, if one is named. Ask for it before anything is computed. Throws InputError.
 std::optional<Camera> given_camera(const ViewRequest& request);
 
 /// Axes of the picture: those of the camera given, else of the side asked for, else of the broad side of what is shown;
-/// turned as asked.
+/// turned as asked. Throws as view_basis() does; so does view_camera().
 ViewBasis aimed_basis(const ViewRequest& request, const std::optional<Camera>& given, const ViewedBalls& balls);
 
 /// The camera given, turned about the middle of what is shown, or one that shows all that is framed.

@@ -99,6 +99,44 @@ class Figure(unittest.TestCase):
             self.run_program(*driver)
             self.assertGreater(self.difference(name + ", camera of the file", pixels(ours), pixels(theirs))[0], 0.3)
 
+    def test_shadows(self):
+        """The lamp is hidden where it is for the ray caster, but for borders within a pixel."""
+        camera, ours, mns = (self.path("shadows" + end) for end in (".json", ".exr", ".mns"))
+        usual = [*VIEW, "--color", "#c0c0c0", "--shadows", "1"]
+        # Light from everywhere: what is darker than the rest is in shadow.
+        self.run_program(PROGRAM, "render", UBIQUITIN, "-o", ours, *usual, "--preset", "classic", "--ambient", "1", "--specular", "0", "--samples",
+                         "1", "--aovs", "--save-camera", camera)
+        picture = OpenImageIO.ImageBuf(ours)
+        channels = dict(zip(picture.spec().channelnames, np.moveaxis(np.asarray(picture.get_pixels(OpenImageIO.FLOAT)), 2, 0)))
+        with open(camera, encoding="ascii") as file:
+            told = json.load(file)
+        place, target, up = (np.array(told[key]) for key in ("position", "target", "up"))
+        forward = (target - place) / np.linalg.norm(target - place)
+        right = np.cross(forward, up) / np.linalg.norm(np.cross(forward, up))
+        lamp = np.array([-0.45, 0.65, 0.75]) / np.linalg.norm([-0.45, 0.65, 0.75])
+        lamp = lamp @ np.array([right, np.cross(right, forward), -forward])
+        turned = sum(channels["N." + axis] * lamp[n] for n, axis in enumerate("xyz"))
+        shown = turned > 0.2  # what hardly faces the lamp is dark for both
+        hidden = channels["R"] < 0.5 * np.nanmax(channels["R"])
+        self.run_program(PROGRAM, "export", "blender", UBIQUITIN, "-o", mns, *usual, "--tolerance", "0.02", "--camera", camera)
+        self.run_program(BLENDER, "-b", "--factory-startup", "--python-exit-code", "3", "--python", os.path.join(ADDON, "render_mns.py"), "--", mns,
+                         "--output", self.path("shadows.png"), "--samples", "32", "--style", "studio", "--transparent")
+        seen = pixels(self.path("shadows.png"))[:, :, 0]
+        # The other lamps of the studio, weak and without shadows, give a third at most of what the key gives here.
+        share = seen / np.maximum(np.where(shown, turned, 1.0), 0.2)
+        theirs = share < np.median(share[shown & ~hidden]) * 0.6
+
+        def near(states):
+            return np.logical_or.reduce([np.roll(states, (row, column), axis=(0, 1)) for row in (-1, 0, 1) for column in (-1, 0, 1)])
+
+        def unlike(other):
+            return float(((hidden & ~near(other)) | (~hidden & ~near(~other)))[shown].mean())
+
+        print(f"shadows: {shown.sum()} pixels, {100 * hidden[shown].mean():.1f} % in shadow, {100 * (hidden ^ theirs)[shown].mean():.2f} % differ, "
+              f"{100 * unlike(theirs):.2f} % by more than a pixel; aside {100 * unlike(np.roll(theirs, 4, axis=1)):.2f} %")
+        self.assertLess(unlike(theirs), 0.01)
+        self.assertGreater(unlike(np.roll(theirs, 4, axis=1)), 0.03)
+
     def test_opacity(self):
         self.check("opacity", UBIQUITIN, "--opacity", "0.4", "--color", "residue")
         thin, _ = self.check("opacity of parts", UBIQUITIN, "--opacity", "0.25", "--opacity", "resi 1-30=1", "--opacity",

@@ -111,6 +111,42 @@ class Figure(unittest.TestCase):
         self.check_run("a rule by places", "--color", "element", "--color", "resi 1-20=radial", "--tube", "all")
         self.check_run("fluctuations", "--color", "rmsf")
 
+    def shadowed(self, name, molecule, *options):
+        """Per pixel whether the lamp is hidden there: in the ray caster's picture, in POV-Ray's; and whether both show something that is turned
+        to it."""
+        ours, camera, folder = (os.path.join(self.holder.name, name + end) for end in (".png", ".json", ""))
+        view = ["--size", f"{WIDTH}x{HEIGHT}", "-q", "--shadows", "1", "--color", "#c0c0c0", *options]
+        # Light from everywhere: what differs from the colour is in shadow.
+        self.run_program(PROGRAM, "render", molecule, "-o", ours, *view, "--preset", "classic", "--ambient", "1", "--specular", "0", "--samples",
+                         "1", "--background", "white", "--save-camera", camera)
+        self.run_program(PROGRAM, "export", "povray", molecule, "-o", folder, *view, "--camera", camera)
+        theirs = []
+        for lamp in "Meniscus_Shadows=1", "Meniscus_Shadows=0", "Meniscus_Key_Light=0":
+            self.run_program(POVRAY, "surface.ini", "Antialias=Off", f"Declare={lamp}", "Output_File_Name=surface.png", cwd=folder)
+            theirs.append(pixels(os.path.join(folder, "surface.png")).max(axis=2))
+        lit, open_, dark = theirs
+        grey = pixels(ours).max(axis=2)
+        return grey < 0xc0 - LIMIT, 2 * (open_ - lit) > open_ - dark, (grey < 255) & (open_ - dark > LIMIT)
+
+    def unlike(self, name, ours, theirs, shown):
+        """Of the pixels shown, the share whose state neither they nor a neighbour have in the other picture; and without that leave."""
+        def near(states):
+            return np.logical_or.reduce([np.roll(states, (row, column), axis=(0, 1)) for row in (-1, 0, 1) for column in (-1, 0, 1)])
+
+        far = (ours & ~near(theirs)) | (~ours & ~near(~theirs)) | (theirs & ~near(ours)) | (~theirs & ~near(~ours))
+        self.assertGreater(shown.sum(), 2000)
+        shares = float(far[shown].mean()), float((ours ^ theirs)[shown].mean())
+        print(f"{name}: {shown.sum()} pixels, {100 * ours[shown].mean():.1f} % in shadow; {100 * shares[1]:.3f} % differ, "
+              f"{100 * shares[0]:.3f} % by more than a pixel")
+        return shares[0]
+
+    def test_shadows(self):
+        for name, molecule, *options in (("ubiquitin", UBIQUITIN), ("methyltransferase", METHYLTRANSFERASE, "--select", "polymer"),
+                                         ("sticks", RECEPTOR, "--hide-surface", "--sticks", "protein")):
+            ours, theirs, shown = self.shadowed(name, molecule, *options)
+            self.assertLess(self.unlike(name, ours, theirs, shown), 0.0005, name)
+            self.assertGreater(self.unlike(name + ", four pixels aside", ours, np.roll(theirs, 4, axis=1), shown), 0.01)
+
     def test_bases_and_sugars(self):
         self.check("bases", "--select", "protein", "--hide-surface", "--tube", "nucleic", "--bases", "nucleic", "--color", "chain",
                    "--zoom-to", "nucleic", molecule=METHYLTRANSFERASE)
