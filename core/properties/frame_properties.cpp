@@ -95,7 +95,7 @@ constexpr auto kTable = of_commands(
             .from(0.1, 240)
             .initially("25")
             .in(kFilm, kShared)
-            .of(for_render | for_blender | for_film),
+            .of(for_render | for_blender | for_film | for_mesh),
         text("frames.codec", "--codec", "WORD",
              "Codec: h264, h265, vp9, prores, prores4444, dnxhr or gif. h264 is for .mp4, .mov and .mkv, vp9 for "
              ".webm; prores4444 (.mov) keeps transparency")

@@ -219,7 +219,7 @@ class SameBytes(Workplace):
         ["render", "run.pdb", "--frames", "all", "--size", "64x48", "--samples", "1", "-o", "a.gif"],
         ["render", "one.pdb", *SMALL, "-o", "c.png", "--save-camera", "c.json", "--save-scene", "d.json"],
         *[["export", "mesh", "one.pdb", "-o", "a." + ending, "--tolerance", "0.3"]
-          for ending in ("stl", "3mf", "obj", "off", "glb", "vtp", "ply", "smesh", "dms", "py")],
+          for ending in ("stl", "3mf", "obj", "off", "glb", "vtp", "ply", "smesh", "dms", "py", "usda", "usdz")],
         ["export", "blender", "one.pdb", "-o", "a.mns"], ["export", "blender", "run.pdb", "--frames", "all", "-o", "run"],
         ["export", "povray", "one.pdb", "-o", "povray"], ["export", "mitsuba", "one.pdb", "-o", "mitsuba"],
         ["export", "pbrt", "one.pdb", "-o", "pbrt"], ["export", "atoms", "one.pdb", "-o", "a.atoms"],
