@@ -33,7 +33,7 @@ struct VdbCommand : SceneCommand {
   int band = 3;        ///< voxels
 };
 
-std::string about_line(const VdbCommand& command) {
+std::string about_level_set(const VdbCommand& command) {
   const Scene& scene = command.scene;
   return fmt::format("Meniscus {}: 1 Angstrom is {:g}; {} surface, voxels of {:g} Angstrom", MENISCUS_VERSION,
                      scene.mesh.scale, kind_word(scene.molecule.surface.kind), command.voxel);
@@ -62,7 +62,7 @@ void export_to_vdb(const VdbCommand& asked) {
       if (!run.is_run()) tell(command, band);
       const std::string path = run.is_run() ? numbered->at(numbered_structure.number) : scene.output;
       OutputFile file(path_of_text(path), command.existing());
-      write_vdb(file, band, {scene.mesh.scale, about_line(command)});
+      write_vdb(file, band, {scene.mesh.scale, about_level_set(command)});
       file.commit();
       return [path] {
         std::cout << escaped(path) << "\n";
