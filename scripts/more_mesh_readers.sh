@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Our meshes and commands in programs that are large or not Debian's. The plugin in PyPI's PyMOL, PyVOL of PyPI on meniscus-msms,
-# both below build/clients; then mesh files in PrusaSlicer, VTK, and Khronos' glTF validator of npm below
+# both below build/clients; USD files in OpenUSD, below build/usd; then mesh files in PrusaSlicer, VTK, and Khronos' glTF validator of npm below
 # build/gltf-validator: three proteins, each at a tolerance and at a density, some by chain. The last line says
 # "cases N failures M".
 #
@@ -20,6 +20,10 @@ python=$PWD/build/clients/bin/python
 "$python" -B tests/msms/clients_test.py "$build" PyVol
 MENISCUS_LIBRARY=$build/exporters/bindings/c/libmeniscus.so PYTHONPATH=exporters/bindings/python \
   "$python" -B tests/export/pymol/plugin_test.py exporters/pymol/meniscus_plugin.py
+
+usd=$PWD/build/usd/bin/python
+[[ -x $usd ]] || { /usr/bin/python3 -m venv build/usd && "$usd" -m pip install -q --disable-pip-version-check numpy usd-core==26.11; }
+"$usd" -B tests/export/mesh/usd_readers.py "$program"
 
 mkdir -p "$validator"
 [[ -d $validator/node_modules/gltf-validator ]] ||

@@ -61,6 +61,9 @@ for version in "${versions[@]}"; do
   env -i HOME="$home/profile" PATH=/usr/bin:/bin BLENDER_USER_RESOURCES="$home/profile" "$home/blender" -b --factory-startup \
     --python-exit-code 3 --python "$tests/inside_extension.py" -- "$extension" "$molecule" "$area" "$home/extension.png" >"$log" 2>&1 && failed=0 || failed=1
   count "Blender $version, the extension in an empty profile: $failed failed; $log, $home/extension.png" 1 $failed
+  log=$home/inside_usd.log
+  "$home/blender" -b --factory-startup --python-exit-code 3 --python "$tests/../mesh/inside_blender_usd.py" -- "$program" >"$log" 2>&1 && failed=0 || failed=1
+  count "Blender $version, USD of a run: $failed failed; $log" 1 $failed
   scripts=(inside_blender inside_sequence inside_driven inside_computed inside_dressed inside_looks)
   [[ ${molecular_nodes[$version]:-} ]] && scripts+=(inside_molecular_nodes)
   for script in "${scripts[@]}"; do

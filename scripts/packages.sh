@@ -23,7 +23,7 @@ test_packages=(python3-venv python3-pip libgtest-dev libbenchmark-dev glslang-to
   apbs pdb2pqr poppler-utils librsvg2-bin
   python3-biopython python3-ost jmol
   python3-rdkit rdkit-data python3-openbabel openbabel
-  admesh tetgen python3-meshio assimp-utils
+  admesh tetgen python3-meshio assimp-utils python3-openvdb
   dpkg-dev lintian man-db mandoc zsh fish ruby nix-bin)
 fuzz_packages=(clang-14 libclang-rt-14-dev)
 # form, and a second compiler with sanitizers

@@ -55,7 +55,7 @@ rows=(
   "python|the wheel in a fresh environment, with other packages from PyPI|bash scripts/test_wheel.sh"
   "blenders|the Blender add-on in Blender 4.2, 4.5 and 5.0 with Molecular Nodes, from PyPI|bash scripts/newer_blenders.sh build/test/meniscus"
   "schedulers|files of docs/reference/schedulers.md in HTCondor's, Kubernetes', AWS' and OpenJD's own code, and in Nextflow|bash scripts/schedulers.sh build/test/meniscus"
-  "meshes|PyPI's PyMOL and PyVOL; mesh files in PrusaSlicer, VTK and Khronos' glTF validator|bash scripts/more_mesh_readers.sh build/test/meniscus"
+  "meshes|PyPI's PyMOL and PyVOL; mesh files in OpenUSD, PrusaSlicer, VTK and Khronos' glTF validator|bash scripts/more_mesh_readers.sh build/test/meniscus"
   "renderers|scenes for path tracers in Mitsuba 3 itself, from PyPI, beside the ray caster|bash scripts/film_renderers.sh build/test/meniscus"
   "peers|areas beside those of FreeSASA, GROMACS, MDTraj and PyMOL|bash scripts/compare_peers.sh build/test/meniscus"
   "faults|calls that fail, full disks, kills, other writers|ctest --test-dir build/test -L fault --timeout 1800 -j $jobs"

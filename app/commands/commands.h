@@ -39,6 +39,7 @@ void add_export_mitsuba(CLI::App& command);
 void add_export_pbrt(CLI::App& command);
 void add_export_ply(CLI::App& command);
 void add_export_povray(CLI::App& command);
+void add_export_vdb(CLI::App& command);
 void add_farm(CLI::App& command);
 void add_farm_bundle(CLI::App& command);
 void add_farm_log(CLI::App& command);

@@ -115,7 +115,7 @@ MeshFile mesh_of(const SceneCommand& command, const MeshFormat& format, FigureFr
   const std::vector<Atom> atoms = shown_atoms(molecule.structure);
   const std::vector<double> buried =
       buried_by_chains(scene.molecule, molecule.structure, names, scene.mesh.attributes == "all");
-  MeshFileMaker maker({fineness, names, scene.mesh.scale, atoms, buried, format.solid},
+  MeshFileMaker maker({fineness, names, scene.mesh.scale, atoms, buried, format.solid, frame.velocities},
                       about_line(kind_word(scene.molecule.surface.kind), scene.mesh.scale, fineness));
   for (SurfaceObject& object : molecule.objects) maker.add(std::exchange(object, {}));
   if (!beside.empty()) maker.add(shape_object(atoms, beside, fineness.tolerance));
@@ -123,23 +123,45 @@ MeshFile mesh_of(const SceneCommand& command, const MeshFormat& format, FigureFr
   return maker.take();
 }
 
+/// What a run comes to in one file, in the order of its frames.
+struct OneFile {
+  std::vector<MeshFile> frames;
+  RunTimes times;
+};
+
+// Before anything is computed.
+void check_one_file(const MeshFormat& format, const Scene& scene) {
+  if (!format.write_run)
+    throw UsageError(fmt::format("-o {}: each frame needs a file of its own; put # where its number goes, as in {}",
+                                 in_quotes(scene.output), in_quotes(numbered_name(scene.output))));
+  if (!scene.frames.only.empty())
+    throw UsageError(fmt::format("--only: one file holds all frames; put # where their numbers go, as in {}",
+                                 in_quotes(numbered_name(scene.output))));
+}
+
 void export_to_mesh(const SceneCommand& asked) {
   const MeshFormat& format = format_of(asked.scene);
   if (format.numbers) parse_vertex_numbers(asked.scene.mesh.attributes);
   const auto numbered = NumberedPath::parse(asked.scene.output);
-  if (asked.scene.frames.asked() && !numbered)
-    throw UsageError(fmt::format("-o {}: each frame needs a file of its own; put # where its number goes, as in {}",
-                                 in_quotes(asked.scene.output), in_quotes(numbered_name(asked.scene.output))));
-  FigureRun run(asked);
+  const bool one_file = asked.scene.frames.asked() && !numbered;
+  if (one_file) check_one_file(format, asked.scene);
+  FigureRun run(asked, one_file);
   run.aim(asked.scene.picture, false);
   const SceneCommand& command = run.command();
+  OneFile whole{{}, {{}, command.scene.film.frames_per_second}};
   const auto make = [&](FigureFrame frame) -> FinishFrame {
-    const std::uint64_t number = frame.number;
+    const std::uint64_t number = frame.number, place = frame.place + 1;
     MeshFile mesh = mesh_of(command, format, std::move(frame), !run.is_run());
     if (numbered && !run.is_run()) {
       write_numbered(format, *numbered, command.existing(), std::move(mesh));
       return [] { return MadeFrame{}; };
     }
+    if (one_file)
+      return [&whole, place, mesh = std::make_shared<MeshFile>(std::move(mesh))] {
+        whole.frames.push_back(std::move(*mesh));
+        whole.times.places.push_back(place);
+        return MadeFrame{};
+      };
     const std::string path = numbered ? numbered->at(number) : command.scene.output;
     write_mesh_file(format, path, command.existing(), std::move(mesh));
     return [path] {
@@ -148,6 +170,11 @@ void export_to_mesh(const SceneCommand& asked) {
     };
   };
   run.make({kMeshBytesPerAtom}, [&]() -> FigureRun::Sink { return make; });
+  if (!one_file) return;
+  write_mesh_run(format, command.scene.output, command.existing(), whole.frames, whole.times);
+  if (std::ranges::any_of(whole.frames.front().objects, [](const FileObject& o) { return o.velocities.empty(); }))
+    say(command, "note: no velocities: they are known where a molecule is in one place and keeps its atoms");
+  std::cout << escaped(command.scene.output) << "\n";
 }
 
 void declare(CLI::App& command, const std::string& format) {
@@ -178,8 +205,10 @@ void add_export_mesh(CLI::App& command) {
       "  meniscus export mesh 1tii.pdb -o 1tii.3mf --even --tolerance 0.1\n"
       "  meniscus export mesh 1tii.pdb -o 1tii.vtp --attributes mean_curvature,hydrophobicity\n"
       "  meniscus export mesh 1tii.pdb -o part_#.stl --by component\n"
-      "  meniscus export mesh adk.psf adk.dcd --frames 0-90 -o adk_###.ply   one file per frame",
-      "Each part of --by is an object of its own in 3MF, OBJ and GLB; with a # in the name of the output it is a file "
+      "  meniscus export mesh adk.psf adk.dcd --frames 0-90 -o adk_###.ply   one file per frame\n"
+      "  meniscus export mesh adk.psf adk.dcd --frames 0-90 -o adk.usda      one file that moves",
+      "Each part of --by is an object of its own in 3MF, OBJ, GLB and USD; with a # in the name of the output it is a "
+      "file "
       "of\nits own, in any format. The default tolerance is half a pixel of --camera; without a camera it is 0.01 Å.");
   declare(command, "");
 }

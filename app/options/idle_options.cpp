@@ -129,10 +129,17 @@ const std::vector<Need>& needs() {
        true},
       {{"--fps"},
        [](const Asked& asked) {
-         if (asked.has("--hold")) return true;
+         if (asked.has("--hold") || asked.has("--density")) return true;
          return asked.has("--samples") ? asked.is_film() : !asked.has("--stride") || asked.is_run();
        },
        "the output is not a film"},
+      {{"--fps"},
+       [](const Asked& asked) {
+         if (!asked.has("--density")) return true;
+         return asked.is_run() &&
+                (ends_as(asked.value("--output"), {".usda", ".usdz"}) || asked.value("--format").starts_with("usd"));
+       },
+       "of meshes USD alone has times; name a file of a run, such as -o a.usda"},
       {{"--clip", "--film-opacity"},
        [](const Asked& asked) { return !asked.given("--hide-surface"); },
        "the surface is hidden, and shapes beside it are neither cut nor films"},

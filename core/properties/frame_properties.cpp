@@ -95,7 +95,7 @@ constexpr auto kTable = of_commands(
             .from(0.1, 240)
             .initially("25")
             .in(kFilm, kShared)
-            .of(for_render | for_blender | for_film),
+            .of(for_render | for_blender | for_film | for_mesh),
         count("frames.motion_blur", "--motion-blur", "N",
               "Blur what moves. Each picture is the mean of N moments, over half the time from a frame to the next")
             .from(1, 256)

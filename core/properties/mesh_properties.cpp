@@ -37,7 +37,7 @@ constexpr auto kTable = std::to_array<Property>({
         .in_short_help()
         .of(for_mesh),
     text("mesh.attributes", "--attributes", "NAMES",
-         "Numbers of vertices to write in PLY, VTP and GLB, separated by commas")
+         "Numbers of vertices to write in PLY, VTP, GLB and USD, separated by commas")
         .initially("usual")
         .in(kMesh, in_scene | in_bundle)
         .of(for_mesh | for_blender),
@@ -45,14 +45,21 @@ constexpr auto kTable = std::to_array<Property>({
         .one_of("angstrom|nanometer")
         .initially("angstrom")
         .in(kMesh, in_scene)
-        .of(for_mesh),
+        .of(for_mesh | for_vdb),
     number("mesh.scale", "--scale", "LENGTH",
-           "Length of 1 Å in the file. The unit of 3MF is the millimetre, that of GLB the metre; others have none")
+           "Length of 1 Å in the file. The unit of 3MF is the millimetre, that of GLB and USD the metre; others have "
+           "none")
         .from(1e-12, 1e6)
         .initially("1")
         .in(kMesh, in_scene)
-        .of(for_mesh)
+        .of(for_mesh | for_vdb)
         .excludes("mesh.unit"),
+
+    number("distances.voxel", "--voxel", "Å", "Edge of a voxel, in Å").from(0.01, 100).initially("0.5").in(kMesh),
+    count("distances.band", "--band", "N", "Voxels on each side of the surface whose distance is written")
+        .from(1, 1000)
+        .initially("3")
+        .in(kMesh),
 
     number("pockets.tolerance", "--tolerance", "Å", "Largest distance between mesh and pocket, in Å")
         .from(1e-5, 1)
@@ -62,7 +69,7 @@ constexpr auto kTable = std::to_array<Property>({
     new_file("output.file", "-o,--output", "PATH", "Output file or folder")
         .in(kOutput, in_scene)
         .in_short_help()
-        .of(for_render | for_panels | for_film | for_morph | kForExports | for_mesh | for_atoms),
+        .of(for_render | for_panels | for_film | for_morph | kForExports | for_mesh | for_atoms | for_vdb),
     flag("output.force", "--force", "Replace an output that already exists")
         .in(kOutput)
         .in_short_help()
@@ -83,7 +90,7 @@ constexpr auto kTable = std::to_array<Property>({
     new_file("scene.save", "--save-scene", "FILE", "Save these options as a scene file")
         .in(kScene)
         .in_short_help()
-        .of(for_render | kForExports | for_mesh),
+        .of(for_render | kForExports | for_mesh | for_vdb),
 });
 
 }  // namespace

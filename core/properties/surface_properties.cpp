@@ -76,7 +76,7 @@ constexpr auto kTable = of_commands(
             .of((kForRuns & ~for_preview) | for_bench | for_panels | for_film),
         flag("surface.verify", "--verify", "Compute on GPU and CPU, and report every difference")
             .in(kDevice, in_bundle)
-            .of(for_surface | for_render | kForExports | for_mesh | for_atoms | for_bench),
+            .of(for_surface | for_render | kForExports | for_mesh | for_atoms | for_vdb | for_bench),
 
         text("surface.color", "--color", "SCHEME",
              "Colour: a scheme, a colour (red, #rrggbb), or EXPR=COLOR. Schemes: element, element-cpk (darker), "

@@ -14,6 +14,7 @@
 #include "core/color/named_colors.h"
 #include "core/mesh/mesh_colors.h"
 #include "core/mesh/triangle_mesh.h"
+#include "core/mesh/velocity.h"
 #include "core/queries/copies.h"
 #include "core/structure/structure.h"
 #include "exporters/mesh_files/inner_points.h"
@@ -63,6 +64,7 @@ MeshFileMaker::MeshFileMaker(FileRequest request, std::string about) : request_(
 }
 
 void MeshFileMaker::add(SurfaceObject given) {
+  if (given.copies.size() > 1) request_.velocities = {};
   std::vector<SurfaceObject> one;
   one.push_back(std::move(given));
   const SurfaceObject object = merged(std::move(one));
@@ -70,29 +72,40 @@ void MeshFileMaker::add(SurfaceObject given) {
 }
 
 void MeshFileMaker::add(const SurfaceView& object, FineMesh mesh) {
+  std::vector<glm::dvec3> velocities;
+  if (!request_.velocities.empty()) {
+    std::vector<glm::dvec3> atoms;
+    for (const std::uint32_t atom : object.atom) atoms.push_back(request_.velocities[atom]);
+    velocities = vertex_velocities(object.surface, mesh.mesh, atoms);
+  }
   const Welding welding = weld(mesh.mesh, kFileStep, request_.scale);
   joined_ += welding.joined;
   fins_ += welding.fins;
   flipped_ += welding.flipped;
   flat_ += welding.flat;
   move_vertices(mesh, welding.into);
+  if (!velocities.empty()) move_rows(velocities, welding.into, mesh.mesh.positions.size());
   if (request_.inner_points) {
     const std::vector<glm::dvec3> points = inner_points(object.surface, mesh.mesh);
     for (std::uint32_t c = 0; c < points.size(); ++c)
       (object.surface.components[c].kind == ComponentKind::cavity ? file_.cavities : file_.solids)
           .push_back({request_.scale * points[c], components_ + c});
   }
-  put(object, std::move(mesh));
+  put(object, std::move(mesh), std::move(velocities));
 }
 
 void MeshFileMaker::add(ShapeObject shapes) {
   FineMesh mesh{std::move(shapes.mesh), {}, {}};
   mesh.vertex_face.assign(mesh.mesh.positions.size(), kNone);
   mesh.vertex_atom = vertex_atoms(mesh.mesh);
-  put(view_of(shapes.object), std::move(mesh));
+  std::vector<glm::dvec3> velocities;
+  if (!request_.velocities.empty())
+    for (const std::uint32_t atom : mesh.vertex_atom)
+      velocities.push_back(request_.velocities[shapes.object.atom[atom]]);
+  put(view_of(shapes.object), std::move(mesh), std::move(velocities));
 }
 
-void MeshFileMaker::put(const SurfaceView& object, FineMesh mesh) {
+void MeshFileMaker::put(const SurfaceView& object, FineMesh mesh, std::vector<glm::dvec3> velocities) {
   FileObject made;
   made.name = object.name.empty() ? "surface" : object.name;
   made.numbers = vertex_numbers(request_.numbers, {object, mesh, request_.atoms, request_.buried, components_});
@@ -102,9 +115,11 @@ void MeshFileMaker::put(const SurfaceView& object, FineMesh mesh) {
     const std::vector<std::uint32_t> place = keep_triangles(mesh.mesh, shown);
     move_vertices(mesh, place);
     for (VertexNumbers& column : made.numbers) move_rows(column.values, place, mesh.mesh.positions.size());
+    if (!velocities.empty()) move_rows(velocities, place, mesh.mesh.positions.size());
   }
   for (const glm::dvec3& x : mesh.mesh.positions) made.positions.emplace_back(request_.scale * x);
   for (const glm::dvec3& n : mesh.mesh.normals) made.normals.emplace_back(n);
+  for (const glm::dvec3& v : velocities) made.velocities.emplace_back(request_.scale * v);
   for (const glm::vec3& color : vertex_colors(mesh.mesh, object.coloring)) made.colors.push_back(bytes_of(color));
   if (!object.coloring.volume)
     for (std::size_t t = 0; t < mesh.mesh.triangles.size(); ++t)

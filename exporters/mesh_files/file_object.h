@@ -31,6 +31,8 @@ struct FileRequest {
   std::span<const Atom> atoms;       ///< SurfaceObject::atom and SurfaceView::atom point into these
   std::span<const double> buried;    ///< Å² of each of these atoms; empty: unknown
   bool inner_points = false;
+  /// Å per frame, of each of these atoms; empty: unknown. A surface in several places has none.
+  std::span<const glm::dvec3> velocities = {};
 };
 
 /// One line about a file: the program, what 1 Å is, which surface ("solvent-excluded", say), how fine.
@@ -60,7 +62,7 @@ class MeshFileMaker {
   MeshFile take();
 
  private:
-  void put(const SurfaceView& object, FineMesh mesh);
+  void put(const SurfaceView& object, FineMesh mesh, std::vector<glm::dvec3> velocities = {});
 
   FileRequest request_;
   MeshFile file_;

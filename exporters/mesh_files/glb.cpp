@@ -11,6 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/base/version.h"
+#include "core/image/color_space.h"
 #include "exporters/mesh_files/writers.h"
 
 namespace meniscus {
@@ -24,9 +25,7 @@ constexpr std::uint32_t kMagic = 0x46546C67, kVersion = 2, kJsonChunk = 0x4E4F53
 
 /// Colours of vertices are linear; 16 bits keep what 8 bits of sRGB tell apart.
 std::uint16_t linear(std::uint8_t channel) {
-  const double c = channel / 255.0;
-  const double light = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);  // IEC 61966-2-1
-  return static_cast<std::uint16_t>(std::lround(65535.0 * light));
+  return static_cast<std::uint16_t>(std::lround(65535.0f * linear_from_srgb(static_cast<float>(channel) / 255.0f)));
 }
 
 std::array<float, 3> as_array(const glm::vec3& x) { return {x.x, x.y, x.z}; }
@@ -37,13 +36,6 @@ std::string plain_text(const std::string& text) {
   std::ranges::replace_if(
       plain, [](unsigned char c) { return c < ' ' || c > '~'; }, '_');
   return plain;
-}
-
-/// The format has no word for a missing number.
-std::vector<float> without_gaps(std::vector<float> values) {
-  std::ranges::replace_if(
-      values, [](float x) { return !std::isfinite(x); }, 0.0f);
-  return values;
 }
 
 std::string semantic(const std::string& name) {

@@ -40,6 +40,7 @@ struct FileObject {
   std::vector<VertexNumbers> numbers;    ///< alike in all objects of a file
   std::vector<std::uint32_t> atom;       ///< per vertex: into MeshFile::atoms
   std::vector<PatchKind> kind;           ///< per vertex
+  std::vector<glm::vec3> velocities;     ///< in the unit of the file per frame of the run; empty: unknown
   std::vector<std::uint32_t> component;  ///< per triangle: each closed part of the file has a number of its own
   bool is_cavity = false;                ///< all of it bounds cavities
 };
@@ -56,6 +57,12 @@ struct MeshFile {
     std::uint32_t component = 0;
   };
   std::vector<InnerPoint> cavities, solids;
+};
+
+/// When the frames of one file are.
+struct RunTimes {
+  std::vector<std::uint64_t> places;  ///< of each in the run, from 1
+  double per_second = 25.0;
 };
 
 }  // namespace meniscus

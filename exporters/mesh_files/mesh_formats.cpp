@@ -52,6 +52,8 @@ constexpr auto kFormats = std::to_array<MeshFormat>({
     {"ply", "PLY, binary", "", false, true, true, false, false, write_ply},
     {"ply-ascii", "PLY, text", "", false, true, true, false, false, write_ascii_ply},
     {"py", "script for PyMOL", "", true, true, false, false, false, write_pymol_script},
+    {"usda", "USD, text", "m", true, true, true, false, false, write_usda, write_usda_run},
+    {"usdz", "USD, archive", "m", true, true, true, false, false, write_usdz, write_usdz_run},
 });
 
 }  // namespace
@@ -85,6 +87,13 @@ void write_mesh_file(const MeshFormat& format, const std::string& path, Existing
   }
   OutputFile file(path_of_text(path), existing);
   format.write(file, mesh);
+  file.commit();
+}
+
+void write_mesh_run(const MeshFormat& format, const std::string& path, Existing existing,
+                    std::span<const MeshFile> frames, const RunTimes& times) {
+  OutputFile file(path_of_text(path), existing);
+  format.write_run(file, frames, times);
   file.commit();
 }
 

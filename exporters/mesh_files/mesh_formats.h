@@ -25,6 +25,8 @@ struct MeshFormat {
   bool solid;    ///< made for programs that fill it: needs one closed surface, with its inner points
   bool atoms;    ///< names them
   void (*write)(OutputFile& file, const MeshFile& mesh);
+  /// All frames of a run, at least one, in one file; nullptr: each needs a file of its own.
+  void (*write_run)(OutputFile& file, std::span<const MeshFile> frames, const RunTimes& times) = nullptr;
 };
 
 std::span<const MeshFormat> mesh_formats();
@@ -40,5 +42,8 @@ std::string mesh_format_words();
 /// Writes the file whole or not at all; objects are joined where the format holds one. Throws OutputError,
 /// CapacityError for what the format cannot hold.
 void write_mesh_file(const MeshFormat& format, const std::string& path, Existing existing, MeshFile mesh);
+/// A run, in a format that has write_run. Throws likewise.
+void write_mesh_run(const MeshFormat& format, const std::string& path, Existing existing,
+                    std::span<const MeshFile> frames, const RunTimes& times);
 
 }  // namespace meniscus

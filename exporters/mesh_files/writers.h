@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <iterator>
@@ -48,6 +49,16 @@ void write_ply(OutputFile& file, const MeshFile& mesh);
 void write_ascii_ply(OutputFile& file, const MeshFile& mesh);
 /// Python that PyMOL runs: a compiled graphics object for each object, of numbers alone.
 void write_pymol_script(OutputFile& file, const MeshFile& mesh);
+/// USD as text (Universal Scene Description 1.0, OpenUSD's .usda): an Xform with a Mesh for each object, in metres,
+/// y upwards; numbers are primvars. A run has samples of all of a mesh at each frame, with velocities, for the vertices
+/// of two frames are not the same.
+void write_usda(OutputFile& file, const MeshFile& mesh);
+void write_usda_run(OutputFile& file, std::span<const MeshFile> frames, const RunTimes& times);
+/// The same in an archive (OpenUSD's specification of USDZ): stored, from a multiple of 64 bytes on.
+void write_usdz(OutputFile& file, const MeshFile& mesh);
+void write_usdz_run(OutputFile& file, std::span<const MeshFile> frames, const RunTimes& times);
+/// What write_usda writes, or of a run.
+std::string usd_text(std::span<const MeshFile> frames, const RunTimes* times);
 /// The header of a PLY file in the form "binary_little_endian" or "ascii".
 std::string ply_header(std::string_view form, const MeshFile& mesh);
 
@@ -95,6 +106,13 @@ std::string text_of_rows(std::string beginning, std::size_t count, const PutRow&
   beginning.reserve(size);
   for (const auto& part : parts) beginning.append(part.data(), part.size());
   return beginning;
+}
+
+/// For formats without a word for a missing number.
+inline std::vector<float> without_gaps(std::vector<float> values) {
+  std::ranges::replace_if(
+      values, [](float x) { return !std::isfinite(x); }, 0.0f);
+  return values;
 }
 
 /// Letters of ASCII as they are, what XML takes for its own as entities, all else as '_'.

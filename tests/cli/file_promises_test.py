@@ -54,7 +54,7 @@ WRITING = [
     ["render", "one.pdb", "--size", "200x150", "--color", "bfactor", "-o", "new.png", "--legend-file"],
     ["render", "run.pdb", "--frames", "0-1", "--size", "64x48", "-o"],
     ["export", "blender", "one.pdb", "-o"], ["export", "mesh", "one.pdb", "--format", "ply", "-o"], ["export", "ply", "one.pdb", "-o"],
-    ["export", "atoms", "one.pdb", "-o"], ["export", "povray", "one.pdb", "-o", "new", "--save-camera"],
+    ["export", "atoms", "one.pdb", "-o"], ["export", "vdb", "one.pdb", "-o"], ["export", "povray", "one.pdb", "-o", "new", "--save-camera"],
     ["export", "mitsuba", "one.pdb", "-o", "new", "--save-scene"],
     ["preview", "one.pdb", "--commands", "quit.json", "--serve", "--record"],
 ]
@@ -219,10 +219,11 @@ class SameBytes(Workplace):
         ["render", "run.pdb", "--frames", "all", "--size", "64x48", "--samples", "1", "-o", "a.gif"],
         ["render", "one.pdb", *SMALL, "-o", "c.png", "--save-camera", "c.json", "--save-scene", "d.json"],
         *[["export", "mesh", "one.pdb", "-o", "a." + ending, "--tolerance", "0.3"]
-          for ending in ("stl", "3mf", "obj", "off", "glb", "vtp", "ply", "smesh", "dms", "py")],
+          for ending in ("stl", "3mf", "obj", "off", "glb", "vtp", "ply", "smesh", "dms", "py", "usda", "usdz")],
         ["export", "blender", "one.pdb", "-o", "a.mns"], ["export", "blender", "run.pdb", "--frames", "all", "-o", "run"],
         ["export", "povray", "one.pdb", "-o", "povray"], ["export", "mitsuba", "one.pdb", "-o", "mitsuba"],
         ["export", "pbrt", "one.pdb", "-o", "pbrt"], ["export", "atoms", "one.pdb", "-o", "a.atoms"],
+        ["export", "vdb", "one.pdb", "-o", "a.vdb", "--voxel", "1"], ["export", "mesh", "run.pdb", "--frames", "all", "-o", "b.usda", "--density", "1"],
         ["surface", "one.pdb", "--csv", "a.csv", "--csv-residues", "b.csv", "--gradients", "c.csv"],
         ["surface", "run.pdb", "--frames", "all", "--csv-series", "d.csv", "--csv-cavities", "e.csv", "--plot", "a.svg"],
         ["pockets", "one.pdb", "--csv", "f.csv", "--figure", "f.json", "--ligand", "none"],

@@ -117,7 +117,7 @@ for name in ("look.jsonl", "other.jsonl"):
 # What must be there for an option to do anything, as words of a command; {name} is an input.
 CONTEXTS = {
     "plain": ["{one.pdb}"], "added": ["{one.pdb}", "--add", "{moved.pdb}"], "models": ["{run.pdb}"], "odd": ["{odd.pdb}"],
-    "frames": ["{run.pdb}", "--frames", "all"], "film": ["{run.pdb}", "--frames", "0-1"],
+    "frames": ["{run.pdb}", "--frames", "all"], "film": ["{run.pdb}", "--frames", "0-1"], "usd": ["{run.pdb}", "--frames", "0-1"],
     "moving": ["{run.pdb}", "--frames", "all", "--select", "x < 4"],
     "near": ["{run.pdb}", "--frames", "all", "--select", "within 6 of resname LIG"],
     "broken": ["{broken.pdb}", "--frames", "all"], "fit": ["{run.pdb}", "--frames", "all", "--superpose", "name CA"],
@@ -205,7 +205,7 @@ ROWS = {
     "--min-volume": ("9999", "cup"), "--mouth-tolerance": ("0.5", "cup"), "--material": ("glass", "plain"),
     "--comments": (None, "plain"), "--tolerance": ("0.3", "plain"), "--tolerance-pixels": ("2", "plain"),
     "--density": ("1", "plain"), "--even": (None, "plain"), "--format": ("obj", "plain"), "--attributes": ("all", "plain"),
-    "--unit": ("nanometer", "plain"), "--scale": ("3", "plain"),
+    "--unit": ("nanometer", "plain"), "--scale": ("3", "plain"), "--voxel": ("1", "plain"), "--band": ("1", "plain"),
 }
 
 # Options of which the help says nothing, as few need them.
@@ -226,6 +226,7 @@ OWN_ROWS = {
        for option, value in (("--superpose", "name CA"), ("--center", "name CA"))},
     ("pockets", "--reference"): ("1", "pocket fit"),
     ("pockets", "--tolerance"): ("0.5", "pocket mesh"), ("export blender", "--fps"): ("10", "frames"),
+    ("export mesh", "--fps"): ("10", "usd"), ("export ply", "--fps"): ("10", "frames"),
     ("render", "--aovs"): (None, "exr"), ("preview", "--background"): ("black", "plain"),
     ("preview", "--commands"): ("{other.jsonl}", "plain"), ("preview", "--record"): ("r.jsonl", "plain"),
     ("preview", "--output-dir"): ("{exports.folder}", "plain"),
@@ -275,8 +276,8 @@ EXCLUDES = {"--tolerance-pixels": "--tolerance", "--density": "--tolerance", "--
 
 def output_of(command, context):
     of_run = "--frames" in CONTEXTS[context] or "--trajectory" in CONTEXTS[context]
-    return {"film": "a.mp4" if context == "story film" else "a_#.png", "render": "a.mp4" if context == "film" else "a.exr" if context == "exr" else "a_#.png" if of_run else "a.png", "export mesh": "a_#.glb" if of_run else "a.glb",
-            "panels": "a.png", "morph": "a.pdb", "export ply": "a_#.ply" if of_run else "a.ply", "export atoms": "a.atoms", "export blender": "a" if of_run else "a.mns"}.get(command, "a")
+    return {"film": "a.mp4" if context == "story film" else "a_#.png", "render": "a.mp4" if context == "film" else "a.exr" if context == "exr" else "a_#.png" if of_run else "a.png", "export mesh": "a.usda" if context == "usd" else "a_#.glb" if of_run else "a.glb",
+            "panels": "a.png", "morph": "a.pdb", "export ply": "a_#.ply" if of_run else "a.ply", "export atoms": "a.atoms", "export vdb": "a_#.vdb" if of_run else "a.vdb", "export blender": "a" if of_run else "a.mns"}.get(command, "a")
 
 
 def options_of(command):
@@ -411,10 +412,10 @@ class OptionUse(unittest.TestCase):
 
 
 TESTED = ["surface", "pockets", "info", "render", "film", "panels", "morph", "preview", "export povray", "export blender", "export mitsuba", "export pbrt",
-          "export mesh", "export ply", "export atoms", "formats", "farm bundle"]
+          "export mesh", "export ply", "export vdb", "export atoms", "formats", "farm bundle"]
 # What it is for is nothing that the command can do, or not with an output of that name.
 REFUSED = {("pockets", "--instances"), ("render", "--frames"), ("render", "--trajectory"),
-           *((f"export {mesh}", option) for mesh in ("mesh", "ply") for option in ("--frames", "--trajectory")),
+           *((f"export {mesh}", option) for mesh in ("mesh", "ply", "vdb") for option in ("--frames", "--trajectory")),
            ("preview", "--color-map-file"), ("preview", "--map-offset"), ("export atoms", "--color-map-file"), ("export atoms", "--map-offset"), ("export pbrt", "--color-map-file"),
            ("export pbrt", "--map-offset"), ("export mitsuba", "--cap-hatching"), ("export mitsuba", "--film-opacity"),
            ("export pbrt", "--cap-hatching"), ("export pbrt", "--film-opacity")}

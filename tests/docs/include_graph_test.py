@@ -29,7 +29,7 @@ ORDER = [
     ["core/visible_surface", "core/mesh"],
     ["core/scene"],
     ["exporters/mesh_files"],
-    ["exporters/povray", "exporters/blender", "exporters/path_tracers", "exporters/msms"],
+    ["exporters/povray", "exporters/blender", "exporters/path_tracers", "exporters/msms", "exporters/vdb"],
     ["exporters/bindings/c"],
     ["exporters/bindings/cpp"],
     ["app/process"],

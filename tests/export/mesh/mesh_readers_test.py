@@ -104,6 +104,14 @@ def read_vtp(path):
     return root, arrays
 
 
+def usd_rows(text, name):
+    """The values of an attribute of the only mesh, or those of each frame."""
+    found = re.search(rf"\[\] {name} = (\[.*?\])", text) or re.search(rf"\[\] {name}\.timeSamples = {{(.*?)}}", text, re.S)
+    rows = re.findall(r"\[(.*?)\]", found[1])
+    columns = rows[0].count(",", 0, rows[0].find(")")) + 1 if rows[0].startswith("(") else 1
+    return [np.array(re.sub(r"[(),]", " ", row).split(), dtype=float).reshape(-1, columns) for row in rows]
+
+
 class Case(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -198,6 +206,37 @@ class Contents(Case):
         light = array(attributes["COLOR_0"])[:, 0] / 65535
         srgb = np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
         np.testing.assert_allclose(255 * srgb, self.vertices["red"], atol=0.1)
+
+    def test_usd(self):
+        """As text and in an archive; of a run one file, in which each frame has what its PLY file has."""
+        text = self.export("a.usda", MOLECULE, *WORDS, *EXTRA, "--scale", "0.1").read_text()
+        self.assertIn('metersPerUnit = 1\n    upAxis = "Y"\n', text)
+        points, = usd_rows(text, "points")
+        np.testing.assert_allclose(points, 0.1 * self.positions, rtol=1e-6, atol=1e-6)
+        np.testing.assert_array_equal(usd_rows(text, "faceVertexIndices")[0].reshape(-1, 3), self.triangles)
+        np.testing.assert_array_equal(usd_rows(text, "primvars:mean_curvature")[0].astype(np.float32)[:, 0],
+                                      self.vertices["mean_curvature"])
+        self.assertFalse(usd_rows(text, "primvars:charge")[0].any())
+        with zipfile.ZipFile(self.export("a.usdz", MOLECULE, *WORDS, *EXTRA, "--scale", "0.1")) as archive:
+            self.assertIsNone(archive.testzip())
+            entry, = archive.infolist()
+            self.assertEqual(archive.read(entry).decode(), text)
+            self.assertEqual(entry.compress_type, zipfile.ZIP_STORED)
+            data = (self.folder / "a.usdz").read_bytes()
+            self.assertEqual(data.index(b"#usda") % 64, 0)
+        run = ("/usr/share/freesasa/test-data/1d3z.pdb", "--frames", "0-4:2", "--density", "0.2", "--device", "cpu", "-q")
+        self.export("run_#.ply", *run)
+        text = self.export("run.usda", *run, "--fps", "10").read_text()
+        self.assertIn("startTimeCode = 1\n    endTimeCode = 3\n    timeCodesPerSecond = 10\n", text)
+        frames = usd_rows(text, "points")
+        self.assertEqual(len(frames), 3)
+        for place, frame in enumerate((0, 2, 4)):
+            vertices, triangles = read_ply(self.folder / f"run_{frame}.ply")
+            np.testing.assert_allclose(frames[place], positions_of(vertices), rtol=1e-6, atol=1e-6)
+            np.testing.assert_array_equal(usd_rows(text, "faceVertexIndices")[place].reshape(-1, 3), triangles)
+            self.assertEqual(usd_rows(text, "velocities")[place].shape, frames[place].shape)
+        self.export("run.glb", *run, code=2)
+        self.export("run.usda", *run, "--only", "2", code=2)
 
     def test_vtp(self):
         root, arrays = read_vtp(self.export("a.vtp", MOLECULE, *WORDS, *EXTRA))
@@ -308,7 +347,7 @@ class Contents(Case):
 
     @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full")
     def test_no_half_file_where_there_is_no_room(self):
-        for ending in ("stl", "3mf", "obj", "off", "glb", "vtp", "smesh", "dms", "ply", "py"):
+        for ending in ("stl", "3mf", "obj", "off", "glb", "vtp", "smesh", "dms", "ply", "py", "usda", "usdz"):
             with self.subTest(ending):
                 path = self.folder / f"full.{ending}"
                 done = subprocess.run(["sh", "-c", 'ulimit -f 100; trap "" XFSZ; exec "$@"', "sh", PROGRAM, "export",

@@ -148,8 +148,8 @@ class Mesh:
     def save(self, path: Path, *, format: Optional[MeshFormat] = None, colors: Optional[Any] = None, attributes: str = "usual",
              scale: float = 1.0, replace: bool = False) -> None:
         """Writes a file, whole or not at all: "stl", "3mf", "obj", "off", "glb", "vtp", "smesh", "dms", "ply",
-        "ply-ascii" or "py", a script for PyMOL, by the ending of the path unless `format` says which. colors: one (3,), or one per atom (n, 3), in [0, 1]. attributes:
-        of vertices in GLB, PLY and VTP, with commas between; "vdw_radii", "atom_index", "ses_kind", "ses_component" are
+        "ply-ascii", "usda", "usdz" or "py", a script for PyMOL, by the ending of the path unless `format` says which. colors: one (3,), or one per atom (n, 3), in [0, 1]. attributes:
+        of vertices in GLB, PLY, VTP and USD, with commas between; "vdw_radii", "atom_index", "ses_kind", "ses_component" are
         the usual ones, "mean_curvature", "gaussian_curvature", "smooth_mean_curvature", "smooth_gaussian_curvature",
         "atom_area", "accessible_area", "patch_area", "open_sky" and "atom_open_sky" the others; "all" but the last two, "none". scale:
         length in the file of 1 Å. Edges shorter than 0.001 Å and triangles without area in single precision are welded in the file. OutputError

@@ -350,12 +350,12 @@ class SceneValues(SurfaceValues, total=False):
     even: bool
     #: WORD: Format of the file, if its ending does not tell
     format: Text
-    #: NAMES: Numbers of vertices to write in PLY, VTP and GLB, separated by commas [usual]
+    #: NAMES: Numbers of vertices to write in PLY, VTP, GLB and USD, separated by commas [usual]
     attributes: Text
     #: UNIT: Unit of the file: angstrom or nanometer [angstrom]
     unit: Literal["angstrom", "nanometer"]
-    #: LENGTH: Length of 1 Å in the file. The unit of 3MF is the millimetre, that of GLB the metre; others have
-    #: none [1]
+    #: LENGTH: Length of 1 Å in the file. The unit of 3MF is the millimetre, that of GLB and USD the metre;
+    #: others have none [1]
     scale: float
     #: PATH: Output file or folder
     output: Path

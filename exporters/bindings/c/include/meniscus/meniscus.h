@@ -562,8 +562,8 @@ MENISCUS_API meniscus_status meniscus_mesh_table(const meniscus_mesh* mesh, meni
 typedef struct meniscus_mesh_file {
   size_t size;
   const char* format;       /* [NULL: by the ending of the path] "stl", "3mf", "obj", "off", "glb", "vtp", "smesh",
-                               "dms", "ply", "ply-ascii" or "py" */
-  const char* attributes;   /* ["usual"] numbers of vertices in GLB, PLY and VTP, separated by commas: "vdw_radii",
+                               "dms", "ply", "ply-ascii", "py", "usda" or "usdz" */
+  const char* attributes;   /* ["usual"] numbers of vertices in GLB, PLY, VTP and USD, separated by commas: "vdw_radii",
                                "atom_index", "ses_kind" and "ses_component", which are the usual ones,
                                "mean_curvature", "gaussian_curvature", "smooth_mean_curvature",
                                "smooth_gaussian_curvature", "atom_area", "accessible_area", "patch_area",

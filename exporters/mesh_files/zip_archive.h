@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A zip archive in memory: files deflated, or stored so that programs may map them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace meniscus {
+
+/// PKWARE's APPNOTE 6.3.3: local headers with their content, the central directory, its end. Times are the first that
+/// the format knows, so that equal content makes equal bytes.
+class ZipArchive {
+ public:
+  /// Throws CapacityError for content of 4 GiB or more.
+  void add_deflated(const std::string& name, std::string_view content);
+  /// As it is, from a multiple of 64 bytes on, which USDZ asks for. Throws likewise.
+  void add_stored(const std::string& name, std::string_view content);
+  /// All of the archive. Call once, last.
+  std::vector<std::byte> finish();
+
+ private:
+  struct Entry {
+    std::string name;
+    std::uint16_t method = 0;
+    std::uint32_t checksum = 0, packed = 0, size = 0, place = 0;
+  };
+  void add(Entry entry, const void* content, std::size_t alignment);
+
+  std::vector<std::byte> bytes_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace meniscus
