@@ -61,7 +61,7 @@ void check_outputs(const SurfaceCommand& command) {
           "--csv-cavities needs all frames of the run, because cavities keep their numbers from frame to frame; leave "
           "--only out");
   }
-  if (!command.patch_csv.empty() && !command.patches)
+  if (!command.patch_csv.empty() && !command.scene.molecule.patches)
     throw UsageError("--csv-patches needs --patches EXPR, such as 'hydrophobicity > 1.5'");
   for (const std::string& path : paths)
     if (!is_stdout(path)) check_output(path, command.existing());
@@ -104,9 +104,7 @@ void add_surface(CLI::App& command) {
   options.add("report.plot", state.plot);
   options.add("report.gradients", state.gradient_csv);
   options.add_selection("report.context", state.context);
-  options.add_selection("report.patches", state.patches);
   options.add("report.csv_patches", state.patch_csv);
-  options.add("report.least_patch", state.least_patch);
   command.callback([declared] {
     declared->options.take();
     // Parts of surfaces are cut out by planes, and rays meet patches within theirs.

@@ -66,6 +66,8 @@ void check_view_options(const MoleculeRequest& request) {
   if (request.color.by == ColorScheme::By::buried || request.interface) refuse("--color buried");
   if (request.color.by == ColorScheme::By::volume) refuse("--color-map-file");
   if (request.color.by == ColorScheme::By::lipophilicity) refuse("--color lipophilicity");
+  if (request.patches && request.least_patch > 0.0)
+    throw UsageError("--patches of a least area need the complete surface; add --min-patch 0, or leave --extent out");
   if (request.surface.verify) refuse("--verify");
   if (request.surface.kind != SurfaceKind::ses) refuse("--surface sas or vdw");
 }
@@ -80,6 +82,7 @@ ColoredAtoms colored_atoms(const MoleculeRequest& request, const ColorScheme& co
   std::iota(all.begin(), all.end(), 0u);
   atoms.coloring = color_object(structure, all, atoms.molecule.color, 0);
   if (request.show) atoms.coloring.hidden = hidden_atoms(*request.show, structure);
+  if (request.patches) atoms.coloring.in_patch = patch_atoms(*request.patches, structure.atoms);
   return atoms;
 }
 

@@ -18,9 +18,7 @@ struct SurfaceCommand : SceneCommand {
       gradient_csv;  ///< paths; empty: none; "-": standard output
   std::string plot;  ///< path of an SVG of a run; empty: none
   std::optional<Selection> context;
-  std::optional<Selection> patches;
-  std::string patch_csv;      ///< as above
-  double least_patch = 10.0;  ///< Å²
+  std::string patch_csv;  ///< as above
 
   /// Does a table take the place of what is printed else?
   bool prints_csv() const;

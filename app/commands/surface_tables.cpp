@@ -101,7 +101,8 @@ class SurfaceTables {
       std::move(areas.columns.begin(), areas.columns.end(), std::back_inserter(columns));
     }
     std::optional<PatchReport> patches;
-    if (command_.patches) patches = patch_report(molecule, *command_.patches, command_.least_patch);
+    const MoleculeRequest& request = command_.scene.molecule;
+    if (request.patches) patches = patch_report(molecule, *request.patches, request.least_patch);
     if (!command_.prints_csv())
       numbers.printed = printed({molecule, command_.scene.molecule, columns, context, patches}, note);
     if (series_.is_wanted() || plot_) numbers.values = series_values(molecule, columns);
@@ -209,9 +210,7 @@ void print_surface(const SurfaceCommand& asked) {
   check_outputs(asked);
   SurfaceCommand command = asked;
   command.scene.frames.context = command.context;
-  OtherSelections others;
-  if (command.patches) others.of_atoms.push_back(&*command.patches);
-  settle_selections(command.scene.molecule, command.scene.frames, others);
+  settle_selections(command.scene.molecule, command.scene.frames);
   SurfaceTables(command).make();
 }
 

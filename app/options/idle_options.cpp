@@ -91,12 +91,12 @@ const std::vector<Need>& needs() {
        [](const Asked& asked) { return !asked.has("--stride") || asked.is_run(); },
        "there is no run of frames; add --trajectory FILE, or --frames all for the models of FILE",
        true},
-      {{"--min-patch"},
-       [](const Asked& asked) { return asked.given("--patches"); },
-       "it is about patches; add --patches EXPR"},
+      {{"--min-patch", "--patch-lines", "--patch-line-color"},
+       [](const Asked& asked) { return asked.given("--patches") || asked.name() == "preview"; },
+       "there are no patches; add --patches EXPR"},
       {{"--patches"},
        [](const Asked& asked) {
-         return !asked.is_run() || asked.any({"--csv-patches", "--json"});
+         return !asked.has("--csv-patches") || !asked.is_run() || asked.any({"--csv-patches", "--json"});
        },
        "of a run, patches are written by --csv-patches FILE or --json; add one of them"},
       {{"--jobs", "--progress"},
@@ -140,9 +140,9 @@ const std::vector<Need>& needs() {
                 (ends_as(asked.value("--output"), {".usda", ".usdz"}) || asked.value("--format").starts_with("usd"));
        },
        "of meshes USD alone has times; name a file of a run, such as -o a.usda"},
-      {{"--clip", "--film-opacity"},
+      {{"--clip", "--film-opacity", "--patches"},
        [](const Asked& asked) { return !asked.given("--hide-surface"); },
-       "the surface is hidden, and shapes beside it are neither cut nor films"},
+       "the surface is hidden, and shapes beside it are neither cut nor films, and have no patches"},
       {{"--cap-color", "--cap-hatching"},
        [](const Asked& asked) {
          return asked.any({"--clip", "--look-into"});

@@ -87,7 +87,7 @@ Reducer orbit, pan, zoom, roll, zoom_to, center, reset_view, set_camera, set_pro
     forget_view;                                                                             // camera_commands.cpp
 Reducer show_frame, next_frame, set_key, follow_keys, play, pause, resize, set_samples;      // camera_commands.cpp
 Reducer set_surface, set_probe, show, hide, represent, put_object, hide_surface, set_radii,  // figure_commands.cpp
-    set_cut, set_cap, remove_entry;
+    set_cut, set_cap, remove_entry, set_patches;
 Reducer set_color, paint, set_patch_kinds, set_opacity, set_film_opacity, set_look, set_preset,  // look_commands.cpp
     set_legend;
 Reducer undo, redo, end_step, quit;                                                        // commands.cpp

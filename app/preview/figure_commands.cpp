@@ -12,6 +12,7 @@
 #include "core/base/error.h"
 #include "core/properties/properties.h"
 #include "core/scene/cut.h"
+#include "core/scene/molecule.h"
 #include "core/scene/surface_request.h"
 
 namespace meniscus {
@@ -59,7 +60,8 @@ Outcome with_part(const CommandReader& command, PreviewState& state, const Surro
 Outcome set_surface(const CommandReader& command, PreviewState state, const Surroundings& around) {
   state.kind = static_cast<SurfaceKind>(command.choice("kind", property_of("surface.kind")));
   require_copies_apart(around.molecule.structure(), state, around.state.probe_reach());
-  return {.state = std::move(state), .renewal = Renewal::legend, .frames_all = true};
+  const Renewal renewal = state.patches ? Renewal::colors : Renewal::legend;  // other areas
+  return {.state = std::move(state), .renewal = renewal, .frames_all = true};
 }
 
 Outcome set_probe(const CommandReader& command, PreviewState state, const Surroundings& around) {
@@ -69,7 +71,8 @@ Outcome set_probe(const CommandReader& command, PreviewState state, const Surrou
     throw RequestError("probe: the van der Waals surface has no probe; choose another kind of surface first");
   state.probe_radius = radius;
   require_copies_apart(around.molecule.structure(), state, around.state.probe_reach());
-  return {std::move(state), Renewal::legend};
+  const Renewal renewal = state.patches ? Renewal::colors : Renewal::legend;
+  return {std::move(state), renewal};
 }
 
 Outcome show(const CommandReader& command, PreviewState state, const Surroundings& around) {
@@ -83,6 +86,18 @@ Outcome hide(const CommandReader& command, PreviewState state, const Surrounding
   state.show = command.naming(
       [&] { return parse_selection(state.show ? fmt::format("({}) and {}", state.show->text(), hidden) : hidden); });
   return with_part(command, state, around);
+}
+
+Outcome set_patches(const CommandReader& command, PreviewState state, const Surroundings& around) {
+  if (command.has("min_area"))
+    state.least_patch = command.number("min_area", property_of("surface.min_patch"));
+  else
+    state.patches.reset();
+  if (command.has("selection")) {
+    state.patches = command.selection();
+    command.naming([&] { return patch_atoms(*state.patches, around.molecule.frame_structure().atoms); });
+  }
+  return {std::move(state), Renewal::colors};
 }
 
 Outcome represent(const CommandReader& command, PreviewState state, const Surroundings&) {

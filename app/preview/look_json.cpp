@@ -20,21 +20,23 @@ namespace meniscus {
 namespace {
 
 /// What the look's command changes besides background and light: all numbers of a look, and of its lines the width of
-/// all.
+/// all that are black, and that of those around patches.
 std::vector<const LookNumber*> live_numbers() {
   std::vector<const LookNumber*> live;
   for (const LookNumber& number : look_numbers())
-    if (number.in || number.asked == &LookRequest::silhouettes) live.push_back(&number);
+    if (number.in || number.asked == &LookRequest::silhouettes || number.asked == &LookRequest::patch_lines)
+      live.push_back(&number);
   return live;
 }
 
 std::string json_key(const LookNumber& number) { return std::string(property_of(number.key).name()); }
 
-glm::vec3 background_of(const std::string& text) {
+glm::vec3 color_at(const CommandReader& command, const char* key) {
+  const std::string text = command.text(key);
   const std::optional<glm::vec3> color = parse_color(text);
   if (!color)
-    throw RequestError("look: \"background\" is " + in_quotes(text) +
-                       "; it must be a colour's name such as grey, or #rrggbb");
+    throw RequestError(fmt::format("look: \"{}\" is {}; it must be a colour's name such as grey, or #rrggbb", key,
+                                   in_quotes(text)));
   return *color;
 }
 
@@ -57,13 +59,14 @@ double shortest(float value) { return std::stod(fmt::format("{}", value)); }
 }  // namespace
 
 std::vector<std::string_view> look_keys() {
-  std::vector<std::string_view> keys{"background", "light_direction"};
+  std::vector<std::string_view> keys{"background", "light_direction", "patch_line_color"};
   for (const LookNumber* number : live_numbers()) keys.push_back(property_of(number->key).name());
   return keys;
 }
 
 LookRequest changed_look(LookRequest look, const CommandReader& command) {
   if (command.has("light_direction")) look.light_direction = direction_of(command.value("light_direction"));
+  if (command.has("patch_line_color")) look.patch_line_color = color_at(command, "patch_line_color");
   if (command.has("silhouettes")) look.outer_lines = look.inner_lines = look.part_lines = {};
   for (const LookNumber* number : live_numbers()) {
     const Property& property = property_of(number->key);
@@ -75,7 +78,7 @@ LookRequest changed_look(LookRequest look, const CommandReader& command) {
 }
 
 glm::vec3 changed_background(const glm::vec3& background, const CommandReader& command) {
-  return command.has("background") ? background_of(command.text("background")) : background;
+  return command.has("background") ? color_at(command, "background") : background;
 }
 
 nlohmann::json look_json(Look look) {
@@ -84,7 +87,9 @@ nlohmann::json look_json(Look look) {
                       {"light_direction", {shortest(light.x), shortest(light.y), shortest(light.z)}}};
   for (const LookNumber* number : live_numbers())
     if (number->in) json[json_key(*number)] = shortest(number->in(look));
-  json["silhouettes"] = shortest(look.widest_line());
+  json["silhouettes"] = shortest(look.widest_silhouette());
+  json["patch_lines"] = shortest(look.patch_lines);
+  json["patch_line_color"] = hex_color(look.patch_line_color);
   return json;
 }
 
@@ -100,7 +105,7 @@ nlohmann::json look_sliders() {
 }
 
 Look without_effects(Look look) {
-  look.ambient_occlusion = look.shadows = look.silhouettes = 0.0f;
+  look.ambient_occlusion = look.shadows = look.silhouettes = look.patch_lines = 0.0f;
   look.outer_lines = look.inner_lines = look.part_lines = {};
   return look;
 }

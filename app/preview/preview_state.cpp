@@ -117,6 +117,8 @@ Scene rendered_scene(const Scene& begun, const RenderedView& view) {
   scene.molecule.surface.probe_radius = figure.probe_radius;
   scene.molecule.surface.probe_named = figure.kind != SurfaceKind::vdw;
   scene.molecule.show = figure.show;
+  scene.molecule.patches = figure.patches;
+  scene.molecule.least_patch = figure.least_patch;
   take_colors(view, scene.molecule);
   scene.figure = figure.figure;
   scene.look = figure.look;
@@ -132,6 +134,8 @@ PreviewFigure figure_of(const Scene& scene, const ColorScheme& color) {
   figure.kind = scene.molecule.surface.kind;
   figure.probe_radius = scene.molecule.surface.probe_radius;
   figure.show = scene.molecule.show;
+  figure.patches = scene.molecule.patches;
+  figure.least_patch = scene.molecule.least_patch;
   figure.color = color;
   figure.figure = scene.figure;
   figure.look = scene.look;

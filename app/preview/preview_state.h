@@ -32,6 +32,8 @@ struct PreviewFigure {
   SurfaceKind kind = SurfaceKind::ses;
   double probe_radius = 1.4;      ///< Å; without effect while the surface has no probe
   std::optional<Selection> show;  ///< atoms whose part of the surface is drawn; nothing: all
+  std::optional<Selection> patches;  ///< of these atoms, outlined; nothing: none
+  double least_patch = 10.0;         ///< Å²: smaller ones are not
   ColorScheme color;
   bool patch_kinds = false;  ///< coloured by kind of patch, whatever the scheme (figure 2 of Krone et al. 2010)
   FigureRequest figure;
@@ -85,7 +87,7 @@ struct PreviewState : PreviewFigure {
   bool ended = false;          ///< a command asked to end
 
   /// Of the full picture, its legend included.
-  Look full_look() const { return look_of(look, size, background, hues()); }
+  Look full_look() const { return look_of(look, size, background, hues(), patches.has_value()); }
 };
 
 /// What a figure was before each step, for undo and redo. Steps of one kind that follow each other without end_step()

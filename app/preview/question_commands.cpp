@@ -82,6 +82,8 @@ void tell_figure(const PreviewState& state, Json& told) {
     objects.push_back(Json::parse(json_line(figure_object_json(object))));
   told["surface_hidden"] = state.figure.hides_surface;
   told["show"] = state.show ? Json(escaped(state.show->text())) : Json(nullptr);
+  told["patches"] = {{"selection", state.patches ? Json(escaped(state.patches->text())) : Json(nullptr)},
+                     {"min_area", state.least_patch}};
   const LegendStyle& style = state.legend_style;
   told["legend"] = {{"on", state.legend},
                     {"title", style.title ? Json(escaped(*style.title)) : Json(nullptr)},

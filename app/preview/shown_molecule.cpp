@@ -17,11 +17,14 @@
 #include "core/color/color_key.h"
 #include "core/color/named_colors.h"
 #include "core/image/color_space.h"
+#include "core/queries/atom_patches.h"
+#include "core/reduced_surface/cpu/exhaustive.h"
 #include "core/scene/annotations.h"
 #include "core/scene/copied_atoms.h"
 #include "core/scene/hidden_atoms.h"
 #include "core/scene/molecule.h"
 #include "core/scene/surface_objects.h"
+#include "core/surface/compute_surface.h"
 
 namespace meniscus {
 
@@ -247,6 +250,28 @@ Coloring ShownMolecule::coloring(const PreviewFigure& figure) const {
     coloring.hidden.flip();
   }
   return coloring;
+}
+
+std::vector<bool> ShownMolecule::patch_marks(const PreviewFigure& figure) const {
+  if (!figure.patches) return {};
+  std::vector<bool> marks = figure.patches->evaluate(frame_structure().atoms);
+  if (figure.least_patch <= 0.0 || std::ranges::find(marks, true) == marks.end()) return marks;
+  std::vector<AtomGroup> groups(1);  // that have a surface each: all, or what is copied together
+  for (std::uint32_t a = 0; a < balls_.size(); ++a) groups[0].atoms.push_back(a);
+  if (!structure_.instances.empty()) groups.clear();
+  for (const Instances& group : structure_.instances) groups.push_back({.atoms = group.atoms});
+  for (const AtomGroup& group : groups) {
+    std::vector<Ball> balls;
+    std::vector<bool> chosen;
+    for (const std::uint32_t a : group.atoms) {
+      balls.push_back(balls_[a]);
+      chosen.push_back(marks[a]);
+    }
+    const Surface surface = compute_surface_cpu(balls, rolling_probe(figure.kind, figure.probe_radius));
+    chosen = atoms_of_patches(surface, std::move(chosen), figure.least_patch);
+    for (std::size_t n = 0; n < group.atoms.size(); ++n) marks[group.atoms[n]] = chosen[n];
+  }
+  return marks;
 }
 
 Structure ShownMolecule::frame_structure() const {

@@ -93,6 +93,9 @@ class ShownMolecule {
   const std::vector<Ball>& reach() const { return reach_.empty() ? balls_ : reach_; }
   /// Their colours, and which of them are hidden.
   Coloring coloring(const PreviewFigure& figure) const;
+  /// Which of them have a patch that the figure outlines: empty if it outlines none. Of areas with a least one the
+  /// complete surface is computed for it, on the CPU. Throws OpenSurfaceError, CapacityError.
+  std::vector<bool> patch_marks(const PreviewFigure& figure) const;
   /// The atoms of the frame alone.
   Structure frame_structure() const;
   /// What pictures of it are annotated by: the same with the atoms beside its surface, if there are any.

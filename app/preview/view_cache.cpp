@@ -69,7 +69,11 @@ void ExposedAreas::keep() {
 
 void ViewCache::take(const PreviewState& state, const ShownMolecule& molecule, Renewal renewal, bool moves) {
   if (moves) renderer_->set_atoms(molecule.balls());
-  if (renewal >= Renewal::colors) renderer_->set_coloring(molecule.coloring(state));
+  if (renewal >= Renewal::colors) {
+    Coloring coloring = molecule.coloring(state);
+    coloring.in_patch = molecule.patch_marks(state);
+    renderer_->set_coloring(std::move(coloring));
+  }
   if (renewal >= Renewal::cuts) renderer_->set_figure(state.figure, molecule.beside());
 }
 

@@ -8,18 +8,12 @@
 #include <fmt/format.h>
 
 #include "app/reports/csv_tables.h"
-#include "core/base/error.h"
 #include "core/base/text.h"
 
 namespace meniscus {
 
 PatchReport patch_report(const Molecule& molecule, const Selection& selection, double least) {
-  const std::vector<Atom>& atoms = molecule.structure.atoms;
-  const std::vector<bool> selected = selection.evaluate(atoms);
-  if (std::ranges::find(selected, true) == selected.end())
-    throw RequestError(fmt::format("--patches {}: selects none of the {} atoms of the surface; {}",
-                                   in_quotes(selection.text()), with_thousands(atoms.size()),
-                                   selection.why_none(atoms)));
+  const std::vector<bool> selected = patch_atoms(selection, molecule.structure.atoms);
   PatchReport report{selection.text(), least, 0.0, 0, {}};
   for (const SurfaceObject& object : molecule.objects) {
     std::vector<bool> chosen;

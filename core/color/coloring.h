@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -36,6 +37,20 @@ struct Coloring {
   /// Empty, or the part of each of Surface::atoms, such as its chain: pictures with silhouettes have lines where parts
   /// meet.
   std::vector<std::uint32_t> part{};
+
+  /// Empty, or whether each of Surface::atoms has a patch that is outlined: pictures have lines on the surface where the
+  /// points of atoms marked here meet those of others.
+  std::vector<bool> in_patch{};
+
+  /// What lines tell atoms apart by: kMarksOfPart times the part, and what finish.glsl takes for in and out of patches;
+  /// empty if there are neither parts nor patches.
+  std::vector<std::uint32_t> line_marks() const {
+    std::vector<std::uint32_t> marks(part.empty() && in_patch.empty() ? 0 : atom.size(), 0);
+    for (std::size_t a = 0; a < part.size(); ++a) marks[a] = kMarksOfPart * part[a];
+    for (std::size_t a = 0; a < in_patch.size(); ++a) marks[a] += in_patch[a] ? 3 : 2;
+    return marks;
+  }
+  static constexpr std::uint32_t kMarksOfPart = 4;
 
   /// Whether the map colours the points of this atom.
   bool by_volume(std::uint32_t a) const { return volume && (own_color.empty() || !own_color[a]); }

@@ -94,6 +94,13 @@ constexpr auto kTable = of_commands(
             .from(0, 16)
             .initially("--silhouettes")
             .in(kLines, kLook | rare),
+        text("look.patch_lines", "--patch-lines", "WIDTH", "Width of the lines around --patches; 0: no lines")
+            .from(0, 16)
+            .initially("2.5 pixels of a picture of 960, wider in larger ones")
+            .in(kLines, kLook),
+        text("look.patch_line_color", "--patch-line-color", "COLOR", "Colour of the lines around --patches")
+            .initially("black")
+            .in(kLines, kLook),
         number("look.depth_cue", "--depth-cue", "F",
                "Fade of the farthest atoms into the background, 0 to 1. A transparent background counts as white. "
                "Presets do not fade where colours show numbers, a legend explains them or a surface is seen through")

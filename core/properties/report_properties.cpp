@@ -33,17 +33,8 @@ constexpr auto kTable = std::to_array<Property>({
              "Write derivatives of areas and volumes, one row per atom. They are exact, with respect to the atom's "
              "position; -: to standard output")
         .in(kOutput),
-    text("report.patches", "--patches", "EXPR",
-         "Report contiguous areas of these atoms, the largest first. Such as 'hydrophobicity > 1.5' or 'charge < "
-         "-0.3'")
-        .in(kOutput)
-        .in_short_help(),
     new_file("report.csv_patches", "--csv-patches", "FILE",
              "Write one row per patch of --patches. -: to standard output")
-        .in(kOutput),
-    number("report.least_patch", "--min-patch", "Å²", "Smallest area of a patch that is listed")
-        .from(0, 1e9)
-        .initially("10")
         .in(kOutput),
     text("report.context", "--context", "EXPR", "Report the area of --select that these atoms bury").in(kOutput),
     new_file("report.csv_pockets", "--csv", "FILE", "Write one row per pocket. -: to standard output")

@@ -35,4 +35,17 @@ std::vector<AtomPatch> atom_patches(const Surface& surface, const std::vector<bo
   return patches;
 }
 
+std::vector<bool> atoms_of_patches(const Surface& surface, std::vector<bool> chosen, double least) {
+  if (least <= 0.0) return chosen;
+  const std::vector<AtomPatch> patches = atom_patches(surface, chosen);
+  UnionFind joined(chosen.size());
+  for (const AtomPatch& patch : patches)
+    for (const std::uint32_t atom : patch.atoms) joined.unite(patch.atoms.front(), atom);
+  std::vector<bool> is_large(chosen.size(), false);
+  for (const AtomPatch& patch : patches)
+    if (patch.area >= least) is_large[joined.find(patch.atoms.front())] = true;
+  for (std::uint32_t atom = 0; atom < chosen.size(); ++atom) chosen[atom] = chosen[atom] && is_large[joined.find(atom)];
+  return chosen;
+}
+
 }  // namespace meniscus

@@ -155,6 +155,7 @@ void append_coloring(Coloring& whole, const Coloring& part, std::size_t atoms_be
   }
   append_column(whole.own_color, part.own_color, atoms_before, atoms, false);
   append_column(whole.hidden, part.hidden, atoms_before, atoms, false);
+  append_column(whole.in_patch, part.in_patch, atoms_before, atoms, false);
   append_column(whole.opacity, part.opacity, atoms_before, atoms, 1.0f);
 }
 

@@ -12,7 +12,7 @@ void upload_coloring(const Coloring& coloring, GpuScene& scene) {
   scene.color_by_kind = coloring.kind.has_value();
   scene.some_hidden = coloring.hides_some();
   scene.colors.upload(linear_colors(coloring));
-  scene.parts.upload(coloring.part);
+  scene.marks.upload(coloring.line_marks());
 }
 
 }  // namespace meniscus

@@ -47,7 +47,7 @@ struct GpuScene : ScenePlacement {
   std::uint32_t atom_count = 0;
   bool color_by_kind = false;
   bool some_hidden = false;
-  Buffer parts;  ///< uint32 per atom, or empty: Coloring::part
+  Buffer marks;  ///< uint32 per atom, or empty: Coloring::line_marks()
 };
 
 /// Sets the last five members.

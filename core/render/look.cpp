@@ -95,6 +95,7 @@ constexpr LookNumber kNumbers[] = {
     {"look.outer_lines", &Asked::outer_lines, nullptr},
     {"look.inner_lines", &Asked::inner_lines, nullptr},
     {"look.part_lines", &Asked::part_lines, nullptr},
+    {"look.patch_lines", &Asked::patch_lines, nullptr},
 };
 
 template <typename T, typename U>
@@ -142,7 +143,7 @@ std::string hue_changes(const LookRequest& request) {
 }
 
 Look look_of(const LookRequest& request, glm::ivec2 picture_size, const std::optional<glm::vec3>& background,
-             Hues hues) {
+             Hues hues, bool outlines_patches) {
   Look look = preset_look(request.preset, picture_size);
   if (hues == Hues::kept) keep_hues(look);
   if (hues == Hues::unfaded) look.depth_cue = 0.0f;
@@ -157,6 +158,9 @@ Look look_of(const LookRequest& request, glm::ivec2 picture_size, const std::opt
   take(request.outer_lines, look.outer_lines);
   take(request.inner_lines, look.inner_lines);
   take(request.part_lines, look.part_lines);
+  if (!outlines_patches) return look;
+  look.patch_lines = request.patch_lines.value_or(line_width(2.5f, picture_size));
+  take(request.patch_line_color, look.patch_line_color);
   return look;
 }
 

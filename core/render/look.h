@@ -78,6 +78,9 @@ struct Look {
   /// The same of single kinds of lines: around all, around what is in front of something else, where parts meet.
   /// Nothing: silhouettes.
   std::optional<float> outer_lines, inner_lines, part_lines;
+  /// Width in pixels of lines around patches (Coloring::in_patch), on the surface, and their colour, sRGB in [0, 1].
+  float patch_lines = 0.0f;
+  glm::vec3 patch_line_color{0.0f};
   /// How far something must be in front of something else for a line between them, as a share of what the picture's
   /// shorter side shows, and half an Å: so that atoms are outlined close by, and domains from afar. 0: of two pixels.
   float line_step = 0.0f;
@@ -98,10 +101,11 @@ struct Look {
   /// True if rays go on from where they meet something: such pictures are made on the CPU.
   bool traces_light() const { return shadows > 0.0f || traces_sky(); }
 
-  float widest_line() const {
+  float widest_silhouette() const {
     return std::max(
         {outer_lines.value_or(silhouettes), inner_lines.value_or(silhouettes), part_lines.value_or(silhouettes)});
   }
+  float widest_line() const { return std::max(widest_silhouette(), patch_lines); }
 };
 
 inline constexpr float kWidestSilhouette = 16.0f;  ///< pixels
@@ -143,6 +147,8 @@ struct LookRequest {
   std::optional<float> shadows{}, shadow_softness{};
   std::optional<float> silhouettes{};  ///< pixels; of all lines but those named next
   std::optional<float> outer_lines{}, inner_lines{}, part_lines{};
+  std::optional<float> patch_lines{};  ///< pixels
+  std::optional<glm::vec3> patch_line_color{};
   std::optional<float> depth_cue{};
   bool linear_alpha = false;  ///< transparent edges for programs that blend in linear light
 
@@ -174,8 +180,8 @@ Hues hues_of(const ColorScheme& color, bool legend);
 std::string hue_changes(const LookRequest& request);
 
 /// background: nothing for a transparent one, in which what is far takes the colour of white paper. What the request
-/// says itself counts before `hues`.
+/// says itself counts before `hues`. outlines_patches: without it there are no lines around any.
 Look look_of(const LookRequest& request, glm::ivec2 picture_size, const std::optional<glm::vec3>& background,
-             Hues hues);
+             Hues hues, bool outlines_patches = false);
 
 }  // namespace meniscus

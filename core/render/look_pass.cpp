@@ -19,8 +19,8 @@ void LookPass::add(const CastSample& sample, const Look& look, const GpuScene& s
   TexelBuffer& depth_texels = is_map ? map_texels_ : depth_texels_;
   depths.resize(count * sizeof(float));
   visibility_.resize(count * sizeof(float));
-  const bool has_parts = scene.parts.byte_count() > 0;
-  parts_.resize(has_parts ? count * sizeof(std::uint32_t) : 0);
+  const bool has_marks = scene.marks.byte_count() > 0;
+  marks_.resize(has_marks ? count * sizeof(std::uint32_t) : 0);
   const kernel::BlockView view = block_view(frame, block, sample.offset);
   const auto run = [&](const Program& program, const auto& parameters) {
     program.set(parameters);
@@ -31,11 +31,11 @@ void LookPass::add(const CastSample& sample, const Look& look, const GpuScene& s
   TexelBuffer& hit_texels = sample.index == 0 ? first_hit_texels_ : hit_texels_;
   hit_texels.view(sample.hits);
   hit_texels.bind(0);
-  atom_part_texels_.view(scene.parts);
-  atom_part_texels_.bind(2);
+  atom_mark_texels_.view(scene.marks);
+  atom_mark_texels_.bind(2);
   depths.bind(0);
-  parts_.bind(1);
-  run(programs_.get("gpu_shaders/look/depth.comp"), kernel::DepthParameters{.has_parts = has_parts});
+  marks_.bind(1);
+  run(programs_.get("gpu_shaders/look/depth.comp"), kernel::DepthParameters{.has_marks = has_marks});
   depth_texels.view(depths);
   depth_texels.bind(1);
   if (look.ambient_occlusion > 0.0f) {
@@ -48,12 +48,12 @@ void LookPass::add(const CastSample& sample, const Look& look, const GpuScene& s
   if (look.widest_line() > 0.0f) effects.emplace_back("SILHOUETTES", "1");
   visibility_texels_.view(visibility_);
   visibility_texels_.bind(2);
-  part_texels_.view(parts_);
-  part_texels_.bind(3);
+  mark_texels_.view(marks_);
+  mark_texels_.bind(3);
   sample.colors.bind(0);
   picture.bind(1);
   run(programs_.get("gpu_shaders/look/finish.comp", effects),
-      finish_parameters(look, scene, frame.size, sample.index, has_parts));
+      finish_parameters(look, scene, frame.size, sample.index, has_marks));
 }
 
 std::vector<float> LookPass::depths(const Buffer& hits, const PictureFrame& frame, const PictureBlock& block) {
@@ -63,7 +63,7 @@ std::vector<float> LookPass::depths(const Buffer& hits, const PictureFrame& fram
   first_hit_texels_.bind(0);
   depths_.bind(0);
   const Program& program = programs_.get("gpu_shaders/look/depth.comp");
-  program.set(kernel::DepthParameters{.has_parts = false});
+  program.set(kernel::DepthParameters{.has_marks = false});
   program.set(block_view(frame, block, glm::vec2(0.0f)), kernel::kBlockViewBinding);
   program.dispatch_2d((static_cast<std::uint32_t>(block.size.x) + 7) / 8,
                       (static_cast<std::uint32_t>(block.size.y) + 7) / 8);

@@ -136,13 +136,15 @@ kernel::OcclusionParameters occlusion_parameters(const Look& look, glm::ivec2 pi
 }
 
 kernel::FinishParameters finish_parameters(const Look& look, const ScenePlacement& scene, glm::ivec2 picture_size,
-                                           int sample, bool has_parts) {
+                                           int sample, bool has_marks) {
   constexpr float kLeastPixels = 2.0f;  // of a step: what slopes and rounding make of none
   const float step_pixels = look.line_step * static_cast<float>(std::min(picture_size.x, picture_size.y));
   return {.key_direction = glm::normalize(look.light_direction),
           .key_strength = look.light_strength,
           .air = linear_from_srgb(look.background),
           .keeps_alpha = look.depth_cue_keeps_alpha,
+          .patch_line_color = linear_from_srgb(look.patch_line_color),
+          .patch_lines = look.patch_lines,
           .specular = look.finishes_highlights() ? look.material.specular : 0.0f,
           .shininess = look.material.shininess,
           .ambient_occlusion = look.ambient_occlusion,
@@ -156,7 +158,7 @@ kernel::FinishParameters finish_parameters(const Look& look, const ScenePlacemen
           .first_depth = scene.first_depth,
           .last_depth = scene.last_depth,
           .sample_index = static_cast<std::uint32_t>(sample),
-          .has_parts = has_parts};
+          .has_marks = has_marks};
 }
 
 namespace {

@@ -59,7 +59,7 @@ kernel::RayCastParameters cast_parameters(const ScenePlacement& scene, const Loo
 /// Of sample `sample` of each pixel.
 kernel::OcclusionParameters occlusion_parameters(const Look& look, glm::ivec2 picture_size, int sample);
 kernel::FinishParameters finish_parameters(const Look& look, const ScenePlacement& scene, glm::ivec2 picture_size,
-                                           int sample, bool has_parts);
+                                           int sample, bool has_marks);
 
 /// A picture in blocks of at most `edge` pixels, which are multiples of kTileEdge.
 std::vector<PictureBlock> picture_blocks(glm::ivec2 size, glm::ivec2 edge);

@@ -61,6 +61,7 @@ Coloring coloring_of(const Coloring& coloring, std::span<const std::uint32_t> at
     of.atom.push_back(coloring.atom[atom]);
     if (!coloring.hidden.empty()) of.hidden.push_back(coloring.hidden[atom]);
     if (!coloring.opacity.empty()) of.opacity.push_back(coloring.opacity[atom]);
+    if (!coloring.in_patch.empty()) of.in_patch.push_back(coloring.in_patch[atom]);
     if (!coloring.part.empty()) of.part.push_back(coloring.part[atom]);
   }
   return of;

@@ -15,6 +15,7 @@
 #include "core/color/lipophilicity.h"
 #include "core/color/ordered_classes.h"
 #include "core/math/box.h"
+#include "core/queries/atom_patches.h"
 #include "core/queries/copies.h"
 #include "core/scene/hidden_atoms.h"
 #include "core/scene/map_reach.h"
@@ -128,6 +129,14 @@ void require_colors_shared(const Structure& structure, const ColorScheme& color)
         "--color lipophilicity sums over all atoms, so copies must be made of atoms; leave --instances out");
 }
 
+std::vector<bool> patch_atoms(const Selection& patches, const std::vector<Atom>& atoms) {
+  std::vector<bool> selected = patches.evaluate(atoms);
+  if (std::ranges::find(selected, true) == selected.end())
+    throw RequestError(fmt::format("{} {}: selects none of the {} atoms of the surface; {}", option_name("patches"),
+                                   in_quotes(patches.text()), with_thousands(atoms.size()), patches.why_none(atoms)));
+  return selected;
+}
+
 Burial burial_of(const MoleculeRequest& request, const Structure& structure, SurfaceComputer& computer) {
   if (!structure.instances.empty())
     throw RequestError("areas buried between copies need copies made of atoms; leave --instances out");
@@ -176,6 +185,14 @@ Molecule MoleculeBuilder::build(Structure structure) {
     object.coloring = color_object(molecule.structure, object.atom, molecule.color, n);
   }
   if (!hidden.empty()) hide(hidden, molecule.objects);
+  if (request_.patches && request_.surface.drawn) {
+    const std::vector<bool> selected = patch_atoms(*request_.patches, molecule.structure.atoms);
+    for (SurfaceObject& object : molecule.objects) {
+      std::vector<bool> chosen;
+      for (const std::uint32_t atom : object.atom) chosen.push_back(selected[atom]);
+      object.coloring.in_patch = atoms_of_patches(object.surface, std::move(chosen), request_.least_patch);
+    }
+  }
   if (color_.volume) molecule.beyond_map = checked_share_beyond(*color_.volume, request_.volume_file, molecule);
   most_beyond_map_ = std::max(most_beyond_map_, molecule.beyond_map);
   molecule.device = computer_.device();

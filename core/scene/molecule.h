@@ -30,6 +30,8 @@ struct MoleculeRequest {
   ColorScheme color;
   bool color_named = false;                   ///< whether someone asked for the scheme of all atoms
   std::optional<InterfaceRequest> interface;  ///< opened like a book
+  std::optional<Selection> patches;           ///< atoms whose contiguous areas are listed, and outlined in pictures
+  double least_patch = 10.0;                  ///< Å²: smaller ones are left out
   std::string number_file;                    ///< numbers to colour by, for ColorScheme::By::file
   std::string number_column;                  ///< of a number file that is a table
   std::string volume_file;                    ///< a volume map to colour by, for ColorScheme::By::volume
@@ -61,6 +63,9 @@ ColorScheme color_of(const MoleculeRequest& request);
 
 /// What the colours of its objects mean.
 ColorKey key_of(const Molecule& molecule);
+
+/// Per atom, whether it is of these patches. Throws RequestError if none is.
+std::vector<bool> patch_atoms(const Selection& patches, const std::vector<Atom>& atoms);
 
 /// What groups of atoms bury of each other.
 struct Burial {

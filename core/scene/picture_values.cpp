@@ -41,6 +41,17 @@ Written write_light(const Property&, const Scene& scene) {
   return {fmt::format("{},{},{}", light->x, light->y, light->z)};
 }
 
+void read_patch_line_color(const Property&, Texts texts, Scene& scene) {
+  scene.look.patch_line_color = parse_color(texts.back());
+  if (!scene.look.patch_line_color)
+    throw RequestError(in_quotes(texts.back()) + " is not a colour: give a name such as red, or #rrggbb");
+}
+
+Written write_patch_line_color(const Property&, const Scene& scene) {
+  if (!scene.look.patch_line_color) return {};
+  return {hex_color(*scene.look.patch_line_color)};
+}
+
 void read_view(const Property&, Texts texts, Scene& scene) {
   scene.picture.direction = parse_view_direction(texts.back());
   if (!scene.picture.direction)
@@ -230,6 +241,9 @@ constexpr auto kPictureRows = std::to_array<SceneValue>({
         "look.inner_lines", [](auto& s) -> auto& { return s.look.inner_lines; }),
     line_width(
         "look.part_lines", [](auto& s) -> auto& { return s.look.part_lines; }),
+    line_width(
+        "look.patch_lines", [](auto& s) -> auto& { return s.look.patch_lines; }),
+    {"look.patch_line_color", read_patch_line_color, write_patch_line_color},
     plain(
         "look.depth_cue", [](auto& s) -> auto& { return s.look.depth_cue; }),
     plain(

@@ -255,6 +255,10 @@ constexpr auto kSurfaceRows = std::to_array<SceneValue>({
     {"surface.probe", read_probe, write_probe},
     plain(
         "surface.show", [](auto& s) -> auto& { return s.molecule.show; }),
+    plain(
+        "surface.patches", [](auto& s) -> auto& { return s.molecule.patches; }),
+    plain(
+        "surface.min_patch", [](auto& s) -> auto& { return s.molecule.least_patch; }),
     {"surface.by", read_division, write_division},
     worded<Cavities::keep, Cavities::drop, Cavities::only>(
         "surface.cavities", [](auto& s) -> auto& { return s.molecule.division.cavities; }),

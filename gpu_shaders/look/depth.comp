@@ -6,9 +6,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "gpu_shaders/look/parameters.glsl"
 #include "gpu_shaders/ray_cast/records.glsl"
 
-layout(binding = 2) uniform usamplerBuffer atom_parts;  // there if has_parts
+layout(binding = 2) uniform usamplerBuffer atom_marks;  // there if has_marks
 layout(std430, binding = 0) writeonly buffer Depths { float depths[]; };
-layout(std430, binding = 1) writeonly buffer Parts { uint parts[]; };
+layout(std430, binding = 1) writeonly buffer Marks { uint marks[]; };
 
 layout(std140, binding = 0) uniform Parameters { DepthParameters params; };
 
@@ -25,5 +25,5 @@ void main() {
     depth = view.eye_distance + (view.orthographic != 0u ? t : t / sqrt(1.0 + dot(slope, slope)));
   }
   depths[at] = depth;
-  if (params.has_parts != 0u) parts[at] = what.x != kNoPrimitive ? texelFetch(atom_parts, int(what.y)).x : 0u;
+  if (params.has_marks != 0u) marks[at] = what.x != kNoPrimitive ? texelFetch(atom_marks, int(what.y)).x : 0u;
 }

@@ -7,7 +7,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "gpu_shaders/look/parameters.glsl"
 
 layout(binding = 2) uniform usamplerBuffer visibility_texels;  // there for AMBIENT_OCCLUSION
-layout(binding = 3) uniform usamplerBuffer part_texels;  // of each pixel; there if has_parts
+layout(binding = 3) uniform usamplerBuffer mark_texels;  // of each pixel; there if has_marks
 layout(std430, binding = 0) readonly buffer Samples { vec4 samples[]; };  // linear, premultiplied
 layout(std430, binding = 1) buffer Picture { vec4 picture[]; };
 
@@ -18,20 +18,19 @@ float visibility_at(ivec2 pixel) { return uintBitsToFloat(texelFetch(visibility_
 #include "gpu_shaders/ray_cast/sheen.glsl"
 #include "gpu_shaders/look/finish.glsl"
 
-bool parts_differ(ivec2 a, ivec2 b) {
-  return params.has_parts != 0u && texelFetch(part_texels, index_of(a)).x != texelFetch(part_texels, index_of(b)).x;
-}
+int mark_at(ivec2 pixel) { return int(texelFetch(mark_texels, index_of(pixel)).x); }
 
-// Share of a pixel that lines cover, and the depth of what they outline.
+// Shares of a pixel that black lines cover, with the depth of what they outline, and that lines around patches cover.
 struct Ink {
   float covered;
   float depth;
+  float patched;
 };
 
 // Software GL runs every branch: so each pixel first looks, cheaply, for the next neighbour that matters to it.
 Ink ink_on(ivec2 pixel, float depth) {
   int reach = farthest_neighbor();
-  Ink ink = Ink(0.0, depth);
+  Ink ink = Ink(0.0, depth, 0.0);
   ivec2 offset = ivec2(-reach - 1, -reach);
   do {
     ivec2 other;
@@ -39,19 +38,29 @@ Ink ink_on(ivec2 pixel, float depth) {
     float other_depth;
     bool step;
     bool seam;
+    bool border;
     do {
       ++offset.x;
       if (offset.x > reach) offset = ivec2(-reach, offset.y + 1);
       other = pixel + offset;
       other_depth = depth_at(other);
       share = covered_share(offset, params.widest_line);
-      bool counts = offset.y <= reach && share > ink.covered && in_block(other);
+      bool inside = offset.y <= reach && in_block(other);
+      bool counts = inside && share > ink.covered;
       step = counts && may_step(depth, other_depth);
-      seam = counts && depth != kNothing && other_depth != kNothing && parts_differ(pixel, other);
-    } while (!step && !seam && offset.y <= reach);
+      seam = border = false;
+      if (params.has_marks != 0u && inside && depth != kNothing && other_depth != kNothing) {
+        int mark = mark_at(pixel);
+        int other_mark = mark_at(other);
+        seam = counts && parts_differ(mark, other_mark);
+        border = covered_share(offset, params.patch_lines) > ink.patched &&
+                 parted_by_patch(pixel, depth, mark, other, other_depth, other_mark);
+      }
+    } while (!step && !seam && !border && offset.y <= reach);
     float strength = step ? step_ink(pixel, depth, other, other_depth) : 0.0;
     float covered = covered_by_border(offset, strength, seam, depth == kNothing || other_depth == kNothing);
-    if ((step || seam) && covered > ink.covered) ink = Ink(covered, min(depth, other_depth));
+    if (border) ink.patched = covered_share(offset, params.patch_lines);
+    if ((step || seam) && covered > ink.covered) ink = Ink(covered, min(depth, other_depth), ink.patched);
   } while (offset.y <= reach);
   return ink;
 }
@@ -71,6 +80,10 @@ void main() {
   }
 #ifdef SILHOUETTES
   Ink ink = ink_on(pixel, depth);
+  if (ink.patched > 0.0) {
+    float patched = ink.patched * clarity(depth);
+    color = mix(color, vec4(params.patch_line_color, 1.0), patched);
+  }
   float covered = ink.covered * clarity(ink.depth);
   color = vec4(color.rgb * (1.0 - covered), mix(color.a, 1.0, covered));
 #endif

@@ -50,22 +50,38 @@ GEOMETRY truth may_step(real depth_a, real depth_b) {
   return (open && depth_a != depth_b) || (!open && steps);
 }
 
-// How strong that line is: from none at a small step to full at a large one.
-GEOMETRY real step_ink(integer2 a, real depth_a, integer2 b, real depth_b) {
-  real nearer = min(depth_a, depth_b);
-  real least = least_step(nearer);
-  // What the slope of the flatter one explains is not a step.
+// By how much the depths of two pixels that met something differ, but for what the slope of the flatter one explains; Å.
+GEOMETRY real jump_between(integer2 a, real depth_a, integer2 b, real depth_b) {
   real3 viewer_a = to_viewer_at(position_at(a, depth_a));
   real3 viewer_b = to_viewer_at(position_at(b, depth_b));
   real facing_a = dot(facing(hit_normal_at(a), viewer_a), viewer_a);
   real facing_b = dot(facing(hit_normal_at(b), viewer_b), viewer_b);
   real flatter = max(facing_a, facing_b);
   real slope = sqrt(max(1.0 - flatter * flatter, 0.0)) / max(flatter, 0.01);
-  real jump = abs(depth_a - depth_b) - length(real2(a - b)) * pixel_size_at(nearer) * slope;
+  return abs(depth_a - depth_b) - length(real2(a - b)) * pixel_size_at(min(depth_a, depth_b)) * slope;
+}
+
+// How strong that line is: from none at a small step to full at a large one.
+GEOMETRY real step_ink(integer2 a, real depth_a, integer2 b, real depth_b) {
+  real nearer = min(depth_a, depth_b);
+  real least = least_step(nearer);
+  real jump = jump_between(a, depth_a, b, depth_b);
   real missing = 1.0 - smoothstep(least, least + step_range(nearer), jump);
   real ink = 1.0 - missing * missing;  // as the eye sees it, about
   ink = select(depth_a == real(kNothing) || depth_b == real(kNothing), real(1.0), ink);
   return select(depth_a == real(kNothing) && depth_b == real(kNothing), real(0.0), ink);
+}
+
+// Whether two points are of different parts, by their marks: four times the number of a part, and on a surface that has
+// patches 2 more, in a patch 3.
+GEOMETRY truth parts_differ(integer mark_a, integer mark_b) { return (mark_a >> 2) != (mark_b >> 2); }
+
+// Whether the border of a patch runs between two pixels that met something: both are of that surface, which goes on from
+// one to the other, and one of them alone is in a patch.
+GEOMETRY truth parted_by_patch(integer2 a, real depth_a, integer mark_a, integer2 b, real depth_b, integer mark_b) {
+  real tolerance = 0.3 + 2.0 * pixel_size_at(min(depth_a, depth_b));
+  truth one_in_patch = (mark_a & mark_b & 2) != 0 && ((mark_a ^ mark_b) & 1) != 0;
+  return one_in_patch && jump_between(a, depth_a, b, depth_b) <= tolerance;
 }
 
 // How much of a pixel a line of this width covers, at most, that belongs to the border towards the neighbour at this

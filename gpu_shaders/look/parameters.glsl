@@ -5,7 +5,7 @@
 #define MENISCUS_LOOK_PARAMETERS_GLSL
 
 struct DepthParameters {
-  uint has_parts;
+  uint has_marks;
 };
 
 // The whole picture's depths, in texels of one or more pixels; its middle is the picture's.
@@ -24,6 +24,8 @@ struct FinishParameters {
   float key_strength;
   vec3 air;          // linear: what the farthest fades into,
   uint keeps_alpha;  // or into nothing
+  vec3 patch_line_color;  // linear
+  float patch_lines;      // width of lines around patches, in pixels
   float specular;  // of highlights in the shade
   float shininess;
   float ambient_occlusion;
@@ -37,7 +39,7 @@ struct FinishParameters {
   float first_depth;
   float last_depth;
   uint sample_index;
-  uint has_parts;
+  uint has_marks;
 };
 
 struct PresentParameters {

@@ -187,6 +187,7 @@ ROWS = {
     "--roughness": ("0.9", "plain"), "--specular": ("0.9", "plain"), "--shininess": ("9", "shiny"),
     "--ambient-occlusion": ("0.5", "plain"), "--ambient-occlusion-radius": ("3", "shade"),
     "--ambient-occlusion-rays": ("9", "shade"), "--shadows": ("0.8", "plain"), "--shadow-softness": ("20", "shadows"), "--silhouettes": ("3", "plain"),
+    "--patch-lines": ("5", "patches"), "--patch-line-color": ("red", "patches"),
     "--outer-lines": ("3", "plain"), "--inner-lines": ("3", "plain"), "--part-lines": ("3", "plain"),
     "--depth-cue": ("1", "plain"), "--linear-alpha": (None, "plain"), "--samples": ("3", "plain"),
     "--background": ("white", "plain"), "--legend": (None, "number"), "--legend-file": ("legend.png", "number"),

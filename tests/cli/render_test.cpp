@@ -192,10 +192,31 @@ TEST_F(RenderCommand, WhatAViewNeedsMakesTheSamePicture) {
   EXPECT_NE(result.err.find("2 of 2 atoms"), std::string::npos) << result.err;
 }
 
+TEST_F(RenderCommand, PatchesAreOutlinedInPicturesAndViews) {
+  const auto picture = [&](std::vector<std::string> options) {
+    options.insert(options.end(), {"-o", path("a.png"), "--force"});
+    const ProgramResult result = render(options);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return test::read_bytes(path("a.png"));
+  };
+  const std::string plain = picture({}), outlined = picture({"--patches", "index 1"});
+  EXPECT_NE(outlined, plain);
+  EXPECT_EQ(picture({"--patches", "index 1", "--min-patch", "9999"}), plain);
+  EXPECT_EQ(picture({"--patches", "all"}), plain) << "they have no border";
+  EXPECT_EQ(picture({"--patches", "index 1", "--patch-lines", "0"}), plain);
+  EXPECT_NE(picture({"--patches", "index 1", "--patch-line-color", "red"}), outlined);
+  EXPECT_NE(picture({"--patches", "index 1", "--opacity", "0.5"}), picture({"--opacity", "0.5"}));
+  const std::vector<std::string> on_gl{"--patches", "index 1", "--min-patch", "0", "--device", "software"};
+  std::vector<std::string> view = on_gl;
+  view.insert(view.end(), {"--extent", "visible"});
+  EXPECT_EQ(picture(on_gl), picture(view));
+  EXPECT_EQ(render({"-o", path("b.png"), "--patches", "element Zn"}).exit_code, 2);
+}
+
 TEST_F(RenderCommand, AViewRefusesWhatOnlyACompleteSurfaceKnows) {
   const std::vector<std::vector<std::string>> needs{
       {"--by", "chain"},        {"--by", "component"}, {"--cavities", "drop"},   {"--verify"},
-      {"--color", "component"}, {"--surface", "sas"},  {"--aovs", "-o", "a.exr"}};
+      {"--color", "component"}, {"--surface", "sas"},  {"--patches", "index 1"},  {"--aovs", "-o", "a.exr"}};
   for (const auto& need : needs) {
     std::vector<std::string> arguments{"--extent", "visible"};
     arguments.insert(arguments.end(), need.begin(), need.end());

@@ -57,6 +57,10 @@ TEST_F(SceneFile, WhatIsSavedMakesTheSamePictureAgain) {
       "--scale-bar=2",
       "--label=all=it",
       "--cap-color=red",
+      "--patches=index 1",
+      "--min-patch=1",
+      "--patch-lines=0.5pt",
+      "--patch-line-color=red",
       "--probe=1.2",
       "--spheres=index 0",
       "--object",
@@ -290,6 +294,13 @@ TEST_F(SceneFile, FaultsAreNamed) {
   const ProgramResult refused = run({"export", "ply", "--scene", cut, "-o", path("cut.ply")});
   EXPECT_EQ(refused.exit_code, 2) << refused.err;
   EXPECT_NE(refused.err.find("objects[0].clip"), std::string::npos) << refused.err;
+  const std::string outlined = folder_.file(
+      "outlined.json", R"({"meniscus_scene":1,"molecule":{"file":"two.xyzr"},"objects":[{"patches":"index 1"}]})");
+  const ProgramResult lines = run({"export", "povray", "--scene", outlined, "-o", path("outlined")});
+  EXPECT_EQ(lines.exit_code, 2) << lines.err;
+  EXPECT_NE(lines.err.find("cannot show that (--patches); leave it out of the scene, or choose render"),
+            std::string::npos)
+      << lines.err;
 }
 
 // An option that is in neither list would be lost when a scene is saved.

@@ -66,6 +66,13 @@ std::vector<Picture> pictures() {
   all.emplace_back("1UBQ in part", testing::ubiquitin(), 1.4);
   for (std::size_t n = 0; n < all.back().surface.atoms.size(); ++n) all.back().coloring.hidden.push_back(n % 5 < 2);
   all.back().settings.look = all_effects();
+  all.emplace_back("1UBQ with patches", testing::ubiquitin(), 1.4);
+  for (std::size_t n = 0; n < all.back().surface.atoms.size(); ++n)
+    all.back().coloring.in_patch.push_back(n % 100 < 30);
+  all.back().coloring.part.assign(all.back().surface.atoms.size(), 2);
+  all.back().settings.look = all_effects();
+  all.back().settings.look.patch_lines = 4.0f;
+  all.back().settings.look.patch_line_color = {0.9f, 0.8f, 0.1f};
   all.emplace_back("cavity from inside", testing::c60(), 0.5);
   glm::dvec3 middle(0.0);
   for (const Ball& ball : all.back().surface.atoms) middle += ball.center / 60.0;

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -13,6 +16,7 @@
 #include "core/image/color_space.h"
 #include "core/render/look_pass.h"
 #include "core/render/renderer.h"
+#include "core/render/surface_renderer.h"
 #include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 #include "core/color/color_schemes.h"
@@ -208,6 +212,97 @@ TEST_F(Looks, LinesOfEachKindHaveTheirOwnWidth) {
   }
   EXPECT_GT(behind, 2.0f);
   EXPECT_LT(none, 0.6f * behind);
+}
+
+/// Black without light, so that the red of lines around patches is the share that they cover.
+Look patch_lines(float width) {
+  Look look;
+  look.material = {.ambient = 1.0f, .roughness = 0.0f, .specular = 0.0f, .shininess = 40.0f};
+  look.patch_lines = width;
+  look.patch_line_color = {1.0f, 0.0f, 0.0f};
+  return look;
+}
+
+Coloring with_patches(std::vector<bool> in_patch) {
+  Coloring coloring;
+  coloring.atom.assign(in_patch.size(), glm::vec3(0.0f));
+  coloring.in_patch = std::move(in_patch);
+  return coloring;
+}
+
+/// What a line of one pixel around patches covers of a pixel: by its neighbours' atoms. Nothing: steps of in-between
+/// height decide.
+std::optional<float> share_by_owners(const Framebuffer& picture, const std::vector<bool>& in_patch, glm::ivec2 pixel) {
+  constexpr float kNoStep = 0.25f;  // Å: less than what any two pixels of one surface may differ by
+  const auto at = [&](glm::ivec2 p) { return static_cast<std::size_t>(p.y) * picture.size.x + p.x; };
+  const std::uint32_t owner = picture.atom[at(pixel)];
+  float share = 0.0f, doubtful = 0.0f;
+  for (int y = -1; y <= 1; ++y)
+    for (int x = -1; x <= 1; ++x) {
+      const glm::ivec2 other = pixel + glm::ivec2(x, y);
+      if (other.x < 0 || other.y < 0 || other.x >= picture.size.x || other.y >= picture.size.y) continue;
+      const std::uint32_t next = picture.atom[at(other)];
+      if (owner == kNone || next == kNone || in_patch[owner] == in_patch[next]) continue;
+      const float step = std::abs(picture.z[at(pixel)] - picture.z[at(other)]);
+      const float covered = std::clamp(1.5f - std::hypot(static_cast<float>(x), static_cast<float>(y)), 0.0f, 1.0f);
+      float& of = step < kNoStep ? share : doubtful;
+      of = std::max(of, covered);
+    }
+  if (doubtful > share) return {};
+  return share;
+}
+
+TEST_F(Looks, PatchesAreOutlinedWhereTheAtomsOfPixelsSay) {
+  const Surface surface = compute_surface_cpu(testing::ubiquitin(), 1.4);
+  std::vector<bool> in_patch;
+  for (std::size_t n = 0; n < surface.atoms.size(); ++n)
+    in_patch.push_back(surface.atoms[n].center.x > surface.atoms[0].center.x || n % 7 == 0);
+  RenderSettings settings;
+  settings.size = {400, 300};
+  settings.aovs = true;
+  settings.look = patch_lines(1.0f);
+  const Camera camera = frame_camera(surface.atoms, 4.0 / 3.0, Projection::orthographic);
+  const auto cpu = make_cpu_renderer();
+  for (const bool on_gpu : {false, true}) {
+    SCOPED_TRACE(on_gpu ? "GL" : "CPU");
+    const Framebuffer picture = on_gpu ? renderer_.render(surface, with_patches(in_patch), camera, settings)
+                                       : cpu->render(surface, with_patches(in_patch), camera, settings);
+    std::size_t lines = 0, wanted = 0, doubtful = 0, wrong = 0;
+    for (int y = 0; y < 300; ++y)
+      for (int x = 0; x < 400; ++x) {
+        const float red = picture.color[static_cast<std::size_t>(y) * 400 + x].x;
+        const std::optional<float> share = share_by_owners(picture, in_patch, {x, y});
+        doubtful += !share;
+        if (!share) continue;
+        lines += red > 0.0f;
+        wanted += *share > 0.0f;
+        wrong += std::abs(red - *share) > 1e-5f;
+      }
+    EXPECT_EQ(lines, wanted);
+    EXPECT_EQ(wrong, 0u);
+    EXPECT_GT(wanted, 5000u);
+    EXPECT_LT(doubtful, wanted / 5);
+    RecordProperty("lines", static_cast<int>(lines));
+    RecordProperty("doubtful", static_cast<int>(doubtful));
+  }
+}
+
+TEST_F(Looks, PatchesHaveNoLinesWhereOneIsInFrontOfAnother) {
+  const testing::Balls apart{{{0, 0, 0}, 2.0}, {{1.0, 0, -20}, 2.0}}, touching{{{-1, 0, 0}, 2.0}, {{1, 0, 0}, 2.0}};
+  for (const auto& [balls, has_border] : {std::pair{apart, false}, std::pair{touching, true}}) {
+    const Surface surface = compute_surface_cpu(balls, 1.4);
+    RenderSettings settings;
+    settings.size = {200, 150};
+    settings.look = patch_lines(2.0f);
+    const Framebuffer picture = renderer_.render(surface, with_patches({true, false}), kFront, settings);
+    float widest = 0.0f;
+    for (int y = 0; y < 150; ++y) {
+      float width = 0.0f;
+      for (int x = 0; x < 200; ++x) width += picture.color[static_cast<std::size_t>(y) * 200 + x].x;
+      widest = std::max(widest, width);
+    }
+    EXPECT_NEAR(widest, has_border ? 2.0f : 0.0f, 0.1f);
+  }
 }
 
 TEST_F(Looks, LinesFromAfarAreOfWhatIsLarge) {

@@ -37,6 +37,7 @@ TEST(PreviewCommands, MakeAnotherStateAndLeaveTheOneTheyGet) {
       {R"({"command":"key"})", Renewal::nothing},
       {R"({"command":"play"})", Renewal::nothing},
       {R"({"command":"look","silhouettes":2})", Renewal::legend},
+      {R"({"command":"patches","selection":"element C"})", Renewal::colors},
       {R"({"command":"resize","width":50,"height":40})", Renewal::legend},
       {R"({"command":"probe","radius":2})", Renewal::legend},
       {R"({"command":"cut","plane":"x<1"})", Renewal::cuts},

@@ -69,6 +69,9 @@ void FigurePanel::atoms() {
   if (ImGui::Button("hide") && !empty) link_.send({{"command", "hide"}, {"selection", selection_}});
   if (ImGui::Button("only") && !empty) link_.send({{"command", "show"}, {"selection", selection_}});
   same_line();
+  if (ImGui::Button("outline") && !empty) link_.send({{"command", "patches"}, {"selection", selection_}});
+  tooltip("A line around their contiguous areas");
+  same_line();
   if (ImGui::Button("paint") && !empty)
     link_.send({{"command", "paint"}, {"selection", selection_}, {"color", hex_color(paint_)}});
   Gui::mark("paint");
@@ -92,6 +95,9 @@ void FigurePanel::rows() {
   const Json state = link_.state();
   if (state["show"].is_string() && removed("surface of " + state["show"].get<std::string>(), "show", -1))
     link_.send({{"command", "show"}});
+  const Json& patches = state["patches"]["selection"];
+  if (patches.is_string() && removed("patches of " + patches.get<std::string>(), "patches", -1))
+    link_.send({{"command", "patches"}});
   int index = 0;
   for (const Json& shown : state["representations"])
     removed(fmt::format("{}: {}", shown["as"].get<std::string>(), shown["selection"].get<std::string>()),

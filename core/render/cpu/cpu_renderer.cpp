@@ -87,11 +87,11 @@ void for_each_until(Interruption& interruption, int count, const Work& work) {
 
 }  // namespace
 
-void CpuRenderer::BlockSamples::resize(std::size_t pixel_count, bool has_parts, bool has_layers) {
+void CpuRenderer::BlockSamples::resize(std::size_t pixel_count, bool has_marks, bool has_layers) {
   color.assign(pixel_count + 1, glm::vec4(0.0f));
   depth.assign(pixel_count + 1, kernel::kNothing);
   for (std::vector<float>& axis : normal) axis.assign(pixel_count + 1, 0.0f);
-  part.assign(has_parts ? pixel_count + 1 : 0, 0.0f);
+  mark.assign(has_marks ? pixel_count + 1 : 0, 0.0f);
   over.assign(has_layers ? pixel_count + 1 : 0, glm::vec4(0.0f));
   visibility.assign(pixel_count + 1, 1.0f);
 }
@@ -101,7 +101,7 @@ LaneSamples CpuRenderer::BlockSamples::lanes(bool has_visibility) {
           depth.data(),
           {normal[0].data(), normal[1].data(), normal[2].data()},
           has_visibility ? visibility.data() : nullptr,
-          part.empty() ? nullptr : part.data(),
+          mark.empty() ? nullptr : mark.data(),
           over.empty() ? nullptr : over.data()};
 }
 
@@ -134,7 +134,8 @@ void CpuRenderer::pack(const Surface& surface, const Coloring& coloring, const C
     pack_scene(surface, coloring, frame_, scene_.packed);
     scene_.placement = place_atoms(surface.atoms, surface.probe_radius, frame_);
     scene_.colors = linear_colors(coloring);
-    scene_.parts.assign(coloring.part.begin(), coloring.part.end());
+    const std::vector<std::uint32_t> marks = coloring.line_marks();
+    scene_.marks.assign(marks.begin(), marks.end());
     scene_.lanes.paint = {};
     scene_.keeps_color.clear();
     scene_.add_paint(coloring, frame_.pivot);
@@ -378,11 +379,11 @@ void CpuRenderer::cast_shade_map(const PictureFrame& map, const RenderSettings& 
                                  LayeredScene* layers) {
   const PictureBlock whole{{0, 0}, map.size};
   start_block(map, whole, layers);
-  const bool has_parts = layers ? layers->has_parts() : !scene_.parts.empty();
+  const bool has_marks = layers ? layers->has_marks() : !scene_.marks.empty();
   const auto texel_count = static_cast<std::size_t>(map.size.x) * map.size.y;
-  samples_.resize(texel_count, has_parts, layers != nullptr);
+  samples_.resize(texel_count, has_marks, layers != nullptr);
   const bool has_front = layers && layers->shows_through();
-  if (has_front) front_.resize(texel_count, has_parts, false);
+  if (has_front) front_.resize(texel_count, has_marks, false);
   RenderSettings depths = settings;
   depths.look.ambient_occlusion_rays = 0.0f;
   const auto light_through = [&](const LaneLight* light) {
@@ -405,10 +406,10 @@ void CpuRenderer::cast(const BlockTask& task, Interruption& interruption) {
   sums_.assign(pixel_count, glm::vec4(0.0f));
   if (task.hits) hits_.assign(pixel_count, kNoHit);
   const int step = look.has_effects() ? 1 : LaneTile::kMostSamples;
-  const bool has_parts = task.layers ? task.layers->has_parts() : !scene_.parts.empty();
+  const bool has_marks = task.layers ? task.layers->has_marks() : !scene_.marks.empty();
   const bool has_front = task.layers && task.layers->shows_through();
-  if (look.has_effects()) samples_.resize(pixel_count, has_parts, task.layers != nullptr);
-  if (look.has_effects() && has_front) front_.resize(pixel_count, has_parts, false);
+  if (look.has_effects()) samples_.resize(pixel_count, has_marks, task.layers != nullptr);
+  if (look.has_effects() && has_front) front_.resize(pixel_count, has_marks, false);
   for (int first = 0; first < task.settings.samples && !interruption.came(); first += step) {
     interruption.note(first, task.settings.samples);
     cast_samples(first, std::min(step, task.settings.samples - first), task, interruption);
@@ -418,7 +419,7 @@ void CpuRenderer::cast(const BlockTask& task, Interruption& interruption) {
       shade_map_ = samples_.depth;
       if (has_front) front_shade_map_ = front_.depth;
     }
-    look_at(first, task.settings, has_parts, has_front, interruption);
+    look_at(first, task.settings, has_marks, has_front, interruption);
   }
 }
 
@@ -453,7 +454,7 @@ void CpuRenderer::cast_tile(std::size_t tile, LaneTile task) {
   kernels_.cast_tile(scene_.lanes, task);
 }
 
-void CpuRenderer::look_at(int sample, const RenderSettings& settings, bool has_parts, bool has_front,
+void CpuRenderer::look_at(int sample, const RenderSettings& settings, bool has_marks, bool has_front,
                           Interruption& interruption) {
   const auto stage = clock_.stage("look");
   const Look& look = settings.look;
@@ -461,7 +462,7 @@ void CpuRenderer::look_at(int sample, const RenderSettings& settings, bool has_p
   task.view = scene_.lanes.view;
   task.view.sample_offset = sample_offset(sample);
   task.occlusion = occlusion_parameters(look, settings.size, sample);
-  task.finish = finish_parameters(look, scene_.placement, settings.size, sample, has_parts);
+  task.finish = finish_parameters(look, scene_.placement, settings.size, sample, has_marks);
   task.samples = samples_.lanes(look.traces_sky());
   task.shade_map = shade_map_.data();
   task.visibility = samples_.visibility.data();

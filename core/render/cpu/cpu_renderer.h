@@ -66,9 +66,9 @@ class CpuRenderer final : public SurfaceRenderer {
   /// written, so that one beginning does for all samples.
   struct BlockSamples {
     std::vector<glm::vec4> color, over;
-    std::vector<float> depth, normal[3], part, visibility;
+    std::vector<float> depth, normal[3], mark, visibility;
 
-    void resize(std::size_t pixel_count, bool has_parts, bool has_layers);
+    void resize(std::size_t pixel_count, bool has_marks, bool has_layers);
     LaneSamples lanes(bool has_visibility);
   };
 
@@ -98,7 +98,7 @@ class CpuRenderer final : public SurfaceRenderer {
   void cast(const BlockTask& task, Interruption& interruption);
   void cast_samples(int first, int count, const BlockTask& task, Interruption& interruption);
   void cast_tile(std::size_t tile, LaneTile task);
-  void look_at(int sample, const RenderSettings& settings, bool has_parts, bool has_front, Interruption& interruption);
+  void look_at(int sample, const RenderSettings& settings, bool has_marks, bool has_front, Interruption& interruption);
   /// Finishes what is seen through and first along its ray: its shade, air and lines go into samples_.over, each as
   /// opaque as it is.
   void look_at_front(LaneLook task, const RenderSettings& settings, Interruption& interruption);

@@ -22,7 +22,7 @@ struct HostScene {
   RayCastScene packed;
   ScenePlacement placement;
   std::vector<glm::vec4> colors;          ///< linear_colors()
-  std::vector<float> parts;               ///< whole numbers that a float holds exactly: only their difference counts
+  std::vector<float> marks;               ///< Coloring::line_marks(): whole numbers that a float holds exactly
   std::vector<std::uint8_t> keeps_color;  ///< of atoms, if there is a volume map
   LaneScene lanes;                        ///< all of this as the kernels read it, but for its view
 
@@ -39,7 +39,7 @@ struct HostScene {
     lanes.primitives = packed.primitives.data();
     lanes.rows = packed.rows.data();
     lanes.colors = colors.data();
-    lanes.parts = parts.data();
+    lanes.marks = marks.data();
     lanes.some_hidden = some_hidden;
     lanes.paint.keeps_color = keeps_color.data();
     const auto atom_count = static_cast<std::uint32_t>(colors.size() - (color_by_kind ? 3 : 0));

@@ -62,7 +62,7 @@ struct LaneScene {
   const ray_cast::Primitive* primitives = nullptr;
   const glm::vec4* rows = nullptr;
   const glm::vec4* colors = nullptr;  ///< linear, alpha: opacity, 0 if hidden; of atoms, then of kinds
-  const float* parts = nullptr;       ///< of atoms, or nullptr
+  const float* marks = nullptr;       ///< of atoms: Coloring::line_marks(), or nullptr
   bool some_hidden = false;
   PointPaint paint;
   kernel::RayCastParameters params{};
@@ -101,7 +101,7 @@ struct LaneSamples {
   float* depth = nullptr;       ///< along the view axis, Å; kernel::kNothing where nothing is met
   float* normal[3] = {};        ///< towards the solvent, in the molecule's axes
   float* visibility = nullptr;  ///< what it sees of the sky, by rays; nullptr: LaneLight::sky_rays is 0
-  float* part = nullptr;        ///< LaneScene::parts of what is met, else 0; nullptr if there are none
+  float* mark = nullptr;        ///< LaneScene::marks of what is met, else 0; nullptr if there are none
   glm::vec4* over = nullptr;    ///< what is seen through before all of this, premultiplied; nullptr: nothing
 };
 

@@ -68,7 +68,7 @@ LayeredScene::LayeredScene(std::span<const PictureObject> objects, const Picture
         layer.number = static_cast<std::uint32_t>(&object - objects.data());
         layer.translucent = translucent;
         pack(layer, placement, look);
-        has_parts_ = has_parts_ || !object.coloring->part.empty();
+        has_marks_ = has_marks_ || !layer.scene.marks.empty();
       }
 }
 
@@ -86,7 +86,8 @@ void LayeredScene::pack(Layer& layer, const ScenePlacement& placement, const Loo
     pack_shapes(*object.shapes, coloring, frame_, placement.slack, layer.scene.packed);
   }
   layer.scene.colors = linear_colors(coloring);
-  layer.scene.parts.assign(coloring.part.begin(), coloring.part.end());
+  const std::vector<std::uint32_t> marks = coloring.line_marks();
+  layer.scene.marks.assign(marks.begin(), marks.end());
   if (object.surface) layer.scene.add_paint(coloring, frame_.pivot);
   const bool by_kind = object.surface && coloring.kind;
   if (!by_kind) layer.scene.colors.resize(coloring.atom.size());
@@ -323,9 +324,12 @@ void LayeredScene::write(const LaneSamples& samples, std::size_t at, const Layer
   samples.depth[at] = hit ? hit->depth : kernel::kNothing;
   if (samples.visibility) samples.visibility[at] = hit ? hit->visibility : 1.0f;
   for (int axis = 0; axis < 3; ++axis) samples.normal[axis][at] = hit ? hit->normal[axis] : 0.0f;
-  if (!samples.part) return;
-  const std::vector<float>* const parts = hit ? &layers_[hit->layer].scene.parts : nullptr;
-  samples.part[at] = parts && !parts->empty() ? (*parts)[hit->atom] : 0.0f;
+  if (!samples.mark) return;
+  const std::vector<float>* const marks = hit ? &layers_[hit->layer].scene.marks : nullptr;
+  float mark = marks && !marks->empty() ? (*marks)[hit->atom] : 0.0f;
+  constexpr float kOfPart = Coloring::kMarksOfPart;
+  if (hit && hit->primitive == ray_cast::kOnPlane) mark = kOfPart * std::floor(mark / kOfPart);  // caps have no patches
+  samples.mark[at] = mark;
 }
 
 }  // namespace meniscus

@@ -34,7 +34,7 @@ class LayeredScene {
   void set_light(const LaneLight* light) {
     for (Layer& layer : layers_) layer.scene.lanes.light = light;
   }
-  bool has_parts() const { return has_parts_; }
+  bool has_marks() const { return has_marks_; }
   /// Whether something may be seen through.
   bool shows_through() const { return !layers_.empty() && layers_.back().translucent; }
   /// Whether highlights are cast with everything else, for the finish knows one material alone.
@@ -94,7 +94,7 @@ class LayeredScene {
   PictureFrame frame_;
   PictureBlock block_;
   std::vector<Layer> layers_;  // opaque ones first
-  bool has_parts_ = false, casts_highlights_ = false;
+  bool has_marks_ = false, casts_highlights_ = false;
   tbb::enumerable_thread_specific<Workplace> workplaces_;
 };
 

@@ -37,7 +37,7 @@ struct LookedAtBlock {
     return gather(look_.shade_map, select(inside, texel.y * integer(size.x) + texel.x, integer(size.x * size.y)));
   }
   real visibility_at(integer2 pixel) { return fetch(look_.visibility, pixel); }
-  real part_at(integer2 pixel) { return fetch(look_.samples.part, pixel); }
+  integer mark_at(integer2 pixel) { return to_whole(fetch(look_.samples.mark, pixel)); }
   real3 hit_normal_at(integer2 pixel) {
     return {fetch(look_.samples.normal[0], pixel), fetch(look_.samples.normal[1], pixel),
             fetch(look_.samples.normal[2], pixel)};
@@ -53,25 +53,35 @@ struct LookedAtBlock {
 #include "gpu_shaders/ray_cast/sheen.glsl"
 #include "gpu_shaders/look/finish.glsl"
 
-  /// Share of a pixel that lines cover, and the depth of what they outline.
+  /// Shares of a pixel that black lines cover, with the depth of what they outline, and that lines around patches cover.
   struct Ink {
-    real covered, depth;
+    real covered, depth, patched;
   };
 
   Ink ink_on(integer2 pixel, real depth) {
     const int reach = farthest_neighbor();
     const truth met = depth != real(kNothing);
-    Ink ink{0.0f, depth};
+    Ink ink{0.0f, depth, 0.0f};
     for (int y = -reach; y <= reach; ++y)
       for (int x = -reach; x <= reach; ++x) {
         const integer2 offset(x, y), other = pixel + offset;
-        const truth counts = covered_share(offset, params.widest_line) > ink.covered && in_block(other);
-        if (!some(counts)) continue;
+        const truth inside = in_block(other);
+        const truth counts = covered_share(offset, params.widest_line) > ink.covered && inside;
+        const real patch_share = covered_share(offset, params.patch_lines);
+        const truth borders = params.has_marks != 0u && patch_share > ink.patched && inside;
+        if (!some(counts || borders)) continue;
         const real other_depth = depth_or_nothing(other);
         const truth step = counts && may_step(depth, other_depth);
         truth seam = false;
-        if (params.has_parts != 0u)
-          seam = counts && met && other_depth != real(kNothing) && part_at(pixel) != part_at(other);
+        if (params.has_marks != 0u) {
+          const truth both = met && other_depth != real(kNothing);
+          const integer mark = mark_at(pixel), other_mark = mark_at(other);
+          seam = counts && both && parts_differ(mark, other_mark);
+          if (some(borders && both && mark != other_mark)) {
+            const truth border = both && parted_by_patch(pixel, depth, mark, other, other_depth, other_mark);
+            ink.patched = select(borders && border, patch_share, ink.patched);
+          }
+        }
         if (!some(step || seam)) continue;
         const real strength = select(step, step_ink(pixel, depth, other, other_depth), real(0.0f));
         const truth open = !met || other_depth == real(kNothing);
@@ -108,6 +118,9 @@ struct LookedAtBlock {
     }
     if (params.widest_line > 0.0f) {
       const Ink ink = ink_on(pixel, depth);
+      const real patched = ink.patched * clarity(depth);
+      color = mix(color, real3(params.patch_line_color), patched);
+      alpha = mix(alpha, 1.0f, patched);
       const real covered = ink.covered * clarity(ink.depth);
       color = color * (1.0f - covered);
       alpha = mix(alpha, 1.0f, covered);

@@ -215,7 +215,7 @@ class Bundle : protected LightedScene {
       samples.normal[0][at] = lane(shaded.normal.x, n);
       samples.normal[1][at] = lane(shaded.normal.y, n);
       samples.normal[2][at] = lane(shaded.normal.z, n);
-      if (samples.part) samples.part[at] = lane(alpha, n) > 0.0f ? scene_.parts[lane(shaded.atom, n)] : 0.0f;
+      if (samples.mark) samples.mark[at] = lane(alpha, n) > 0.0f ? scene_.marks[lane(shaded.atom, n)] : 0.0f;
     }
   }
 

@@ -226,7 +226,8 @@ void VisibleCopies::add(const Copy& copy, RayCastScene part, HostScene& scene) {
   shift_atoms(part, places_.back().first_atom);
   scene.add_paint(coloring, frame_.pivot);
   scene.colors.insert(scene.colors.end(), colors.begin(), colors.end());
-  for (const std::uint32_t n : coloring.part) scene.parts.push_back(static_cast<float>(copy.first_part + n));
+  for (const std::uint32_t mark : coloring.line_marks())
+    scene.marks.push_back(static_cast<float>(Coloring::kMarksOfPart * copy.first_part + mark));
   append_kept(
       part, [](std::size_t) { return true; }, scene.packed);
 }

@@ -67,7 +67,7 @@ TEST(Properties, RangesAreThoseOfTheCode) {
     EXPECT_EQ(property_of(key).lowest, lowest) << key;
     EXPECT_EQ(property_of(key).highest, highest) << key;
   };
-  for (const char* lines : {"look.silhouettes", "look.outer_lines", "look.inner_lines", "look.part_lines"})
+  for (const char* lines : {"look.silhouettes", "look.outer_lines", "look.inner_lines", "look.part_lines", "look.patch_lines"})
     expect(lines, 0.0, kWidestSilhouette);
   expect("mesh.tolerance", kSmallestTolerance, kLargestTolerance);
   expect("pockets.tolerance", kSmallestTolerance, kLargestTolerance);
@@ -78,7 +78,7 @@ TEST(Properties, RangesAreThoseOfTheCode) {
 // A number of the look that had no property, or whose property is not one of scenes, bundles and the preview, would be
 // missing there without a word.
 TEST(Properties, EveryNumberOfALookIsEverywhere) {
-  EXPECT_EQ(look_numbers().size(), 15u);
+  EXPECT_EQ(look_numbers().size(), 16u);
   for (const LookNumber& number : look_numbers()) {
     const Property& property = property_of(number.key);
     EXPECT_TRUE(property.has_range() && property.has(in_scene) && property.has(in_bundle) && property.has(live))

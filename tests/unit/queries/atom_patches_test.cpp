@@ -120,5 +120,29 @@ TEST(AtomPatches, AreThePiecesOfAMesh) {
   }
 }
 
+TEST(AtomPatches, LeavesOutAtomsOfSmallPatchesAlone) {
+  for (const std::uint32_t n : {3u, 17u, 40u}) {
+    const testing::GasCase gas = testing::gas_case(n);
+    const Surface surface = compute_surface_cpu(gas.balls, gas.probe_radius);
+    Choice chosen;
+    for (std::size_t a = 0; a < surface.atoms.size(); ++a) chosen.push_back(a % 3 != 0);
+    EXPECT_EQ(atoms_of_patches(surface, chosen, 0.0), chosen);
+    const std::vector<AtomPatch> patches = atom_patches(surface, chosen);
+    const double least = patches[patches.size() / 2].area;
+    const Choice left = atoms_of_patches(surface, chosen, least);
+    for (const AtomPatch& patch : patches) {
+      const auto count = std::ranges::count_if(patch.atoms, [&](std::uint32_t atom) { return left[atom]; });
+      EXPECT_TRUE(count == 0 || count == static_cast<std::ptrdiff_t>(patch.atoms.size())) << "whole or not at all";
+      const bool shares = std::ranges::any_of(patches, [&](const AtomPatch& other) {
+        return &other != &patch &&
+               std::ranges::any_of(other.atoms, [&](std::uint32_t a) { return std::ranges::count(patch.atoms, a) > 0; });
+      });
+      if (patch.area >= least) EXPECT_GT(count, 0);
+      if (patch.area < least && !shares) EXPECT_EQ(count, 0);
+    }
+    EXPECT_EQ(std::ranges::count(atoms_of_patches(surface, chosen, surface.area + 1.0), true), 0);
+  }
+}
+
 }  // namespace
 }  // namespace meniscus

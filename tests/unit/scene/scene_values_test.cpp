@@ -43,6 +43,8 @@ Texts example_of(const Property& property) {
       {"look.outer_lines", {"2.5"}},
       {"look.inner_lines", {"1.25"}},
       {"look.part_lines", {"0.2mm"}},
+      {"look.patch_lines", {"1pt"}},
+      {"look.patch_line_color", {"#102030"}},
       {"image.dpi", {"150"}},
       {"image.size", {"640x480"}},
       {"image.width", {"85mm"}},

@@ -53,6 +53,7 @@ export function figure_controls(command, say) {
     if (!selection) return fault("Name some atoms first, such as: ligand");
     const [word, values] = {
       hide: ["hide", { selection }], only: ["show", { selection }], zoom: ["zoom_to", { selection }],
+      outline: ["patches", { selection }],
       paint: ["paint", { selection, color: $("paint").value }], fade: ["opacity", { selection, opacity: 0.4 }],
       surface: ["object", { object: { selection, color: $("paint").value } }],
     }[act] ?? ["represent", { as: act, selection }];
@@ -124,6 +125,11 @@ export function figure_controls(command, say) {
       list.push(element("li", {}, element("span", { textContent: what }),
         remove_button(what, () => command("show"))));
     }
+    if (state.patches.selection !== null) {
+      const what = `patches of ${state.patches.selection}`;
+      list.push(element("li", {}, element("span", { textContent: what }),
+        remove_button(what, () => command("patches"))));
+    }
     state.representations.forEach(({ as, selection }, n) => list.push(chip(`${as}: ${selection}`, "representations", n)));
     state.objects.forEach((object, n) => list.push(object_chip(object, n)));
     (state.color.rules ?? []).forEach((rule, n) => {
@@ -166,7 +172,7 @@ export function figure_controls(command, say) {
 
   function show(state) {
     latest = state;
-    const shape = JSON.stringify([state.show, state.representations, state.objects.map((o) => [o.representation, o.selection]), state.color.rules, state.opacities.map((o) => o.selection),
+    const shape = JSON.stringify([state.show, state.patches.selection, state.representations, state.objects.map((o) => [o.representation, o.selection]), state.color.rules, state.opacities.map((o) => o.selection),
       state.cuts.map((plane) => plane.match(kPlane)?.slice(1, 3) ?? plane), state.views]);
     if (shape !== known) {
       known = shape;

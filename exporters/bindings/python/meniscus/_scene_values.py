@@ -57,6 +57,11 @@ class SurfaceValues(TypedDict, total=False):
     inner_lines: Text
     #: WIDTH: Width of lines where chains meet [--silhouettes]
     part_lines: Text
+    #: WIDTH: Width of the lines around --patches; 0: no lines [2.5 pixels of a picture of 960, wider in larger
+    #: ones]
+    patch_lines: Text
+    #: COLOR: Colour of the lines around --patches [black]
+    patch_line_color: Text
     #: F: Fade of the farthest atoms into the background, 0 to 1. A transparent background counts as white.
     #: Presets do not fade where colours show numbers, a legend explains them or a surface is seen through
     depth_cue: float
@@ -196,6 +201,11 @@ class SceneValues(SurfaceValues, total=False):
     probe: Text
     #: EXPR: Show only the surface of these atoms. It is still computed with all atoms
     show: Text
+    #: EXPR: Contiguous areas of these atoms: listed by meniscus surface, outlined in pictures. Such as
+    #: 'hydrophobicity > 1.5' or 'charge < -0.3'
+    patches: Text
+    #: Å²: Smallest area of a patch that is listed or outlined [10]
+    min_patch: float
     #: WORD: Split into objects: by chain, model, class, residue or component. chain, model, class (polymer,
     #: ligand, ...), residue: each has a surface as if it were alone; component: each closed part of the one
     #: surface
