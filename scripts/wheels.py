@@ -66,7 +66,7 @@ def version_of(pattern):
 
 
 def has_meniscus(target):
-    return target.endswith("linux")
+    return not target.endswith("windows")
 
 
 def parts(target):

@@ -16,6 +16,7 @@
 #include "app/farm/child_process.h"
 #include "app/options/scene_words.h"
 #include "core/base/error.h"
+#include "core/base/system_file.h"
 #include "core/base/text.h"
 #include "core/color/color_key.h"
 #include "core/queries/surface_object.h"
@@ -94,7 +95,7 @@ void make_film(Scene scene, const ExportTarget& target, const ExportWatch& watch
   check_output(target.path, target.existing);
   scene.output = target.path.string();
   std::vector<std::string> words = render_words(scene);
-  words.front() = std::filesystem::read_symlink("/proc/self/exe").string();
+  words.front() = system_file::program().string();
   words.insert(words.end(), {"-q", "--progress", "json"});
   if (target.existing == Existing::replace) words.emplace_back("--force");
   farm::ChildProcess child(words, ".");

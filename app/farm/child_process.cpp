@@ -3,6 +3,7 @@
 #include "app/farm/child_process.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -15,13 +16,15 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
 
 #include "app/process/program_error.h"
+#include "app/process/system_process.h"
+
+extern char** environ;
 
 namespace meniscus::farm {
 namespace {
@@ -53,7 +56,7 @@ void stay_if_stopping() {
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
   std::signal(SIGXFSZ, SIG_DFL);  // this program hears of a file too large otherwise; a foreign one may not listen
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  system_process::end_with_parent();
   const int nothing = ::open("/dev/null", O_RDONLY);
   // The parent may have died before the request above.
   if (::getppid() == parent && nothing >= 0 && ::dup2(nothing, STDIN_FILENO) >= 0 &&
@@ -80,14 +83,15 @@ std::string program_path(const std::string& name) {
 
 struct Pipe {
   Pipe() {
-    if (::pipe2(ends, O_CLOEXEC) != 0) throw CapacityError(fmt::format("no pipe to a child: {}", std::strerror(errno)));
+    if (!system_process::make_pipe(ends))
+      throw CapacityError(fmt::format("no pipe to a child: {}", std::strerror(errno)));
   }
   ~Pipe() {
     for (const int end : ends)
       if (end >= 0) ::close(end);
   }
   void close_writing() { ::close(std::exchange(ends[1], -1)); }
-  int ends[2] = {-1, -1};
+  std::array<int, 2> ends{-1, -1};
 };
 
 }  // namespace

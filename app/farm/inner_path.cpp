@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/system_file.h"
 #include "core/base/text.h"
 
 namespace meniscus::farm {
@@ -89,9 +90,8 @@ std::optional<std::string> inner_text(const fs::path& folder, const fs::path& in
 std::optional<FileTime> modified(const fs::path& path) {
   // Opening asks a server again; a mere look may be answered from memory (close-to-open consistency of NFS).
   const Descriptor file{::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)};
-  struct stat status {};
-  if (file.number < 0 || ::fstat(file.number, &status) != 0) return {};
-  return FileTime{1'000'000'000} * status.st_mtim.tv_sec + status.st_mtim.tv_nsec;
+  const std::optional<system_file::State> state = system_file::state_of(file.number);
+  return state ? std::optional<FileTime>(state->modified) : std::nullopt;
 }
 
 void check_places(const fs::path& folder) {

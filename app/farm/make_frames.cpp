@@ -14,14 +14,12 @@
 #include "app/farm/png_without_time.h"
 #include "core/trajectory/frame_list.h"
 #include "core/base/output_file.h"
+#include "core/base/system_file.h"
 
 namespace meniscus::farm {
 namespace {
 
 using Arguments = std::vector<std::string>;
-
-// This very program, whatever PATH says: the frames of a run must come from one version.
-std::string this_program() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
 
 // What the worker was told replaces what the bundle says. alone: one frame after another.
 Arguments device_words(const Step& step, const Workplace& place, bool alone) {
@@ -39,7 +37,8 @@ Arguments device_words(const Step& step, const Workplace& place, bool alone) {
 
 Arguments meniscus_command(const Bundle& bundle, const Step& step, const Workplace& place,
                            const std::vector<std::uint64_t>& frames, bool alone) {
-  Arguments command{this_program()};
+  // This very program, whatever PATH says: the frames of a run must come from one version.
+  Arguments command{system_file::program().string()};
   const Arguments checked = checked_command(bundle);
   command.insert(command.end(), checked.begin(), checked.end());
   const Arguments device = device_words(step, place, alone);

@@ -15,14 +15,13 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
-#include <sys/mman.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
 
 #include "app/process/program_error.h"
+#include "app/process/system_process.h"
 #include "core/base/error.h"
 #include "core/base/binary_file.h"
 
@@ -227,10 +226,10 @@ FilmWriter::FilmWriter(const std::string& path, Existing existing, glm::ivec2 si
   check_film_size(encoder, size);
   std::array<int, 2> ends{-1, -1};
   // A socket rather than a pipe: writing to an encoder that died is then an error, and no signal.
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
+  if (!system_process::make_connection(ends))
     throw OutputError(path, std::string("cannot connect to ffmpeg: ") + std::strerror(errno));
   pictures_ = ends[0];
-  complaints_ = ::memfd_create("ffmpeg", MFD_CLOEXEC);
+  complaints_ = system_process::make_nameless_file();
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
@@ -284,8 +283,7 @@ std::string FilmWriter::fault() const {
 
 void FilmWriter::add(std::span<const std::uint8_t> picture) {
   while (!picture.empty()) {
-    const ssize_t sent = ::send(pictures_, picture.data(), picture.size(), MSG_NOSIGNAL);
-    if (sent < 0 && errno == EINTR) continue;
+    const std::ptrdiff_t sent = system_process::send(pictures_, picture);
     if (sent <= 0) {
       end_pictures();
       const std::string why = fault();

@@ -3,6 +3,8 @@
 // implement it.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -40,5 +42,18 @@ ProcessorTime processor_time();
 
 /// The name of this machine; empty where it has none.
 std::string host();
+
+// What connects a child process, on Linux and macOS only. No other child inherits these; where one fails, `errno` says
+// why.
+
+/// The reading and the writing end.
+bool make_pipe(std::array<int, 2>& ends);
+/// An end for this process and one for a child. To send() to a child that is gone is an error and no signal.
+bool make_connection(std::array<int, 2>& ends);
+std::ptrdiff_t send(int end, std::span<const std::uint8_t> bytes);
+/// A file that has no name, to write and read; -1 if that fails.
+int make_nameless_file();
+/// In a child: has the system kill it when the thread that started it ends. macOS does not know that.
+void end_with_parent() noexcept;
 
 }  // namespace meniscus::system_process

@@ -10,11 +10,17 @@
 
 #include <fcntl.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <unistd.h>
+#if !defined(__APPLE__)
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#endif
 
 #include "app/process/program_error.h"
 #include "app/process/system_process.h"
 #include "core/base/error.h"
+#include "core/base/uninterrupted.h"
 
 namespace meniscus::system_process {
 
@@ -103,9 +109,8 @@ void tell(int signal) {
 // libraries such as OpenBLAS start threads before main begins, and one of these would end the program at once.
 void await_stop(void (*stopped)(int signal)) {
   std::signal(SIGXFSZ, SIG_IGN);
-  if (::pipe(told.data()) != 0)
+  if (!make_pipe(told))
     throw CapacityError(std::string("the system cannot make a pipe for signals: ") + std::strerror(errno));
-  for (const int end : told) ::fcntl(end, F_SETFD, FD_CLOEXEC);
   struct sigaction action {};
   action.sa_handler = tell;
   action.sa_flags = SA_RESTART;
@@ -135,6 +140,54 @@ ProcessorTime processor_time() {
 std::string host() {
   std::array<char, 256> name{};
   return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+}
+
+#if defined(__APPLE__)
+namespace {
+
+constexpr int kNoSignal = 0;
+bool is_closed_in_children(int file) { return ::fcntl(file, F_SETFD, FD_CLOEXEC) == 0; }
+
+}  // namespace
+
+bool make_pipe(std::array<int, 2>& ends) {
+  return ::pipe(ends.data()) == 0 && is_closed_in_children(ends[0]) && is_closed_in_children(ends[1]);
+}
+
+bool make_connection(std::array<int, 2>& ends) {
+  const int on = 1;
+  return ::socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()) == 0 && is_closed_in_children(ends[0]) &&
+         is_closed_in_children(ends[1]) && ::setsockopt(ends[0], SOL_SOCKET, SO_NOSIGPIPE, &on, sizeof on) == 0;
+}
+
+int make_nameless_file() {
+  char name[] = "/tmp/meniscus-XXXXXX";
+  const int file = ::mkostemp(name, O_CLOEXEC);
+  if (file >= 0) ::unlink(name);
+  return file;
+}
+
+void end_with_parent() noexcept {}
+#else
+namespace {
+
+constexpr int kNoSignal = MSG_NOSIGNAL;
+
+}  // namespace
+
+bool make_pipe(std::array<int, 2>& ends) { return ::pipe2(ends.data(), O_CLOEXEC) == 0; }
+
+bool make_connection(std::array<int, 2>& ends) {
+  return ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) == 0;
+}
+
+int make_nameless_file() { return ::memfd_create("meniscus", MFD_CLOEXEC); }
+
+void end_with_parent() noexcept { ::prctl(PR_SET_PDEATHSIG, SIGKILL); }
+#endif
+
+std::ptrdiff_t send(int end, std::span<const std::uint8_t> bytes) {
+  return uninterrupted([&] { return ::send(end, bytes.data(), bytes.size(), kNoSignal); });
 }
 
 }  // namespace meniscus::system_process

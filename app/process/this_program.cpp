@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "core/base/system_file.h"
 #include "core/base/text.h"
 
 namespace meniscus {
@@ -22,7 +23,7 @@ std::string& remembered() {
 
 std::filesystem::path addon_folder() {
   std::error_code none;
-  const fs::path program = fs::read_symlink("/proc/self/exe", none).parent_path();
+  const fs::path program = system_file::program().parent_path();
   const fs::path installed = program.parent_path() / "share/meniscus/addon", built = program / "share/meniscus/addon";
   return !fs::exists(installed, none) && fs::exists(built, none) ? built : installed;
 }

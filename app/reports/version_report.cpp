@@ -6,8 +6,10 @@
 #include <exception>
 #include <string_view>
 
-#include <gnu/libc-version.h>
 #include <sys/utsname.h>
+#if defined(__GLIBC__)
+#include <gnu/libc-version.h>
+#endif
 
 #include <CLI/Version.hpp>
 #include <fmt/format.h>
@@ -47,7 +49,11 @@ std::string answer_of(Ask ask) {
 std::string system_line() {
   utsname system{};
   ::uname(&system);
-  return fmt::format("{} {} {}, glibc {}", system.sysname, system.release, system.machine, ::gnu_get_libc_version());
+  std::string line = fmt::format("{} {} {}", system.sysname, system.release, system.machine);
+#if defined(__GLIBC__)
+  line += fmt::format(", glibc {}", ::gnu_get_libc_version());
+#endif
+  return line;
 }
 
 std::string libraries_line() {

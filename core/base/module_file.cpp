@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/system_file.h"
 
 namespace meniscus {
 namespace {
@@ -28,7 +29,7 @@ void require_room(const ModuleFile& module) {
 
 fs::path path_of(const ModuleFile& module) {
   std::error_code none;
-  const fs::path program = fs::read_symlink("/proc/self/exe", none).parent_path();
+  const fs::path program = system_file::program().parent_path();
   for (const fs::path& path :
        {program / module.name, program / "../lib/meniscus" / module.name, fs::path(module.built)})
     if (fs::exists(path, none)) return path;

@@ -62,8 +62,9 @@ void remove(const std::filesystem::path& path) noexcept;
 /// Waits a moment, also in a signal handler.
 void wait_a_millisecond() noexcept;
 
-/// The number of this process.
+/// The number of this process, and the file of its program, empty where the system does not tell.
 int process();
+std::filesystem::path program();
 
 }  // namespace system_file
 }  // namespace meniscus

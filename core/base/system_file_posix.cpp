@@ -3,7 +3,11 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#if defined(__APPLE__)
+#include <mach-o/dyld.h>
+#endif
 
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <ctime>
@@ -136,6 +140,17 @@ void wait_a_millisecond() noexcept {
 }
 
 int process() { return ::getpid(); }
+
+fs::path program() {
+  std::error_code none;
+#if defined(__APPLE__)
+  std::array<char, 4096> path{};
+  std::uint32_t size = path.size();
+  return ::_NSGetExecutablePath(path.data(), &size) == 0 ? fs::canonical(path.data(), none) : fs::path();
+#else
+  return fs::read_symlink("/proc/self/exe", none);
+#endif
+}
 
 }  // namespace system_file
 }  // namespace meniscus

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <climits>
 
@@ -170,6 +171,12 @@ void remove(const fs::path& path) noexcept {
 void wait_a_millisecond() noexcept { ::Sleep(1); }
 
 int process() { return ::_getpid(); }
+
+fs::path program() {
+  std::array<wchar_t, 32768> path{};  // no path is longer
+  const DWORD length = ::GetModuleFileNameW(nullptr, path.data(), static_cast<DWORD>(path.size()));
+  return fs::path(path.data(), path.data() + length);
+}
 
 }  // namespace system_file
 }  // namespace meniscus

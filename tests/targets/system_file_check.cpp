@@ -59,5 +59,7 @@ int main() {
   system_file::remove(other);
   EXPECT(!system_file::state_of_entry(other));
   write(path, "kept");
+
+  EXPECT(system_file::program().stem() == "system_file_check" && system_file::state_of(system_file::program()));
   return 0;
 }
