@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds libmeniscus and the drop-in programs for Linux, Windows and macOS, and but for Windows the program meniscus, without
-# GL and with PNG as its only format of pictures; runs them where this machine can, and compares the results of all.
+# Builds libmeniscus and the drop-in programs for Linux, Windows and macOS, and for Linux the program meniscus, without GL and
+# with PNG as its only format of pictures; runs them where this machine can, and compares the results of all.
 #
 #   scripts/targets.sh [--build-only] [TARGET...]
 #
@@ -116,17 +116,12 @@ build_libm() {
 # OpenSSL's library of ciphers, for checksums: without most of what else it can.
 build_openssl() {
   local folder=$target_folder/openssl kind=linux-${target%-linux}
-  case $target in
-    aarch64-macos) kind=darwin64-arm64-cc ;;
-    x86_64-macos) kind=darwin64-x86_64-cc ;;
-  esac
   mkdir -p "$folder"
   cd "$folder"
   CC="$zig cc -target $triple" AR="$zig ar" RANLIB="$zig ranlib" perl "$(source_of openssl)/Configure" "$kind" --release \
     --prefix=/usr --openssldir=/etc/ssl -fPIC -fvisibility=hidden -w \
     no-{shared,dso,module,engine,legacy,tests,ui-console,deprecated,autoload-config,async,sock,ssl,tls,dtls,srtp,srp,ct,ocsp,cms,cmp,ts} \
     no-{aria,bf,blake2,camellia,cast,cmac,des,dh,dsa,ec,gost,idea,md4,mdc2,ocb,poly1305,rc2,rc4,rmd160,scrypt,seed,siphash,siv,sm2,sm3,sm4,whirlpool}
-  sed -i -E 's/-arch [a-z0-9_]+//' Makefile  # zig has it in its -target
   make -j "$(nproc)" build_generated
   # Which compiler and when: not by this machine's paths and clock.
   SOURCE_DATE_EPOCH=0 perl "$(source_of openssl)/util/mkbuildinf.pl" "zig cc" "$kind" > crypto/buildinf.h
@@ -152,12 +147,12 @@ build_dependencies() {
     -DTBB_DISABLE_HWLOC_AUTOMATIC_SEARCH=ON
   with_cmake "$(source_of fmtlib)" -DFMT_TEST=OFF -DFMT_DOC=OFF
   with_cmake "$(source_of freetype)" -DFT_REQUIRE_ZLIB=ON -DFT_DISABLE_{BZIP2,PNG,HARFBUZZ,BROTLI}=ON
-  [[ $target == *windows ]] || build_openssl
+  [[ $target != *linux ]] || build_openssl
 }
 
 build_library() {
   local parts=(-DMENISCUS_APP=OFF -DMENISCUS_DROP_INS=ON)
-  [[ $target == *windows ]] || parts=(-DMENISCUS_APP=ON -DMENISCUS_{PREVIEW,IMAGES,HDF5}=OFF)
+  [[ $target != *linux ]] || parts=(-DMENISCUS_APP=ON -DMENISCUS_{PREVIEW,IMAGES,HDF5}=OFF)
   cmake -S "$root" -B "$target_folder/library" -G Ninja -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_TOOLCHAIN_FILE="$root/scripts/cmake/zig.cmake" -DMENISCUS_ZIG="$zig" -DMENISCUS_ZIG_TARGET="$triple" \
     -DCMAKE_FIND_ROOT_PATH="$prefix" -DCMAKE_PREFIX_PATH="$prefix" "${parts[@]}" -DMENISCUS_{TESTS,GL}=OFF \
@@ -234,7 +229,7 @@ for target in "${chosen[@]}"; do
   target_folder=$work/$target
   suffix=
   programs=(meniscus-msms meniscus-nanoshaper meniscus-pdb_to_xyzr)
-  [[ $target == *windows ]] || programs+=(meniscus)
+  [[ $target != *linux ]] || programs+=(meniscus)
   case $target in
     x86_64-linux) on_target=(env LD_LIBRARY_PATH=.) ;;
     aarch64-linux) on_target=(qemu-aarch64-static -L /usr/aarch64-linux-gnu -E LD_LIBRARY_PATH=.) ;;

@@ -66,7 +66,7 @@ def version_of(pattern):
 
 
 def has_meniscus(target):
-    return not target.endswith("windows")
+    return target.endswith("linux")
 
 
 def parts(target):

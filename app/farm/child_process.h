@@ -12,8 +12,8 @@
 
 namespace meniscus::farm {
 
-/// One child. Made and used by one thread that outlives it, since the kernel ends a child when the *thread* that
-/// started it ends; even kill -9 of this process leaves none behind.
+/// One child. Made and used by one thread that outlives it, since Linux ends a child when the *thread* that started it
+/// ends; even kill -9 of this process leaves none behind there.
 class ChildProcess {
  public:
   /// arguments[0] is the program, looked for in the absolute folders of PATH unless it has a slash; it runs in
