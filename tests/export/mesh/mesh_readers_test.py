@@ -235,6 +235,8 @@ class Contents(Case):
             np.testing.assert_allclose(frames[place], positions_of(vertices), rtol=1e-6, atol=1e-6)
             np.testing.assert_array_equal(usd_rows(text, "faceVertexIndices")[place].reshape(-1, 3), triangles)
             self.assertEqual(usd_rows(text, "velocities")[place].shape, frames[place].shape)
+        self.export("run_#.glb", *run)
+        self.assertEqual(sorted(path.name for path in self.folder.glob("run_*.glb")), ["run_0.glb", "run_2.glb", "run_4.glb"])
         self.export("run.glb", *run, code=2)
         self.export("run.usda", *run, "--only", "2", code=2)
 
