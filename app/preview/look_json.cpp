@@ -35,8 +35,8 @@ glm::vec3 color_at(const CommandReader& command, const char* key) {
   const std::string text = command.text(key);
   const std::optional<glm::vec3> color = parse_color(text);
   if (!color)
-    throw RequestError(fmt::format("look: \"{}\" is {}; it must be a colour's name such as grey, or #rrggbb", key,
-                                   in_quotes(text)));
+    throw RequestError(
+        fmt::format("look: \"{}\" is {}; it must be a colour's name such as grey, or #rrggbb", key, in_quotes(text)));
   return *color;
 }
 

@@ -38,8 +38,8 @@ struct Coloring {
   /// meet.
   std::vector<std::uint32_t> part{};
 
-  /// Empty, or whether each of Surface::atoms has a patch that is outlined: pictures have lines on the surface where the
-  /// points of atoms marked here meet those of others.
+  /// Empty, or whether each of Surface::atoms has a patch that is outlined: pictures have lines on the surface where
+  /// the points of atoms marked here meet those of others.
   std::vector<bool> in_patch{};
 
   /// What lines tell atoms apart by: kMarksOfPart times the part, and what finish.glsl takes for in and out of patches;

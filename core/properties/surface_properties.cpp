@@ -44,7 +44,7 @@ constexpr auto kTable = of_commands(
             .in_short_help()
             .of(kForFigures | for_mesh | for_pockets),
         text("surface.patches", "--patches", "EXPR",
-             "Contiguous areas of these atoms: listed by meniscus surface, outlined in pictures. Such as "
+             "Contiguous areas of these atoms, as a table or outlined in pictures. Such as "
              "'hydrophobicity > 1.5' or 'charge < -0.3'")
             .in(kSurface, kSeen | live)
             .in_short_help()

@@ -23,8 +23,8 @@ struct AtomPatch {
 std::vector<AtomPatch> atom_patches(const Surface& surface, const std::vector<bool>& chosen);
 
 /// Of the chosen atoms those that have a part of a patch of at least `least` Å², for pictures, which know of each point
-/// no more than its atom. An atom may have parts of several patches: a smaller one is taken too, whole, if an atom of it
-/// is. Likewise.
+/// no more than its atom. An atom may have parts of several patches: a smaller one is taken too, whole, if an atom of
+/// it is. Likewise.
 std::vector<bool> atoms_of_patches(const Surface& surface, std::vector<bool> chosen, double least);
 
 }  // namespace meniscus

@@ -142,8 +142,8 @@ std::string hue_changes(const LookRequest& request) {
   return text;
 }
 
-Look look_of(const LookRequest& request, glm::ivec2 picture_size, const std::optional<glm::vec3>& background,
-             Hues hues, bool outlines_patches) {
+Look look_of(const LookRequest& request, glm::ivec2 picture_size, const std::optional<glm::vec3>& background, Hues hues,
+             bool outlines_patches) {
   Look look = preset_look(request.preset, picture_size);
   if (hues == Hues::kept) keep_hues(look);
   if (hues == Hues::unfaded) look.depth_cue = 0.0f;

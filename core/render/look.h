@@ -181,7 +181,7 @@ std::string hue_changes(const LookRequest& request);
 
 /// background: nothing for a transparent one, in which what is far takes the colour of white paper. What the request
 /// says itself counts before `hues`. outlines_patches: without it there are no lines around any.
-Look look_of(const LookRequest& request, glm::ivec2 picture_size, const std::optional<glm::vec3>& background,
-             Hues hues, bool outlines_patches = false);
+Look look_of(const LookRequest& request, glm::ivec2 picture_size, const std::optional<glm::vec3>& background, Hues hues,
+             bool outlines_patches = false);
 
 }  // namespace meniscus

@@ -216,7 +216,7 @@ TEST_F(RenderCommand, PatchesAreOutlinedInPicturesAndViews) {
 TEST_F(RenderCommand, AViewRefusesWhatOnlyACompleteSurfaceKnows) {
   const std::vector<std::vector<std::string>> needs{
       {"--by", "chain"},        {"--by", "component"}, {"--cavities", "drop"},   {"--verify"},
-      {"--color", "component"}, {"--surface", "sas"},  {"--patches", "index 1"},  {"--aovs", "-o", "a.exr"}};
+      {"--color", "component"}, {"--surface", "sas"},  {"--patches", "index 1"}, {"--aovs", "-o", "a.exr"}};
   for (const auto& need : needs) {
     std::vector<std::string> arguments{"--extent", "visible"};
     arguments.insert(arguments.end(), need.begin(), need.end());

@@ -53,7 +53,8 @@ struct LookedAtBlock {
 #include "gpu_shaders/ray_cast/sheen.glsl"
 #include "gpu_shaders/look/finish.glsl"
 
-  /// Shares of a pixel that black lines cover, with the depth of what they outline, and that lines around patches cover.
+  /// Shares of a pixel that black lines cover, with the depth of what they outline, and that lines around patches
+  /// cover.
   struct Ink {
     real covered, depth, patched;
   };

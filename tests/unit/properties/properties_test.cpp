@@ -67,7 +67,8 @@ TEST(Properties, RangesAreThoseOfTheCode) {
     EXPECT_EQ(property_of(key).lowest, lowest) << key;
     EXPECT_EQ(property_of(key).highest, highest) << key;
   };
-  for (const char* lines : {"look.silhouettes", "look.outer_lines", "look.inner_lines", "look.part_lines", "look.patch_lines"})
+  for (const char* lines :
+       {"look.silhouettes", "look.outer_lines", "look.inner_lines", "look.part_lines", "look.patch_lines"})
     expect(lines, 0.0, kWidestSilhouette);
   expect("mesh.tolerance", kSmallestTolerance, kLargestTolerance);
   expect("pockets.tolerance", kSmallestTolerance, kLargestTolerance);

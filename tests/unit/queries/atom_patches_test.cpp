@@ -134,8 +134,9 @@ TEST(AtomPatches, LeavesOutAtomsOfSmallPatchesAlone) {
       const auto count = std::ranges::count_if(patch.atoms, [&](std::uint32_t atom) { return left[atom]; });
       EXPECT_TRUE(count == 0 || count == static_cast<std::ptrdiff_t>(patch.atoms.size())) << "whole or not at all";
       const bool shares = std::ranges::any_of(patches, [&](const AtomPatch& other) {
-        return &other != &patch &&
-               std::ranges::any_of(other.atoms, [&](std::uint32_t a) { return std::ranges::count(patch.atoms, a) > 0; });
+        return &other != &patch && std::ranges::any_of(other.atoms, [&](std::uint32_t a) {
+          return std::ranges::count(patch.atoms, a) > 0;
+        });
       });
       if (patch.area >= least) EXPECT_GT(count, 0);
       if (patch.area < least && !shares) EXPECT_EQ(count, 0);

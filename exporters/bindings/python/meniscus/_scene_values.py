@@ -201,8 +201,8 @@ class SceneValues(SurfaceValues, total=False):
     probe: Text
     #: EXPR: Show only the surface of these atoms. It is still computed with all atoms
     show: Text
-    #: EXPR: Contiguous areas of these atoms: listed by meniscus surface, outlined in pictures. Such as
-    #: 'hydrophobicity > 1.5' or 'charge < -0.3'
+    #: EXPR: Contiguous areas of these atoms, as a table or outlined in pictures. Such as 'hydrophobicity > 1.5'
+    #: or 'charge < -0.3'
     patches: Text
     #: Å²: Smallest area of a patch that is listed or outlined [10]
     min_patch: float
