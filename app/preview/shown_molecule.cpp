@@ -259,7 +259,7 @@ std::vector<bool> ShownMolecule::patch_marks(const PreviewFigure& figure) const 
   std::vector<AtomGroup> groups(1);  // that have a surface each: all, or what is copied together
   for (std::uint32_t a = 0; a < balls_.size(); ++a) groups[0].atoms.push_back(a);
   if (!structure_.instances.empty()) groups.clear();
-  for (const Instances& group : structure_.instances) groups.push_back({.atoms = group.atoms});
+  for (const Instances& group : structure_.instances) groups.push_back({{}, group.atoms});
   for (const AtomGroup& group : groups) {
     std::vector<Ball> balls;
     std::vector<bool> chosen;

@@ -71,6 +71,7 @@ void settle_selections(MoleculeRequest& molecule, RunRequest& run, const OtherSe
   if (others.figure) expressions.add(*others.figure);
   if (others.view) expressions.add(others.view->zoom_to, expressions.of_surface);
   if (others.motion) expressions.add(others.motion->follow, expressions.of_surface);
+  for (Selection* selection : others.of_atoms) expressions.of_surface.push_back(selection);
   expressions.keep_by_positions();
   const bool backbones = molecule.reading.secondary_structure;
   if (expressions.of_file.empty() && expressions.of_surface.empty() && !backbones)

@@ -2,6 +2,8 @@
 // --select-once: selections that depend on positions keep the atoms of the first frame in all frames of a run.
 #pragma once
 
+#include <vector>
+
 #include "core/camera/view_request.h"
 #include "core/scene/figure.h"
 #include "core/scene/frame_run.h"
@@ -15,6 +17,7 @@ struct OtherSelections {
   FigureRequest* figure = nullptr;
   ViewRequest* view = nullptr;
   CameraMotionRequest* motion = nullptr;
+  std::vector<Selection*> of_atoms{};  ///< of the surface
 };
 
 /// If RunRequest::select_once says so, all expressions that ask for positions are settled. Must come before anything is
