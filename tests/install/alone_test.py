@@ -14,7 +14,7 @@ PARTS = {"GEMMI": "gemmi (with PEGTL)", "ZLIB": "zlib", "GL": "epoxy", "JSON": "
 INCLUDE = re.compile(r'^\s*#\s*include\s+([<"])([^>"]+)[>"]', re.M)
 FREE = {"glm", "fmt", "tbb"}
 SYSTEM = {"cpuid.h", "stddef.h", "stdint.h", "sched.h", "fcntl.h", "unistd.h", "dlfcn.h", "sys/mman.h", "sys/stat.h", "sys/types.h", "sys/sysinfo.h", "immintrin.h",
-          "malloc.h", "quadmath.h", "linux/fs.h", "sys/syscall.h", "errno.h"}
+          "malloc.h", "quadmath.h", "linux/fs.h", "mach-o/dyld.h", "sys/syscall.h", "errno.h"}
 
 
 def configure(folder, *options):
