@@ -149,8 +149,8 @@ struct Grid {
   int most;       ///< of a side; larger molecules have wider squares
 };
 constexpr Grid kCoarse{0.75, 130}, kFine{0.3, 500};
-constexpr int kNear = 6;  // directions about the best one, to each side,
-constexpr double kNearStep = 0.035;  // radians from one to the next
+constexpr int kNear = 6;                  // directions about the best one, to each side,
+constexpr double kNearStep = 0.035;       // radians from one to the next
 constexpr double kLeastWidth = 2.0;       // Å, between balls that are wider by kClosed
 constexpr std::size_t kTriedAxes = 2000;  // over the sphere: 4.5 degrees from one to the next
 

@@ -18,8 +18,8 @@ ViewBasis open_side(std::span<const Ball> seen, std::span<const Ball> all);
 
 /// Axes of a picture along a straight channel, from the end that lies nearest to +z; the longest extent of `around`
 /// across the view lies horizontally. Of directions spread over the sphere the one along which the largest cylinder
-/// goes through what `around` encloses: as wide as none of `all` is in its way, as long as `around` has atoms on all its
-/// sides. Of those near it the middle is taken, each weighted by what is seen along it. Nothing where there is no
+/// goes through what `around` encloses: as wide as none of `all` is in its way, as long as `around` has atoms on all
+/// its sides. Of those near it the middle is taken, each weighted by what is seen along it. Nothing where there is no
 /// cylinder of 2 Å. around: at least one ball. all: with those of `around` among them. Directions are samples.
 std::optional<ViewBasis> channel_end(std::span<const Ball> around, std::span<const Ball> all);
 

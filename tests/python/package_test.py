@@ -471,6 +471,19 @@ class Pictures(unittest.TestCase):
             theirs = OpenImageIO.ImageInput.open(f"{folder}/a.png").read_image("uint8")
             np.testing.assert_array_equal(meniscus.Scene.read(path).render("cpu").pixels[..., :3], theirs)
 
+    def test_nothing_fades_where_a_surface_is_seen_through(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "a.pdb"
+            path.write_text("".join(f"ATOM  {n:5}  C   ALA A{n:4}    {3.0 * n:8.3f}   0.000{4.0 * n:8.3f}  1.00 10.00           C  \n" for n in range(1, 9)))
+
+            def drawn(**values):
+                return meniscus.Scene(path, size="80x60", background="white", view="y", **values).render("cpu").pixels.astype(int)
+
+            usual = drawn(opacity="0.4")
+            np.testing.assert_array_equal(usual, drawn(opacity="0.4", depth_cue=0))
+            self.assertGreater(abs(usual - drawn(opacity="0.4", depth_cue=0.35)).max(), 2)
+            self.assertGreater(abs(drawn() - drawn(depth_cue=0)).max(), 2)
+
     def test_notebooks_show_it(self):
         self.assertTrue(meniscus.surface(*chain(6))._repr_png_().startswith(b"\x89PNG"))
         self.assertIn("6 atoms", repr(meniscus.surface(*chain(6))))
