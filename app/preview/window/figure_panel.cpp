@@ -69,9 +69,6 @@ void FigurePanel::atoms() {
   if (ImGui::Button("hide") && !empty) link_.send({{"command", "hide"}, {"selection", selection_}});
   if (ImGui::Button("only") && !empty) link_.send({{"command", "show"}, {"selection", selection_}});
   same_line();
-  if (ImGui::Button("outline") && !empty) link_.send({{"command", "patches"}, {"selection", selection_}});
-  tooltip("A line around their contiguous areas");
-  same_line();
   if (ImGui::Button("paint") && !empty)
     link_.send({{"command", "paint"}, {"selection", selection_}, {"color", hex_color(paint_)}});
   Gui::mark("paint");
@@ -80,6 +77,8 @@ void FigurePanel::atoms() {
   same_line();
   if (ImGui::Button("see through") && !empty)
     link_.send({{"command", "opacity"}, {"selection", selection_}, {"opacity", 0.4}});
+  if (ImGui::Button("outline") && !empty) link_.send({{"command", "patches"}, {"selection", selection_}});
+  tooltip("A line around their contiguous areas");
   if (empty) ImGui::PopStyleVar();
 }
 
