@@ -292,7 +292,7 @@ class SceneValues(SurfaceValues, total=False):
     #: SIDE: Side that faces the viewer, such as front, top or left. front: the broad side; back, bottom, right;
     #: x, y, z: axes of the file; 1, 2, 3: axes of inertia, longest first; symmetry: along the axis of
     #: --assembly; symmetry-side: with that axis upright; open: from where the atoms of --zoom-to are hidden
-    #: least. A minus sign before it shows the opposite side [front]
+    #: least; channel: along a channel through them. A minus sign before it shows the opposite side [front]
     view: Text
     #: AXISANGLE: Turn the molecule about an axis by degrees: y90, x-30, z45. x points right, y up, z to the
     #: viewer. Repeatable, applied in this order
