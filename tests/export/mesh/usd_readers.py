@@ -77,7 +77,7 @@ def still_faults(folder, ending):
     faults = complaints(folder / f"still.{ending}")
     if UsdGeom.GetStageMetersPerUnit(stage) != 1 or UsdGeom.GetStageUpAxis(stage) != "Y":
         faults.append("units")
-    if [mesh.GetPrim().GetName() for mesh in meshes] != [f"chain_{c}" for c in "ACDEFGH"]:
+    if [mesh.GetPrim().GetName() for mesh in meshes] != [f"chain_{c}" for c in "DEFGHAC"]:
         faults.append(f"names {[mesh.GetPrim().GetName() for mesh in meshes]}")
     return faults + differences(meshes, Usd.TimeCode.Default(), *read_ply(folder / "still.ply"), 0.1)
 

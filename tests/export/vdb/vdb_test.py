@@ -94,7 +94,7 @@ class Vdb(unittest.TestCase):
     def test_what_cannot_be(self):
         self.assertIn("put # where", self.export("run.vdb", MODELS, "--frames", "0-2", code=2).stderr)
         self.assertIn("choose a larger --voxel", self.export("huge.vdb", UBIQUITIN, "--voxel", "0.01", "--band", "1000",
-                                                             code=7).stderr)
+                                                             code=5).stderr)
         self.assertFalse((self.folder / "huge.vdb").exists())
 
 
