@@ -173,6 +173,8 @@ Look look_between(const Look& from, const Look& to, double share) {
   widths(&Look::inner_lines);
   widths(&Look::part_lines);
   look.silhouettes = between(from.silhouettes, to.silhouettes, share);
+  look.patch_lines = between(from.patch_lines, to.patch_lines, share);
+  look.patch_line_color = color_between(from.patch_line_color, to.patch_line_color, share);
   look.line_step = between(from.line_step, to.line_step, share);
   look.background = color_between(from.background, to.background, share);
   const glm::vec3 light = between(glm::normalize(from.light_direction), glm::normalize(to.light_direction), share);
