@@ -264,7 +264,7 @@ class Hostile(FarmCase):
         """A new option of a command that can be bundled is looked at before it gets into bundles."""
         refused = {"--output", "--force", "--only", "--progress", "--save-camera", "--save-scene", "--scene", "--trust-scene", "--device",
                    "--threads", "--require-gpu", "--jobs", "--help", "--help-all", "--set", "--legend-file",
-                   "--codec", "--crf"}
+                   "--codec", "--crf", "--draft", "--resume"}
         manifest = json.loads((self.render / "bundle.json").read_text())
         names = set()
         for command in (("render",), ("export", "povray"), ("export", "blender"), ("export", "mitsuba"), ("export", "pbrt")):
