@@ -32,6 +32,7 @@
 #include "core/scene/scene_picture.h"
 #include "core/scene/scene_values.h"
 #include "core/scene/settled_selections.h"
+#include "core/trajectory/frame_list.h"
 
 namespace meniscus {
 namespace {
