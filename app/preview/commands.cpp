@@ -33,7 +33,7 @@ std::vector<Command> all_commands() {
       {"probe", {"radius"}, Effect::slide, set_probe},
       {"show", {"selection"}, Effect::edit, show},
       {"hide", {"selection"}, Effect::edit, hide},
-      {"patches", {"selection", "min_area"}, Effect::slide, set_patches},
+      {"patches", {"selection", "min_area"}, Effect::edit, set_patches},
       {"represent", {"as", "selection"}, Effect::edit, represent},
       {"object", {"object", "index"}, Effect::slide, put_object},
       {"hide_surface", {"on"}, Effect::edit, hide_surface},
