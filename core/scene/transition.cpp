@@ -204,7 +204,9 @@ Transition::Transition(Shot from, Shot to, const EglContext* context)
       balls_.push_back(ball);
     }
   }
-  is_steady_ = from_.shot.camera.projection == to_.shot.camera.projection &&
+  // Frames of a run have other atoms' places, whatever their scenes say.
+  const bool is_of_run = first.frames.asked() || second.frames.asked();
+  is_steady_ = !is_of_run && from_.shot.camera.projection == to_.shot.camera.projection &&
                look_between(from_.look, to_.look, 1.0) == look_between(to_.look, from_.look, 0.0) &&
                std::ranges::all_of(properties(),
                                    [&](const Property* property) {

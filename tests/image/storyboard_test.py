@@ -117,6 +117,14 @@ class Storyboards(unittest.TestCase):
             self.assertTrue((film[n] == pixels_of(self.folder / f"run_{n:02}.png")).all(), n)
         self.assertTrue((film[-1] == last).all())
 
+    def test_two_runs_of_the_same_frames_dissolve_from_last_to_first(self):
+        self.scene("run", "--frames", "all", "--color", "chain", molecule="run.pdb")
+        film = self.film("run.json", "run.json", "--transition", "0.04", "--ease", "even")
+        self.assertEqual(len(film), 3 + 1 + 3)
+        mean = 0.5 * linear(film[2]) + 0.5 * linear(film[4])
+        self.assertLess(abs(linear(film[3]) - mean).max(), 0.03)
+        self.assertGreater(abs(linear(film[2]) - linear(film[4])).max(), 0.1)
+
     def test_films_have_the_pictures_that_are_told(self):
         self.scene("one", "--color", "chain")
         self.scene("two", "--color", "red")
