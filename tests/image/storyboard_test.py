@@ -80,10 +80,13 @@ class Storyboards(unittest.TestCase):
     def test_what_is_no_number_dissolves(self):
         first = self.scene("one", "--color", "chain", "--projection", "orthographic", "--ambient", "1")
         last = self.scene("two", "--color", "red", "--sticks", "all", "--projection", "orthographic", "--ambient", "1")
-        film = self.film("one.json", "two.json", "--hold", "0", "--transition", "0.04", "--ease", "even")
-        self.assertEqual(len(film), 3)
-        mean = 0.5 * linear(first) + 0.5 * linear(last)
-        self.assertLess(abs(linear(film[1]) - mean).max(), 0.03)
+        film = self.film("one.json", "two.json", "--hold", "0", "--transition", "0.12", "--ease", "even")
+        self.assertEqual(len(film), 5)
+        def off(n, share):
+            return abs(linear(film[n]) - (1 - share) * linear(first) - share * linear(last)).max()
+        self.assertLess(off(2, 0.5), 0.03)
+        for n in (1, 3):
+            self.assertLess(off(n, n / 4), 0.1 * off(n, 1 - n / 4), n)
         self.assertGreater(abs(linear(first) - linear(last)).max(), 0.3)
 
     def test_a_cut_comes_from_outside_and_the_camera_goes_along(self):
