@@ -38,6 +38,7 @@ class BandFinder {
     DistanceBand band{voxel_, static_cast<float>(reach_), {}, {}};
     int size = largest_cube();
     std::vector<glm::ivec3> cubes;
+    cubes.reserve(8);
     for (int n = 0; n < 8; ++n) cubes.push_back(size * (corner(n) - 1));
     for (;; size /= 2) {
       std::vector<glm::ivec3> near = near_cubes(cubes, size, band.inside);
