@@ -37,7 +37,8 @@ mkdir -p "$sources"
 # ---- Tools and sources -------------------------------------------------------------------------------------------------
 tools=$work/tools
 [[ -x $tools/bin/python ]] || python3 -m venv "$tools"
-"$tools/bin/pip" install -q --disable-pip-version-check ziglang==0.15.2 lief
+compiler=ziglang==0.15.2
+"$tools/bin/pip" install -q --disable-pip-version-check "$compiler" lief
 zig=$("$tools/bin/python" -c 'import os, ziglang; print(os.path.join(os.path.dirname(ziglang.__file__), "zig"))')
 
 # Debian's sources, whatever lists of its own this machine has.
@@ -158,7 +159,8 @@ build_library() {
     -DCMAKE_FIND_ROOT_PATH="$prefix" -DCMAKE_PREFIX_PATH="$prefix" "${parts[@]}" -DMENISCUS_{TESTS,GL}=OFF \
     -DMENISCUS_LIBM="$prefix/lib/libmeniscus_libm.a" \
     -DMENISCUS_{GEMMI,ZLIB,JSON,DEFLATE,SCENES}=ON
-  ninja -C "$target_folder/library" meniscus_c "${programs[@]//-/_}"
+  # ccache sees a wrapper: this is what it compiles with, and for what.
+  CCACHE_COMPILERCHECK="string:$compiler $triple" ninja -C "$target_folder/library" meniscus_c "${programs[@]//-/_}"
 }
 
 # The library, the programs, and the one that writes the table of results, side by side in build/targets/TARGET.
