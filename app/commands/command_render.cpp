@@ -185,7 +185,7 @@ ImageSettings image_settings(const RenderCommand& command) {
   settings.dots_per_inch = scene.picture.dots_per_inch;
   settings.names_program = command.names_program;
   if (command.provenance) settings.command = command_line();
-  if (command.names_program && !scene.frames.asked()) settings.scene = scene_text(scene, "");
+  if (command.names_program && !scene.frames.asked()) settings.scene = scene_text(scene, "", *command.added);
   settings.made_of = command.made_of;
   return settings;
 }

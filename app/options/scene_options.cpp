@@ -316,21 +316,22 @@ void SceneOptions::check_table() const {
   }
 }
 
-SceneOutput::SceneOutput(const SceneCommand& command) {
+SceneOutput::SceneOutput(const SceneCommand& command) : command_(command) {
   if (command.save_scene.empty()) return;
   if (command.scene.molecule.file == "-")
     throw UsageError("--save-scene: a scene names its molecule's file, which standard input is not");
   file_.emplace(command.save_scene, command.existing());
-  file_->write(scene_text_beside(command.scene, command.save_scene));
 }
 
 void SceneOutput::commit() {
-  if (file_) file_->commit();
+  if (!file_) return;
+  file_->write(scene_text_beside(command_.scene, command_.save_scene, *command_.added));
+  file_->commit();
 }
 
-std::string scene_text_beside(const Scene& scene, const std::string& path) {
+std::string scene_text_beside(const Scene& scene, const std::string& path, std::span<const AddedFile> added) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
-  return scene_text(scene, folder.empty() ? "." : folder);
+  return scene_text(scene, folder.empty() ? "." : folder, added);
 }
 
 std::string cache_folder() {

@@ -4,7 +4,9 @@
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,6 +47,8 @@ struct SceneCommand {
   std::size_t jobs = 0;                 ///< frames that are made at once; 0: as cores and memory allow
   bool force = false;                   ///< outputs replace what is there
   std::string save_scene, save_camera;  ///< paths; empty: it is not saved
+  /// Files that were added to the molecule when it was read, for scenes that are saved. Copies of the command share it.
+  std::shared_ptr<std::vector<AddedFile>> added = std::make_shared<std::vector<AddedFile>>();
 
   Existing existing() const { return force ? Existing::replace : Existing::refuse; }
 };
@@ -116,16 +120,17 @@ class SceneOutput {
  public:
   /// Fails before any work is done if it cannot be written: throws OutputError, UsageError for a molecule from standard
   /// input.
-  explicit SceneOutput(const SceneCommand& command);
+  explicit SceneOutput(const SceneCommand& command);  ///< must live as long
   /// Once the work is done.
   void commit();
 
  private:
+  const SceneCommand& command_;
   std::optional<OutputFile> file_;
 };
 
-/// The scene with paths as seen from the folder of `path`, where it is to be saved.
-std::string scene_text_beside(const Scene& scene, const std::string& path);
+/// The scene with paths as seen from the folder of `path`, where it is to be saved. added: as for scene_text().
+std::string scene_text_beside(const Scene& scene, const std::string& path, std::span<const AddedFile> added = {});
 
 /// Where indices of frames and compiled kernels are kept: beside other caches of the user, or nowhere.
 std::string cache_folder();

@@ -122,6 +122,8 @@ std::string scene_schema() {
     if (const std::string name(key.name); !object.contains(name)) object[name] = described(*key.property);
   object["selection"] = {{"type", "string"}, {"description", "The atoms of the object"}};
   object["representation"] = {{"enum", {"surface", "sticks", "balls", "spheres", "tube", "bases", "glycans"}}};
+  sections["superposed"] = {{"type", "array"},
+                            {"description", "Files that were superposed, with atoms and RMSD; ignored"}};
   sections["objects"] = {{"type", "array"}, {"items", strict(object)}};
   Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Meniscus scene"}};
   const Json body = strict(sections);

@@ -128,7 +128,7 @@ Scene shown_scene(const CommandReader& command, const Surroundings& around) {
 std::string scene_of(const CommandReader& command, const Surroundings& around) {
   if (!around.exporter.context.scene || around.molecule.has_trajectory()) return {};  // frames of a run carry none
   try {
-    return scene_text(shown_scene(command, around), "");
+    return scene_text(shown_scene(command, around), "", around.molecule.structure().added);
   } catch (const RequestError&) {
     return {};  // render cannot make this view
   }
@@ -209,7 +209,8 @@ Json save_scene(const CommandReader& command, const Surroundings& around) {
     throw RequestError(fmt::format("save: \"path\" is {}; a scene's name must end in .json", in_quotes(name)));
   const ExportTarget target = target_of(command, exporter.folder);
   OutputFile file(target.path, target.existing);
-  file.write(scene_text(shown_scene(command, around), target.path.parent_path().string()));
+  file.write(
+      scene_text(shown_scene(command, around), target.path.parent_path().string(), around.molecule.structure().added));
   file.commit();
   around.exporter.saved = around.state.edition;
   return {{"path", target.path.string()}};

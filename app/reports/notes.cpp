@@ -22,6 +22,7 @@ namespace {
 void tell_structure(const SceneCommand& command, const Structure& structure) {
   say(command, fmt::format("{}: {}", structure.file, structure.report.sentence()));
   for (const AddedFile& added : structure.added) say(command, added.sentence());
+  *command.added = structure.added;
   if (command.scene.molecule.color.uses(ColorScheme::By::plddt))
     say(command, fmt::format("{}: pLDDT is that of {}", structure.file, source_of_confidence(structure)));
   say_warnings(command, structure);

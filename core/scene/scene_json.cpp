@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
@@ -22,6 +23,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kVersionKey = "meniscus_scene";
+constexpr const char* kSuperposedKey = "superposed";  // for readers: it sets nothing
 constexpr int kVersion = 1;
 /// Representations of objects that have a property of their own.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kShapes{{{"sticks", "figure.sticks"},
@@ -39,7 +41,7 @@ class SceneParser {
   std::vector<SceneSetting> parse(std::string_view text) {
     const Json scene = json_of(text);
     for (const auto& [section, value] : scene.items()) {
-      if (section == kVersionKey || section == "objects") continue;
+      if (section == kVersionKey || section == kSuperposedKey || section == "objects") continue;
       check_section(section);
       if (!value.is_object()) fail(section, "is not a JSON object {...}");
       for (const auto& [key, own] : value.items())
@@ -173,7 +175,7 @@ std::vector<SceneSetting> parse_scene(std::string_view json, const std::string& 
   return SceneParser(file).parse(json);
 }
 
-std::string scene_text(const Scene& scene, const std::string& folder) {
+std::string scene_text(const Scene& scene, const std::string& folder, std::span<const AddedFile> added) {
   Json sections;
   Json objects = Json::array({{{"representation", "surface"}}});
   for (const Property* property : properties()) {
@@ -194,6 +196,12 @@ std::string scene_text(const Scene& scene, const std::string& folder) {
   ordered["objects"] = std::move(objects);
   for (const auto& [section, keys] : sections.items())
     if (!ordered.contains(section)) ordered[section] = keys;
+  for (const AddedFile& file : added)
+    if (file.fit)
+      ordered[kSuperposedKey].push_back({{"file", std::filesystem::path(file.file).filename().string()},
+                                         {"model", file.model},
+                                         {"atoms", file.fit->atoms},
+                                         {"rmsd", file.fit->rmsd}});
   return ordered.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -2,12 +2,14 @@
 // Scenes as JSON, both ways: {"meniscus_scene": 1, SECTION: {KEY: VALUE, ...}, ..., "objects": [...]}.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/properties/properties.h"
 #include "core/scene/scene.h"
+#include "core/structure/structure.h"
 
 namespace meniscus {
 
@@ -24,7 +26,8 @@ struct SceneSetting {
 std::vector<SceneSetting> parse_scene(std::string_view json, const std::string& file);
 
 /// The scene as a file has it, ending with a newline: what differs from Scene{}. folder: from which paths are seen;
-/// empty: files by their names alone, and no output.
-std::string scene_text(const Scene& scene, const std::string& folder);
+/// empty: files by their names alone, and no output. added: the files that were superposed when the scene was drawn,
+/// with atoms and RMSD as "superposed", which parse_scene passes over.
+std::string scene_text(const Scene& scene, const std::string& folder, std::span<const AddedFile> added = {});
 
 }  // namespace meniscus

@@ -95,6 +95,10 @@ TEST_F(AddedFiles, AreInEveryDoorOfAScene) {
   const Json scene = Json::parse(read_bytes(path("scene.json")));
   EXPECT_EQ(scene["molecule"]["add"], Json::array({"moved.pdb"}));
   EXPECT_EQ(scene["molecule"]["superpose_on"], "name CA");
+  EXPECT_EQ(scene["superposed"][0]["file"], "moved.pdb");
+  EXPECT_EQ(scene["superposed"][0]["atoms"], 76);
+  EXPECT_LT(scene["superposed"][0]["rmsd"], 1e-3);
+  EXPECT_NE(read_bytes(path("a.png")).find("\"superposed\""), std::string::npos);
   const ProgramResult again =
       meniscus({"render", "--scene", path("scene.json"), "--trust-scene", "-o", path("b.png"), "-q"});
   ASSERT_EQ(again.exit_code, 0) << again.err;
