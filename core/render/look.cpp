@@ -124,11 +124,11 @@ Look preset_look(LookPreset preset, glm::ivec2 picture_size) {
 
 std::span<const LookNumber> look_numbers() { return kNumbers; }
 
-Hues hues_of(const ColorScheme& color, bool legend) {
+Hues hues_of(const ColorScheme& color, bool legend, bool looks_inside) {
   if (legend || color.uses_scale()) return Hues::kept;
   const bool seen_through = std::ranges::any_of(
       color.opacities, [](const OpacityRule& rule) { return rule.opacity > 0.0f && rule.opacity < 1.0f; });
-  return seen_through ? Hues::unfaded : Hues::free;
+  return seen_through || looks_inside ? Hues::unfaded : Hues::free;
 }
 
 std::string hue_changes(const LookRequest& request) {

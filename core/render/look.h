@@ -172,8 +172,9 @@ std::span<const LookNumber> look_numbers();
 enum class Hues : std::uint8_t { free, kept, unfaded };
 
 /// Kept where colours stand for numbers, or a legend explains them; unfaded where a surface is seen through, which
-/// covers what lies in it already.
-Hues hues_of(const ColorScheme& color, bool legend);
+/// covers what lies in it already, or cut so that some atoms are seen, which are looked for in its depth
+/// (looks_inside).
+Hues hues_of(const ColorScheme& color, bool legend, bool looks_inside);
 
 /// What of the request lets colours change in more than lightness all the same: words for a message, such as
 /// "--depth-cue fades them"; empty: nothing.

@@ -41,7 +41,8 @@ RenderSettings render_settings(const Scene& scene, const PictureLayout& layout) 
   settings.samples = scene.image.samples;
   settings.aovs = scene.image.aovs;
   settings.look = look_of(scene.look, scene.picture.size(), scene.image.background,
-                          hues_of(scene.molecule.color, scene.legend.asked()), scene.molecule.patches.has_value());
+                          hues_of(scene.molecule.color, scene.legend.asked(), uses_atoms(scene.figure.cuts)),
+                          scene.molecule.patches.has_value());
   return settings;
 }
 

@@ -478,7 +478,7 @@ TEST(LookOfASeenThroughSurface, HasNoDepthCueUnlessItIsAskedFor) {
   const auto look = [](std::initializer_list<const char*> opacities, const LookRequest& request = {}) {
     ColorScheme color;
     for (const char* rule : opacities) color.opacities.push_back(parse_opacity_rule(rule));
-    return look_of(request, {640, 480}, {}, hues_of(color, false));
+    return look_of(request, {640, 480}, {}, hues_of(color, false, false));
   };
   const Look opaque = look({});
   EXPECT_GT(opaque.depth_cue, 0.0f);

@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/scene/scene_picture.h"
+#include "core/scene/scene_values.h"
 
 namespace meniscus {
 namespace {
@@ -108,6 +110,22 @@ TEST(CutByAtoms, SaysWhatItLeavesHidden) {
   const std::vector<std::string> said = idle_cuts(cuts, cut_atoms(cuts, structure), {camera(), balls, balls}, balls);
   ASSERT_EQ(said.size(), 1u);
   EXPECT_TRUE(said.front().starts_with("before resn LIG leaves them ")) << said.front();
+}
+
+// What a surface is cut for lies deep, and shall not fade.
+TEST(LookOfAPocket, HasNoDepthCueUnlessItIsAskedFor) {
+  const auto depth_cue = [](const char* clip, const LookRequest& request = {}) {
+    Scene scene;
+    scene.look = request;
+    set_value(scene, property_of("surface.clip"), std::vector<std::string>{clip});
+    return render_settings(scene, PictureLayout(scene, {})).look.depth_cue;
+  };
+  EXPECT_EQ(depth_cue("before ligand"), 0.0f);
+  EXPECT_EQ(depth_cue("through ligand"), 0.0f);
+  EXPECT_GT(depth_cue("depth>0.5"), 0.0f);
+  LookRequest asked;
+  asked.depth_cue = 0.2f;
+  EXPECT_EQ(depth_cue("before ligand", asked), 0.2f);
 }
 
 }  // namespace
