@@ -12,7 +12,7 @@ constexpr unsigned kLook = kShared | live;
 constexpr std::string_view kLight = "Light", kLines = "Lines";
 
 constexpr auto kTable = of_commands(
-    for_render | for_preview,
+    for_render | for_preview | for_page,
     std::to_array<Property>({
         word("look.preset", "--preset", "WORD",
              "Look: publication, cover, flat, soft or classic. publication: shade, thin lines, colours as given; "
@@ -60,6 +60,7 @@ constexpr auto kTable = of_commands(
                "where it is in films. 0: from the picture alone")
             .from(0, 4096)
             .initially("0")
+            .of(for_render | for_preview)
             .in(kLight, kLook),
         number("look.shadows", "--shadows", "F",
                "Darkness of shadows that the lamp casts, 0 (none) to 1. What is seen through casts none")
@@ -97,9 +98,11 @@ constexpr auto kTable = of_commands(
         text("look.patch_lines", "--patch-lines", "WIDTH", "Width of the lines around --patches; 0: no lines")
             .from(0, 16)
             .initially("2.5 pixels of a picture of 960, wider in larger ones")
+            .of(for_render | for_preview)
             .in(kLines, kLook),
         text("look.patch_line_color", "--patch-line-color", "COLOR", "Colour of the lines around --patches")
             .initially("black")
+            .of(for_render | for_preview)
             .in(kLines, kLook),
         number("look.depth_cue", "--depth-cue", "F",
                "Fade of the farthest atoms into the background, 0 to 1. A transparent background counts as white. "
@@ -112,6 +115,7 @@ constexpr auto kTable = of_commands(
         flag("look.linear_alpha", "--linear-alpha",
              "Make transparent edges for programs that blend in linear light. Without it .png and .tif pictures look "
              "right on a page")
+            .of(for_render | for_preview)
             .in("Picture", kLook | rare),
         text("look.material", "--material", "WORD", "Material of the surface")
             .in(kLight, kShared)

@@ -69,7 +69,7 @@ constexpr auto kTable = std::to_array<Property>({
     new_file("output.file", "-o,--output", "PATH", "Output file or folder")
         .in(kOutput, in_scene)
         .in_short_help()
-        .of(for_render | for_panels | for_film | for_morph | kForExports | for_mesh | for_atoms | for_vdb),
+        .of(for_render | for_panels | for_film | for_morph | kForExports | for_mesh | for_atoms | for_vdb | for_page),
     flag("output.force", "--force", "Replace an output that already exists")
         .in(kOutput)
         .in_short_help()
@@ -90,7 +90,7 @@ constexpr auto kTable = std::to_array<Property>({
     new_file("scene.save", "--save-scene", "FILE", "Save these options as a scene file")
         .in(kScene)
         .in_short_help()
-        .of(for_render | kForExports | for_mesh | for_vdb),
+        .of(for_render | kForExports | for_mesh | for_vdb | for_page),
 });
 
 }  // namespace

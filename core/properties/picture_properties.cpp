@@ -51,19 +51,19 @@ constexpr auto kTable = of_commands(
             .excludes("camera.from|camera.view|camera.zoom_to"),
         file("camera.path", "--camera-path", "FILE", "JSON file of key frames (frame, camera) of a moving camera")
             .in(kCamera, kShared)
-            .of(kForFigures & ~for_preview)
+            .of(kForFigures & ~(for_preview | for_page))
             .excludes("camera.from|camera.view|camera.turn|camera.zoom_to"),
         number("camera.turntable", "--turntable", "TURNS",
                "Turns of the camera around the molecule over the run. Negative numbers turn the other way")
             .in(kCamera, kShared)
             .in_short_help()
-            .of(kForFigures & ~for_preview),
+            .of(kForFigures & ~(for_preview | for_page)),
         text("camera.follow", "--follow", "EXPR", "Move the camera with the centre of these atoms")
             .in(kCamera, kShared)
-            .of(kForFigures & ~for_preview),
+            .of(kForFigures & ~(for_preview | for_page)),
         new_file("camera.save", "--save-camera", "FILE", "Save the camera as JSON, for --camera")
             .in(kCamera)
-            .of(for_render | for_povray | for_path_tracers),
+            .of(for_render | for_povray | for_path_tracers | for_page),
 
         text("image.size", "--size", "WxH", "Size of the picture in pixels")
             .initially("1280x960")
@@ -95,7 +95,7 @@ constexpr auto kTable = of_commands(
             .initially("transparent")
             .in(kPicture, kShared | live)
             .in_short_help()
-            .of(kForPictures),
+            .of(kForPictures | for_page),
         flag("image.aovs", "--aovs",
              "Add depth, normals, positions and atoms to an .exr. Channels: Z, N.xyz, P.xyz, atom, kind and component "
              "at each pixel's centre")

@@ -54,10 +54,11 @@ enum CommandBit : unsigned {
   for_panels = 2048,
   for_morph = 4096,
   for_film = 8192,
-  for_vdb = 16384
+  for_vdb = 16384,
+  for_page = 32768
 };
 inline constexpr unsigned kForExports = for_povray | for_blender | for_path_tracers;  ///< of figures
-inline constexpr unsigned kForFigures = for_render | for_preview | kForExports;
+inline constexpr unsigned kForFigures = for_render | for_preview | kForExports | for_page;
 inline constexpr unsigned kForPictures = for_render | for_preview | for_panels | for_film;
 inline constexpr unsigned kForRuns = for_surface | for_pockets | kForFigures | for_mesh | for_atoms | for_vdb;
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr unsigned kShared = in_scene | in_bundle;
 constexpr unsigned kSeen = in_scene | in_bundle | needs_support;
-constexpr unsigned kForParts = for_surface | for_render | kForExports | for_mesh;
+constexpr unsigned kForParts = for_surface | for_render | kForExports | for_mesh | for_page;
 constexpr unsigned kForColours = kForFigures | for_mesh | for_atoms;
 constexpr std::string_view kSurface = "Surface", kColour = "Colour", kFigure = "Figure", kBeside = "Beside the surface",
                            kDevice = "Computing";
@@ -87,7 +87,7 @@ constexpr auto kTable = of_commands(
             .of((kForRuns & ~for_preview) | for_bench | for_panels | for_film),
         flag("surface.verify", "--verify", "Compute on GPU and CPU, and report every difference")
             .in(kDevice, in_bundle)
-            .of(for_surface | for_render | kForExports | for_mesh | for_atoms | for_vdb | for_bench),
+            .of(for_surface | for_render | kForExports | for_mesh | for_atoms | for_vdb | for_page | for_bench),
 
         text("surface.color", "--color", "SCHEME",
              "Colour: a scheme, a colour (red, #rrggbb), or EXPR=COLOR. Schemes: element, element-cpk (darker), "

@@ -9,10 +9,7 @@ layout(rgba8, binding = 0) uniform writeonly image2D presented;
 
 layout(std140, binding = 0) uniform Parameters { PresentParameters params; };
 
-vec3 srgb_from_linear(vec3 c) {
-  c = clamp(c, 0.0, 1.0);
-  return mix(1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, c * 12.92, lessThanEqual(c, vec3(0.0031308)));
-}
+#include "gpu_shaders/look/srgb.glsl"
 
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rectangle of tiles that a bounding sphere may touch; a little too large rather than too small.
+// The rectangle of pixels, and of tiles, that a bounding sphere may touch; a little too large rather than too small.
 // GLSL and, as the body of a struct, C++ (core/render/cpu); to be included below the block `params` of TileListParameters.
 #ifndef MENISCUS_RAY_CAST_BOUND_FOOTPRINT_GLSL
 #define MENISCUS_RAY_CAST_BOUND_FOOTPRINT_GLSL
@@ -13,13 +13,14 @@ ivec2 tile_range(vec2 pixels, int tile_count) {
   return ivec2(clamp(edge, vec2(0.0), vec2(float(tile_count))));
 }
 
-// x and y of the rectangle [low, high) as (x_low, x_high, y_low, y_high); empty if nothing is in front of the camera.
-ivec4 bound_footprint(vec4 bound) {
+// x and y of the rectangle in pixels as (x_low, x_high, y_low, y_high); low above high if nothing is in front of the
+// camera.
+vec4 bound_pixels(vec4 bound) {
   float x = dot(vec3(bound), params.right);
   float y = -dot(vec3(bound), params.up);
   float z = params.eye_distance + dot(vec3(bound), params.forward);
   float radius = bound.w + 1e-6 * (bound.w + length(vec3(bound)));
-  if (z + radius + 1e-6 * params.eye_distance < 0.0) return ivec4(0);
+  if (z + radius + 1e-6 * params.eye_distance < 0.0) return vec4(1.0, 0.0, 1.0, 0.0);
   vec2 slopes_x = vec2(x - radius, x + radius);
   vec2 slopes_y = vec2(y - radius, y + radius);
   float scale = params.pixels_per_angstrom;
@@ -28,8 +29,15 @@ ivec4 bound_footprint(vec4 bound) {
     slopes_y = tangent_slopes(y, z, radius);
     scale *= params.eye_distance;
   }
-  return ivec4(tile_range(params.block_center.x + slopes_x * scale, params.tiles.x),
-               tile_range(params.block_center.y + slopes_y * scale, params.tiles.y));
+  return vec4(params.block_center.x + slopes_x * scale, params.block_center.y + slopes_y * scale);
+}
+
+// x and y of the rectangle [low, high) of tiles, likewise; empty if nothing is in front of the camera.
+ivec4 bound_footprint(vec4 bound) {
+  vec4 pixels = bound_pixels(bound);
+  if (pixels.x > pixels.y) return ivec4(0);
+  return ivec4(tile_range(vec2(pixels.x, pixels.y), params.tiles.x),
+               tile_range(vec2(pixels.z, pixels.w), params.tiles.y));
 }
 
 #endif

@@ -1,0 +1,69 @@
+#version 300 es
+// SPDX-License-Identifier: BSD-3-Clause
+// Where a pixel's ray meets a primitive: the nearest point wins by its depth. TORI or SHAPES is defined for these kinds; else
+// it is a clipped sphere.
+#ifdef GL_EXT_conservative_depth
+#extension GL_EXT_conservative_depth : enable
+#endif
+#include "gpu_shaders/webgl/scene.glsl"
+
+#ifdef GL_EXT_conservative_depth
+layout(depth_greater) out highp float gl_FragDepth;
+#endif
+
+flat in uint index;
+flat in vec4 bound;
+uniform vec2 depth_range;  // as in footprint.vert
+layout(location = 0) out uvec2 found;  // t as bits, primitive
+
+bool on_patch(Primitive primitive, vec3 x, float radius) {
+  uint end = primitive.first_row + 1u + primitive.plane_count;
+  for (uint i = primitive.first_row + 1u; i < end; ++i) {
+    vec4 plane = row(i);
+    if (!in_half_space(x, plane.xyz, plane.w, params.slack)) return false;
+  }
+  return shows_sphere_point(primitive, x, radius);
+}
+
+float meet_clipped_sphere(Primitive primitive, PixelRay ray, float from) {
+  vec4 place = row(primitive.first_row);
+  SphereMeeting meeting = meet_sphere(place, ray.p, ray.d);
+  if (!meeting.found) return kMiss;
+  if (meeting.near_t > from && on_patch(primitive, meeting.near_point, place.w)) return meeting.near_t;
+  if (meeting.far_t > from && on_patch(primitive, meeting.far_point, place.w)) return meeting.far_t;
+  return kMiss;
+}
+
+float meet_torus(uint torus, PixelRay ray, float from) {
+  TorusPatch saddle = load_torus(torus);
+  LocalRay local = to_torus(saddle, ray.p, ray.d);
+  local.low = max(local.low, from - local.shift);
+  if (!goes_towards_torus(local, kMiss)) return kMiss;
+  return hit_torus(saddle, local);
+}
+
+float meet_shape(Primitive primitive, PixelRay ray, float from) {
+  if (primitive.kind == kCylinder) {
+    CylinderMeeting meeting = meet_cylinder(primitive, ray.p, ray.d);
+    if (meeting.near_found && meeting.near_t > from) return meeting.near_t;
+    return meeting.far_found && meeting.far_t > from ? meeting.far_t : kMiss;
+  }
+  TriangleHit hit = meet_triangle(primitive, ray.p, ray.d);
+  return hit.found && hit.t > from ? hit.t : kMiss;
+}
+
+void main() {
+  PixelRay ray = pixel_ray(ivec2(gl_FragCoord.xy));
+  if (misses_bound(bound.xyz, bound.w, ray.p, ray.d, ray.eye_t, 0.0, kMiss)) discard;
+  float from = ray.eye_t;
+#if defined(TORI)
+  float t = meet_torus(index, ray, from);
+#elif defined(SHAPES)
+  float t = meet_shape(load_primitive(index), ray, from);
+#else
+  float t = meet_clipped_sphere(load_primitive(index), ray, from);
+#endif
+  if (t == kMiss) discard;
+  found = uvec2(floatBitsToUint(t), index);
+  gl_FragDepth = clamp((t - ray.eye_t - depth_range.x) / (depth_range.y - depth_range.x), 0.0, 1.0);
+}

@@ -1,0 +1,36 @@
+#version 300 es
+// SPDX-License-Identifier: BSD-3-Clause
+// The rectangle of pixels that a primitive's bound may touch, at the depth where it begins. The picture's top row is the
+// lowest of the target.
+#include "gpu_shaders/webgl/tables.glsl"
+
+TileListParameters params;  // of the one block that is the picture
+#include "gpu_shaders/ray_cast/bound_footprint.glsl"
+
+in uint primitive;  // its number
+uniform vec2 depth_range;  // distances from the eye that depths begin and end at, Å
+flat out uint index;
+flat out vec4 bound;  // from where the records count
+
+void main() {
+  params.right = view.right;
+  params.eye_distance = view.eye_distance;
+  params.up = view.up;
+  params.pixels_per_angstrom = 1.0 / view.pixel_size;
+  params.forward = view.forward;
+  params.orthographic = view.orthographic;
+  params.block_center = 0.5 - view.first_offset;
+  index = primitive;
+  bound = uintBitsToFloat(entry(primitive_texels, 3u * primitive));
+  vec3 center = bound.xyz - pivot;
+  vec4 pixels = bound_pixels(vec4(center, bound.w));
+  float depth = view.orthographic != 0u ? view.eye_distance + dot(center, view.forward)
+                                        : length(center + view.forward * view.eye_distance);
+  float nearest = depth - bound.w - 1e-5 * depth;
+  float z = clamp((nearest - depth_range.x) / (depth_range.y - depth_range.x), 0.0, 1.0);
+  vec2 x = clamp(2.0 * (pixels.xy + vec2(-0.5, 0.5)) / float(view.size.x) - 1.0, -1.0, 1.0);
+  vec2 y = clamp(2.0 * (pixels.zw + vec2(-0.5, 0.5)) / float(view.size.y) - 1.0, -1.0, 1.0);
+  bool shown = pixels.x <= pixels.y;
+  vec2 corner = vec2((gl_VertexID & 1) == 0 ? x.x : x.y, (gl_VertexID & 2) == 0 ? y.x : y.y);
+  gl_Position = shown ? vec4(corner, 2.0 * z - 1.0, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
+}

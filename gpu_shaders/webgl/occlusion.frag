@@ -1,0 +1,22 @@
+#version 300 es
+// SPDX-License-Identifier: BSD-3-Clause
+// How much of the sky each point sees.
+#include "gpu_shaders/webgl/sample_texels.glsl"
+
+uniform usampler2D map_texels;  // points.frag's normals and depths of the first sample
+layout(std140) uniform Parameters { OcclusionParameters occlusion; };
+layout(location = 0) out uvec4 visibility;  // as bits
+
+// Outside of the map there is nothing.
+float map_depth_or_nothing(ivec2 texel) {
+  if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, occlusion.map_size))) return kNothing;
+  return uintBitsToFloat(texelFetch(map_texels, texel, 0).w);
+}
+
+#include "gpu_shaders/look/occlusion.glsl"
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  float depth = depth_at(pixel);
+  visibility = uvec4(floatBitsToUint(depth == kNothing ? 1.0 : sky_visibility(pixel, depth)));
+}

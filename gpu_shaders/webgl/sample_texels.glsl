@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Fetches what points.frag wrote, under the names that the shared sources of the look ask for.
+#ifndef MENISCUS_WEBGL_SAMPLE_TEXELS_GLSL
+#define MENISCUS_WEBGL_SAMPLE_TEXELS_GLSL
+#include "gpu_shaders/webgl/tables.glsl"
+#include "gpu_shaders/look/parameters.glsl"
+
+uniform usampler2D normal_texels;
+#include "gpu_shaders/look/view_space.glsl"
+
+float depth_at(ivec2 pixel) { return uintBitsToFloat(texelFetch(normal_texels, pixel, 0).w); }
+
+float depth_or_nothing(ivec2 pixel) { return in_block(pixel) ? depth_at(pixel) : kNothing; }
+
+vec3 hit_normal_at(ivec2 pixel) { return uintBitsToFloat(texelFetch(normal_texels, pixel, 0).xyz); }
+
+#endif

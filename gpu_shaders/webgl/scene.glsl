@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The ray caster's shared sources over the tables of a page.
+#ifndef MENISCUS_WEBGL_SCENE_GLSL
+#define MENISCUS_WEBGL_SCENE_GLSL
+#include "gpu_shaders/webgl/tables.glsl"
+#include "gpu_shaders/geometry/ray_shapes.glsl"
+#include "gpu_shaders/geometry/ray_torus.glsl"
+#include "gpu_shaders/geometry/patch_membership.glsl"
+
+uniform usampler2D row_texels;
+uniform usampler2D color_texels;  // of atoms: linear, alpha: opacity, 0 if hidden; three more for the kinds
+layout(std140) uniform Parameters { RayCastParameters params; };
+
+vec4 row(uint index) { return uintBitsToFloat(entry(row_texels, index)); }
+
+vec4 color_of(uint index) { return uintBitsToFloat(entry(color_texels, index)); }
+
+Primitive load_primitive(uint index) {
+  uvec4 a = entry(primitive_texels, 3u * index + 1u);
+  uvec4 b = entry(primitive_texels, 3u * index + 2u);
+  return Primitive(uintBitsToFloat(entry(primitive_texels, 3u * index)), uintBitsToFloat(a.x), a.y, a.z, a.w, b.x, b.y,
+                   b.z, b.w);
+}
+
+const bool some_hidden = true;
+truth shows(uint atom) { return color_of(atom).a > 0.0; }
+
+#include "gpu_shaders/ray_cast/pixel_rays.glsl"
+#include "gpu_shaders/ray_cast/touched_atom.glsl"
+#include "gpu_shaders/ray_cast/patch_hits.glsl"
+#include "gpu_shaders/ray_cast/sheen.glsl"
+#include "gpu_shaders/ray_cast/shade.glsl"
+#include "gpu_shaders/ray_cast/shape_hits.glsl"
+
+// The ray of a pixel, from where the records count.
+struct PixelRay {
+  vec3 p;
+  vec3 d;
+  float eye_t;
+};
+
+PixelRay pixel_ray(ivec2 pixel) {
+  PixelRay ray;
+  ray.p = ray_point_at(vec2(pixel));
+  ray.d = ray_direction(ray.p);
+  ray.eye_t = eye_parameter(ray.d);
+  ray.p += pivot;
+  return ray;
+}
+
+#endif

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What shaders of WebGL 2 (GLSL ES 3.00) need before the sources that they share with the kernels: precisions, and tables in
+// textures of 2048 columns where kernels have buffers.
+#ifndef MENISCUS_WEBGL_TABLES_GLSL
+#define MENISCUS_WEBGL_TABLES_GLSL
+precision highp float;
+precision highp int;
+precision highp usampler2D;
+#include "gpu_shaders/reduced_surface/precision.glsl"
+#include "gpu_shaders/shared/lane.glsl"
+#include "gpu_shaders/shared/constants.glsl"
+#include "gpu_shaders/ray_cast/parameters.glsl"
+#include "gpu_shaders/ray_cast/records.glsl"
+
+const int kTableShift = 11;  // of the columns
+
+uvec4 entry(usampler2D table, uint index) {
+  int i = int(index);
+  return texelFetch(table, ivec2(i & ((1 << kTableShift) - 1), i >> kTableShift), 0);
+}
+
+uniform usampler2D primitive_texels;  // three texels each: struct Primitive
+layout(std140) uniform ViewBlock { BlockView view; };
+uniform vec3 pivot;  // of the picture, from where the records count
+
+#endif
