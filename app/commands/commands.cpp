@@ -16,6 +16,8 @@ constexpr Command kFormats[] = {
     {"pbrt", "Write a pbrt-v4 scene: meshes as fine as the picture needs, exact spheres and cylinders",
      add_export_pbrt},
     {"mesh", "Write a closed triangle mesh: STL, 3MF, OBJ, OFF, GLB, VTP, TetGen, DMS, PLY or USD", add_export_mesh},
+    {"page", "Write one HTML file in which readers turn the exact surface, in any browser with WebGL 2",
+     add_export_page},
     {"ply", "Write a closed triangle mesh as binary PLY: the same as export mesh --format ply", add_export_ply},
     {"vdb", "Write the exact signed distance from the surface as an OpenVDB level set", add_export_vdb},
     {"atoms", "Write the atoms of a surface with radii, colours and frames, as arrays", add_export_atoms},

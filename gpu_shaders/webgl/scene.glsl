@@ -22,7 +22,11 @@ Primitive load_primitive(uint index) {
                    b.z, b.w);
 }
 
+#ifdef SOME_HIDDEN
 const bool some_hidden = true;
+#else
+const bool some_hidden = false;
+#endif
 truth shows(uint atom) { return color_of(atom).a > 0.0; }
 
 #include "gpu_shaders/ray_cast/pixel_rays.glsl"

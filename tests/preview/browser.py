@@ -51,10 +51,10 @@ class Preview:
 
 
 class Browser:
-    """One page in a Chromium of its own; `async with Browser(program) as page`."""
+    """One page in a Chromium of its own; `async with Browser(program) as page`. options: more of the command line."""
 
-    def __init__(self, program, size=(1280, 800)):
-        self.program, self.size = program, size
+    def __init__(self, program, size=(1280, 800), options=()):
+        self.program, self.size, self.options = program, size, options
         self.folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         self.downloads = os.path.join(self.folder.name, "downloads")
         self.waiting, self.number, self.complaints = {}, 0, []
@@ -63,7 +63,7 @@ class Browser:
         self.process = subprocess.Popen(
             [self.program, "--headless=new", "--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-extensions",
              "--disable-background-networking", "--remote-debugging-port=0", f"--user-data-dir={self.folder.name}",
-             f"--window-size={self.size[0]},{self.size[1]}", "about:blank"],
+             f"--window-size={self.size[0]},{self.size[1]}", *self.options, "about:blank"],
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         port = await self._debugging_port()
         with urllib.request.urlopen(f"http://127.0.0.1:{port}/json/list") as answer:

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `meniscus export page`: writes one HTML file in which readers turn the exact surface.
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/commands/commands.h"
+#include "app/commands/figure_run.h"
+#include "app/options/scene_options.h"
+#include "app/process/program_error.h"
+#include "app/reports/notes.h"
+#include "core/base/error.h"
+#include "core/base/output_file.h"
+#include "core/base/text.h"
+#include "core/image/color_space.h"
+#include "core/image/png_file.h"
+#include "core/queries/copies.h"
+#include "core/render/surface_renderer.h"
+#include "core/scene/representations.h"
+#include "core/scene/scene_picture.h"
+#include "exporters/page/page_file.h"
+
+namespace meniscus {
+namespace {
+
+constexpr double kManyBytes = 15e6;
+
+/// What a page cannot show is refused before anything is computed.
+void check_page(const Scene& scene) {
+  const auto refuse = [](const std::string& option, const char* why) {
+    throw UsageError(fmt::format("{}: pages do not show {} yet; leave it out, or use render", option, why));
+  };
+  if (scene.molecule.color.by == ColorScheme::By::volume) refuse("--color-map-file", "colours of points");
+  if (scene.molecule.color.by == ColorScheme::By::lipophilicity)
+    refuse("--color lipophilicity", "colours of points");
+  if (!scene.figure.cuts.empty()) refuse("--clip", "cuts");
+  if (scene.figure.thickens) refuse("--film-opacity", "opacity by viewing angle");
+  if (!scene.figure.objects.empty()) refuse("--object", "objects with looks of their own");
+  for (const OpacityRule& rule : scene.molecule.color.opacities)
+    if (rule.opacity > 0.0f && rule.opacity < 1.0f) refuse("--opacity", "what is seen through, only hidden atoms (0)");
+}
+
+/// The picture that readers see whose browser cannot draw the figure: on white, of at most 800 pixels.
+std::vector<std::uint8_t> still_picture(std::span<const PictureObject> objects, const Camera& camera,
+                                        glm::ivec2 size, const Look& look) {
+  constexpr int kSide = 800, kSamples = 9;
+  const double share = std::min(1.0, static_cast<double>(kSide) / std::max(size.x, size.y));
+  RenderSettings settings;
+  settings.size = glm::max(glm::ivec2(glm::dvec2(size) * share), glm::ivec2(1));
+  settings.samples = kSamples;
+  settings.look = look;
+  const Framebuffer drawn = make_cpu_renderer()->render(objects, camera, settings);
+  std::vector<std::uint8_t> pixels(drawn.color.size() * 3);
+  display_bytes(drawn.color, look.background, 3, pixels.data());
+  ImageToEncode image;
+  image.format = "png";
+  image.width = drawn.size.x;
+  image.height = drawn.size.y;
+  image.channels = {"R", "G", "B"};
+  return encode_png(image, pixels, 3);
+}
+
+std::string description_of(const Molecule& molecule, const Scene& scene, std::string_view name) {
+  const char* const kind = scene.molecule.surface.kind == SurfaceKind::ses   ? "solvent-excluded"
+                           : scene.molecule.surface.kind == SurfaceKind::sas ? "solvent-accessible"
+                                                                             : "van der Waals";
+  return scene.figure.hides_surface
+             ? fmt::format("{}: {} atoms", name, with_thousands(molecule.structure.atoms.size()))
+             : fmt::format("The {} surface of {}, {} atoms, coloured by {}", kind, name,
+                           with_thousands(molecule.structure.atoms.size()), key_of(molecule).title.empty()
+                                                                                ? std::string("one colour")
+                                                                                : key_of(molecule).title);
+}
+
+std::vector<std::pair<std::string, std::string>> facts_of(const Molecule& molecule, const SurfaceObject& surface,
+                                                          const Scene& scene) {
+  std::vector<std::pair<std::string, std::string>> facts{{"Atoms", molecule.structure.report.sentence()}};
+  if (scene.figure.hides_surface) return facts;
+  if (scene.molecule.surface.kind == SurfaceKind::ses)
+    facts.emplace_back("Probe", fmt::format("{:g} Å", surface.surface.probe_radius));
+  facts.emplace_back("Patches",
+                     fmt::format("{} convex, {} toroidal, {} concave", with_thousands(surface.surface.convex.size()),
+                                 with_thousands(surface.surface.toroidal.size()),
+                                 with_thousands(surface.surface.concave.size())));
+  facts.emplace_back("Radii", molecule.structure.radii_set);
+  return facts;
+}
+
+/// Of the molecule; what it is written to.
+void write_page(const SceneCommand& command, FigureFrame frame) {
+  const Scene& scene = command.scene;
+  Figure& figure = frame.figure;
+  const std::string name = std::filesystem::path(scene.molecule.file).filename().string();
+  const std::vector<Atom> atoms = shown_atoms(figure.molecule.structure);
+  page::PageFigure shown{.title = name, .description = description_of(figure.molecule, scene, name)};
+  shown.key = key_of(figure.molecule);
+  shown.camera = frame.camera;
+  shown.size = scene.picture.size();
+  shown.look = look_of(scene.look, shown.size, scene.image.background,
+                       hues_of(scene.molecule.color, scene.legend.asked()));
+  const SurfaceObject surface = merged(std::exchange(figure.molecule.objects, {}));
+  shown.facts = facts_of(figure.molecule, surface, scene);
+  std::vector<PictureObject> objects;
+  if (!scene.figure.hides_surface) {
+    shown.surface = &surface;
+    PictureObject& object = objects.emplace_back();
+    object.surface = &surface.surface;
+    object.coloring = &surface.coloring;
+  }
+  if (!figure.beside.shapes.empty()) {
+    shown.shapes = &figure.beside.shapes;
+    PictureObject& object = objects.emplace_back();
+    object.shapes = &figure.beside.shapes.shapes;
+    object.coloring = &figure.beside.shapes.coloring;
+  }
+  if (objects.empty()) throw RequestError("the surface is not shown, and there is nothing beside it");
+  shown.atoms = atoms;
+  shown.png = still_picture(objects, frame.camera, shown.size, shown.look);
+  const std::string text = page::page_text(shown);
+  OutputFile file(scene.output, command.existing());
+  file.write(text);
+  file.commit();
+  say(command, fmt::format("{} bytes", with_thousands(text.size())));
+  if (static_cast<double>(text.size()) > kManyBytes)
+    say(command, "warning: readers load all of it; --show or --select make a smaller page");
+}
+
+void export_page(const SceneCommand& asked) {
+  check_page(asked.scene);
+  check_output(asked.scene.output, asked.existing());
+  check_saved_camera(asked);
+  FigureRun run(asked);
+  run.aim(asked.scene.picture, false);
+  const SceneCommand& command = run.command();
+  run.make({kSurfaceBytesPerAtom}, [&]() -> FigureRun::Sink {
+    return [&](FigureFrame frame) -> FinishFrame {
+      write_page(command, std::move(frame));
+      return [] { return MadeFrame{}; };
+    };
+  });
+  save_camera(command, run.camera(0));
+  std::cout << escaped(command.scene.output) << "\n";
+}
+
+}  // namespace
+
+void add_export_page(CLI::App& command) {
+  describe(command,
+           "  meniscus export page 1tii.pdb -o 1tii.html              then open it in a browser\n"
+           "  meniscus export page 1tii.pdb -o 1tii.html --color chain --sticks ligand\n"
+           "  meniscus export page --scene fig.json -o fig.html",
+           "The page fetches nothing, and casts the exact patches by WebGL 2 in the browser of whoever opens it. Others "
+           "see\na still picture that is in it.");
+  auto declared = std::make_shared<DeclaredCommand<>>(command, for_page);
+  declared->options.describe_output("HTML file to write");
+  command.callback([declared] {
+    declared->options.take();
+    run_and_save_scene(declared->state, [&] { export_page(declared->state); });
+  });
+}
+
+}  // namespace meniscus

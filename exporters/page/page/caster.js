@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Hands tables and parameters to the shaders, and starts their passes: cast, points, occlusion, finish, present.
+
+const kTableColumns = 2048;  // of gpu_shaders/webgl/tables.glsl
+const kNoPrimitive = 0xffffffff;
+const kToroidal = 1, kCylinder = 3;
+const kBuckets = 4096;  // of depth, front to back
+
+/// A figure cannot be drawn here, in a sentence for its reader.
+class NoWebGl extends Error {}
+
+class Caster {
+  constructor(canvas, figure) {
+    this.figure = figure;
+    const gl = canvas.getContext("webgl2", { antialias: false, alpha: false, depth: false, powerPreference: "high-performance" });
+    if (!gl) throw new NoWebGl("This browser has no WebGL 2: what is shown is a still picture.");
+    this.gl = gl;
+    this.canvas = canvas;
+    this.early_depth = gl.getExtension("EXT_conservative_depth") !== null;
+    this.programs = new Map();
+    this.blocks = new Map();
+    this.size = [0, 0];
+    this.tables = {};
+    for (const name of ["primitives", "rows", "colors", "marks"]) this.tables[name] = this.table(name);
+    this.make_groups();
+    gl.pixelStorei(gl.PACK_ALIGNMENT, 1);
+    gl.disable(gl.DITHER);
+  }
+
+  texture(format) {
+    const gl = this.gl, texture = gl.createTexture();
+    gl.bindTexture(gl.TEXTURE_2D, texture);
+    for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, filter, gl.NEAREST);
+    for (const wrap of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, wrap, gl.CLAMP_TO_EDGE);
+    if (format) gl.texStorage2D(gl.TEXTURE_2D, 1, format, ...this.size);
+    return texture;
+  }
+
+  /// A table of records of four words a texel, or of one.
+  table(name) {
+    const gl = this.gl, words = this.figure.tables[name], single = name === "marks", channels = single ? 1 : 4;
+    const rows = Math.max(1, Math.ceil(words.length / channels / kTableColumns));
+    if (rows > gl.getParameter(gl.MAX_TEXTURE_SIZE))
+      throw new NoWebGl("This figure is too large for the textures of this device: what is shown is a still picture.");
+    const texture = this.texture(null);
+    const padded = new Uint32Array(rows * kTableColumns * channels);
+    padded.set(words);
+    gl.texImage2D(gl.TEXTURE_2D, 0, single ? gl.R32UI : gl.RGBA32UI, kTableColumns, rows, 0,
+      single ? gl.RED_INTEGER : gl.RGBA_INTEGER, gl.UNSIGNED_INT, padded);
+    return texture;
+  }
+
+  /// Primitives of one shader are drawn together.
+  make_groups() {
+    const gl = this.gl, words = this.figure.tables.primitives, numbers = new Float32Array(words.buffer);
+    this.primitive_count = words.length / 12;
+    this.centers = new Float32Array(3 * this.primitive_count);
+    this.radii = new Float32Array(this.primitive_count);
+    const groups = [[], [], []];
+    for (let n = 0; n < this.primitive_count; ++n) {
+      this.centers.set(numbers.subarray(12 * n, 12 * n + 3), 3 * n);
+      this.radii[n] = numbers[12 * n + 3];
+      const kind = words[12 * n + 7];
+      groups[kind === kToroidal ? 1 : kind >= kCylinder ? 2 : 0].push(n);
+    }
+    this.groups = groups.map((list, n) => ({ define: ["", "TORI", "SHAPES"][n], list: Uint32Array.from(list) }));
+    this.buffer = gl.createBuffer();
+    this.vertices = gl.createVertexArray();
+  }
+
+  shader(type, name, defines) {
+    const gl = this.gl, shader = gl.createShader(type), text = this.figure.shaders[name];
+    const start = text.indexOf("#version"), end = text.indexOf("\n", start) + 1;
+    gl.shaderSource(shader, text.slice(start, end) + defines.map((word) => `#define ${word} 1\n`).join("") + text.slice(end));
+    gl.compileShader(shader);
+    return shader;
+  }
+
+  /// With the offsets of its blocks' members by name.
+  program(vertex, fragment, defines = []) {
+    const key = [vertex, fragment, ...defines].join();
+    if (this.programs.has(key)) return this.programs.get(key);
+    const gl = this.gl, program = gl.createProgram();
+    const shaders = [this.shader(gl.VERTEX_SHADER, vertex, []), this.shader(gl.FRAGMENT_SHADER, fragment, defines)];
+    for (const shader of shaders) gl.attachShader(program, shader);
+    gl.bindAttribLocation(program, 0, "primitive");
+    gl.linkProgram(program);
+    if (!gl.getProgramParameter(program, gl.LINK_STATUS))
+      throw new NoWebGl(`This device cannot compile the figure's shaders (${fragment}): what is shown is a still picture. ` +
+        shaders.map((shader) => gl.getShaderInfoLog(shader)).join(" ") + gl.getProgramInfoLog(program));
+    const made = { program, blocks: {}, uniforms: {} };
+    for (let n = 0; n < gl.getProgramParameter(program, gl.ACTIVE_UNIFORM_BLOCKS); ++n) {
+      const name = gl.getActiveUniformBlockName(program, n), members = {};
+      const indices = gl.getActiveUniformBlockParameter(program, n, gl.UNIFORM_BLOCK_ACTIVE_UNIFORM_INDICES);
+      const offsets = gl.getActiveUniforms(program, indices, gl.UNIFORM_OFFSET);
+      [...indices].forEach((index, k) => { members[gl.getActiveUniform(program, index).name.split(".").pop()] = offsets[k]; });
+      gl.uniformBlockBinding(program, n, n);
+      const buffer = gl.createBuffer();
+      const size = gl.getActiveUniformBlockParameter(program, n, gl.UNIFORM_BLOCK_DATA_SIZE);
+      made.blocks[name] = { binding: n, members, buffer, bytes: new ArrayBuffer(size) };
+    }
+    this.programs.set(key, made);
+    return made;
+  }
+
+  /// words: of the whole block, as the program that wrote the page has it; values: members that differ.
+  set_block(program, name, words, values) {
+    const gl = this.gl, block = program.blocks[name];
+    if (!block) return;
+    new Uint32Array(block.bytes).set(words.slice(0, block.bytes.byteLength / 4));
+    const view = new DataView(block.bytes);
+    for (const [member, value] of Object.entries(values)) {
+      if (!(member in block.members)) continue;
+      const whole = kWholeMembers.has(member);
+      [value].flat().forEach((number, n) => {
+        const at = block.members[member] + 4 * n;
+        if (whole) view.setInt32(at, number, true);
+        else view.setFloat32(at, number, true);
+      });
+    }
+    gl.bindBuffer(gl.UNIFORM_BUFFER, block.buffer);
+    gl.bufferData(gl.UNIFORM_BUFFER, block.bytes, gl.DYNAMIC_DRAW);
+    gl.bindBufferBase(gl.UNIFORM_BUFFER, block.binding, block.buffer);
+  }
+
+  /// textures: by the samplers' names; numbers: uniforms of floats.
+  use(made, textures, numbers = {}) {
+    const gl = this.gl;
+    gl.useProgram(made.program);
+    Object.entries(textures).forEach(([name, texture], unit) => {
+      gl.activeTexture(gl.TEXTURE0 + unit);
+      gl.bindTexture(gl.TEXTURE_2D, texture);
+      gl.uniform1i(gl.getUniformLocation(made.program, name), unit);
+    });
+    for (const [name, value] of Object.entries(numbers))
+      gl[`uniform${value.length}fv`](gl.getUniformLocation(made.program, name), value);
+    this.set_block(made, "ViewBlock", [], this.frame);
+  }
+
+  target(...textures) {
+    const gl = this.gl, target = gl.createFramebuffer();
+    gl.bindFramebuffer(gl.FRAMEBUFFER, target);
+    textures.forEach((texture, n) =>
+      gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0 + n, gl.TEXTURE_2D, texture, 0));
+    gl.drawBuffers(textures.map((_, n) => gl.COLOR_ATTACHMENT0 + n));
+    return target;
+  }
+
+  resize(width, height) {
+    if (this.size[0] === width && this.size[1] === height) return;
+    const gl = this.gl;
+    for (const texture of Object.values(this.pixels ?? {})) gl.deleteTexture(texture);
+    for (const target of Object.values(this.targets ?? {})) gl.deleteFramebuffer(target);
+    if (this.depth) gl.deleteRenderbuffer(this.depth);
+    this.size = [width, height];
+    const wide = () => this.texture(gl.RGBA32UI);
+    const pixels = { found: this.texture(gl.RG32UI), visibility: this.texture(gl.R32UI), color: wide(), normal: wide(),
+      what: wide(), first_normal: wide(), first_what: wide(), sum: wide(), other_sum: wide() };
+    this.depth = gl.createRenderbuffer();
+    gl.bindRenderbuffer(gl.RENDERBUFFER, this.depth);
+    gl.renderbufferStorage(gl.RENDERBUFFER, gl.DEPTH_COMPONENT32F, width, height);
+    const targets = { found: this.target(pixels.found), first: this.target(pixels.color, pixels.first_normal, pixels.first_what),
+      points: this.target(pixels.color, pixels.normal, pixels.what), visibility: this.target(pixels.visibility),
+      sum: this.target(pixels.sum), other_sum: this.target(pixels.other_sum) };
+    gl.bindFramebuffer(gl.FRAMEBUFFER, targets.found);
+    gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.RENDERBUFFER, this.depth);
+    for (const [name, target] of Object.entries(targets)) {
+      gl.bindFramebuffer(gl.FRAMEBUFFER, target);
+      const status = gl.checkFramebufferStatus(gl.FRAMEBUFFER);
+      if (status !== gl.FRAMEBUFFER_COMPLETE)
+        throw new NoWebGl(`This device cannot draw into the textures of the figure (${name}, ${status}): what is shown is a still picture.`);
+    }
+    Object.assign(this, { pixels, targets });
+  }
+
+  /// Front to back, by where their bounds begin.
+  sort() {
+    const { forward } = this.frame, all = this.centers, places = new Uint16Array(this.primitive_count);
+    let low = Infinity, high = -Infinity;
+    const nearest = new Float32Array(this.primitive_count);
+    for (let n = 0; n < this.primitive_count; ++n) {
+      nearest[n] = all[3 * n] * forward[0] + all[3 * n + 1] * forward[1] + all[3 * n + 2] * forward[2] - this.radii[n];
+      low = Math.min(low, nearest[n]);
+      high = Math.max(high, nearest[n]);
+    }
+    const scale = (kBuckets - 1) / Math.max(high - low, 1e-6);
+    for (let n = 0; n < this.primitive_count; ++n) places[n] = (nearest[n] - low) * scale;
+    for (const group of this.groups) {
+      const starts = new Uint32Array(kBuckets + 1), sorted = new Uint32Array(group.list.length);
+      for (const n of group.list) ++starts[places[n] + 1];
+      for (let k = 0; k < kBuckets; ++k) starts[k + 1] += starts[k];
+      for (const n of group.list) sorted[starts[places[n]]++] = n;
+      group.sorted = sorted;
+    }
+  }
+
+  /// Of all atoms along the view axis, for what fades with depth; and the distances from the eye between which all lies.
+  depths() {
+    const balls = new Float32Array(this.figure.tables.balls.buffer), { forward, pivot, eye_distance } = this.frame;
+    const eye = minus(pivot, times(forward, eye_distance));
+    let first = Infinity, last = -Infinity, radius = 0;
+    for (let n = 0; n < balls.length; n += 4) {
+      const center = [balls[n], balls[n + 1], balls[n + 2]], depth = dot(minus(center, eye), forward);
+      first = Math.min(first, depth - balls[n + 3]);
+      last = Math.max(last, depth + balls[n + 3]);
+      radius = Math.max(radius, length(center) + balls[n + 3]);
+    }
+    const reach = this.frame.orthographic ? -dot(eye, forward) : length(eye);
+    this.radius = radius;
+    this.range = [Math.max(reach - radius - 1, 0), reach + radius + 1];
+    this.depth_range = { first_depth: Math.max(Math.min(first, last), 0), last_depth: last };
+  }
+
+  /// Begins a picture of so many pixels.
+  begin(camera, width, height) {
+    this.resize(width, height);
+    this.frame = frame_of(camera, width, height);
+    this.depths();
+    this.sort();
+  }
+
+  /// effects: {shade, lines}, whether; sample: 0 first.
+  cast(sample, effects) {
+    const gl = this.gl, { figure, pixels, targets, tables } = this, first = sample === 0;
+    this.frame.sample_offset = figure.samples[sample];
+    gl.viewport(0, 0, ...this.size);
+    this.find(figure);
+    gl.disable(gl.DEPTH_TEST);
+    gl.bindVertexArray(null);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, first ? targets.first : targets.points);
+    const points = this.program("whole.vert", "points.frag");
+    this.use(points, { primitive_texels: tables.primitives, row_texels: tables.rows, color_texels: tables.colors,
+      mark_texels: tables.marks, found_texels: pixels.found }, { pivot: this.frame.pivot });
+    this.set_block(points, "Parameters", figure.cast, {});
+    gl.drawArrays(gl.TRIANGLES, 0, 3);
+    const normal = first ? pixels.first_normal : pixels.normal, what = first ? pixels.first_what : pixels.what;
+    if (effects.shade) {
+      gl.bindFramebuffer(gl.FRAMEBUFFER, targets.visibility);
+      const occlusion = this.program("whole.vert", "occlusion.frag");
+      this.use(occlusion, { normal_texels: normal, map_texels: pixels.first_normal });
+      const [width, height] = this.size;
+      this.set_block(occlusion, "Parameters", figure.occlusion, { map_middle: [width / 2 - 0.5, height / 2 - 0.5],
+        map_size: this.size, texel_edge: 1, near_reach: 0, longest_reach: Math.hypot(width, height), sample_index: sample });
+      gl.drawArrays(gl.TRIANGLES, 0, 3);
+    }
+    const defines = [...(effects.shade ? ["AMBIENT_OCCLUSION"] : []), ...(effects.lines ? ["SILHOUETTES"] : [])];
+    const finish = this.program("whole.vert", "finish.frag", defines);
+    const [to, from] = sample % 2 === 0 ? ["sum", "other_sum"] : ["other_sum", "sum"];
+    gl.bindFramebuffer(gl.FRAMEBUFFER, targets[to]);
+    this.use(finish, { normal_texels: normal, sample_texels: pixels.color, what_texels: what,
+      ...(effects.shade ? { visibility_texels: pixels.visibility } : {}), sum_texels: pixels[from] });
+    this.set_block(finish, "Parameters", figure.finish, { ...this.depth_range, ...this.line_widths(), sample_index: sample });
+    gl.drawArrays(gl.TRIANGLES, 0, 3);
+    this.summed = { texture: pixels[to], samples: sample + 1 };
+  }
+
+  /// Each primitive's footprint, nearest first.
+  find(figure) {
+    const gl = this.gl, { tables } = this;
+    gl.bindFramebuffer(gl.FRAMEBUFFER, this.targets.found);
+    gl.enable(gl.DEPTH_TEST);
+    gl.depthFunc(gl.LESS);
+    gl.clearBufferuiv(gl.COLOR, 0, [0, kNoPrimitive, 0, 0]);
+    gl.clearBufferfv(gl.DEPTH, 0, [1]);
+    gl.bindVertexArray(this.vertices);
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.buffer);
+    gl.enableVertexAttribArray(0);
+    gl.vertexAttribDivisor(0, 1);
+    for (const group of this.groups) {
+      if (group.list.length === 0) continue;
+      gl.bufferData(gl.ARRAY_BUFFER, group.sorted, gl.STREAM_DRAW);
+      gl.vertexAttribIPointer(0, 1, gl.UNSIGNED_INT, 0, 0);
+      const defines = [...(group.define ? [group.define] : []), ...(figure.some_hidden ? ["SOME_HIDDEN"] : [])];
+      const cast = this.program("footprint.vert", "cast.frag", defines);
+      this.use(cast, { primitive_texels: tables.primitives, row_texels: tables.rows, color_texels: tables.colors },
+        { pivot: this.frame.pivot, depth_range: this.range });
+      this.set_block(cast, "Parameters", figure.cast, {});
+      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, group.list.length);
+    }
+  }
+
+  /// Lines grow with the picture, as those of presets do.
+  line_widths() {
+    const { figure, size } = this, shorter = Math.min(...size), growth = shorter / Math.min(...figure.size);
+    const view = new Float32Array(Uint32Array.from(figure.finish).buffer), widths = {};
+    for (const [name, word] of Object.entries(kLineWords)) widths[name] = Math.min(16, view[word] * growth);
+    const step = figure.line_step * shorter;
+    return { ...widths, step_pixels: Math.max(step, 2), fade_pixels: 2 * step };
+  }
+
+  /// background: linear. The canvas may have other pixels than the picture, as a draft has fewer.
+  present(background) {
+    const gl = this.gl;
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    gl.bindVertexArray(null);
+    gl.disable(gl.DEPTH_TEST);
+    gl.viewport(0, 0, this.canvas.width, this.canvas.height);
+    const present = this.program("whole.vert", "present.frag");
+    this.use(present, { sum_texels: this.summed.texture });
+    this.set_block(present, "Parameters", [], { background, per_sample: 1 / this.summed.samples,
+      size: [this.canvas.width, this.canvas.height] });
+    gl.drawArrays(gl.TRIANGLES, 0, 3);
+  }
+
+  /// Of the first sample: words of `what` or `first_normal` of some pixels, rows from the top.
+  read(x, y, width, height, attachment) {
+    const gl = this.gl, words = new Uint32Array(4 * width * height);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, this.targets.first);
+    gl.readBuffer(gl.COLOR_ATTACHMENT0 + attachment);
+    gl.readPixels(x, y, width, height, gl.RGBA_INTEGER, gl.UNSIGNED_INT, words);
+    return words;
+  }
+
+  /// What a pixel shows: {atom, primitive, point}, or nothing.
+  pick(x, y) {
+    const [width, height] = this.size;
+    if (x < 0 || y < 0 || x >= width || y >= height) return null;
+    const [atom, primitive, , t] = this.read(x, y, 1, 1, 2);
+    if (primitive === kNoPrimitive) return null;
+    const { right, up, forward, pixel_size, first_offset, eye_distance, orthographic, pivot } = this.frame;
+    const p = plus(times(right, (first_offset[0] + x) * pixel_size), times(up, -(first_offset[1] + y) * pixel_size));
+    const d = orthographic ? forward : unit(plus(forward, times(p, 1 / eye_distance)));
+    const along = new Float32Array(Uint32Array.of(t).buffer)[0];
+    return { atom, primitive, point: plus(pivot, plus(p, times(d, along))) };
+  }
+}
+
+/// Members that are whole numbers; the others are floats.
+const kWholeMembers = new Set(["orthographic", "size", "map_size", "sample_index", "has_marks", "keeps_alpha", "tiles"]);
+/// Words of FinishParameters (gpu_shaders/look/parameters.glsl).
+const kLineWords = { patch_lines: 11, outer_lines: 15, inner_lines: 16, part_lines: 17, widest_line: 18 };

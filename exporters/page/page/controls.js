@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Draws the figure when something changes, and turns mouse, fingers and keys into changes.
+
+const kClick = 4;          // CSS pixels a click may wander
+const kDraft = 40;         // ms that a frame may take while the view moves
+const kMostPixels = 2048;  // along a side: there the whole picture is its own map of shade
+const element = (id) => document.getElementById(id);
+
+class Viewer {
+  constructor(figure) {
+    this.figure = figure;
+    this.canvas = element("picture");
+    this.camera = this.first = figure.camera;
+    this.background = figure.background;
+    this.effects = { shade: figure.has_shade, lines: figure.has_lines };
+    this.draft_scale = 1;
+    this.sample = -1;  // the last one cast of the picture at rest
+    this.moving = false;
+    this.start();
+    this.canvas.addEventListener("webglcontextlost", (event) => { event.preventDefault(); this.fail("The graphics device was reset; a still picture is shown until it is back."); });
+    this.canvas.addEventListener("webglcontextrestored", () => { this.start(); show_picture(true); say(""); this.change(); });
+    new ResizeObserver(() => this.change()).observe(element("stage"));
+  }
+
+  start() { this.caster = new Caster(this.canvas, this.figure); }
+
+  fail(sentence) {
+    cancelAnimationFrame(this.waiting);
+    this.waiting = 0;
+    this.caster = null;
+    show_picture(false);
+    say(sentence);
+  }
+
+  pixels() {
+    const stage = element("stage"), scale = Math.min(window.devicePixelRatio || 1,
+      kMostPixels / Math.max(stage.clientWidth, stage.clientHeight, 1));
+    return [Math.max(1, Math.round(stage.clientWidth * scale)), Math.max(1, Math.round(stage.clientHeight * scale))];
+  }
+
+  /// Something is to be seen otherwise; moving: and will change again soon.
+  change(moving = false) {
+    this.moving = moving;
+    this.sample = -1;
+    this.canvas.dataset.rest = "false";
+    if (!this.waiting && this.caster) this.waiting = requestAnimationFrame(() => this.draw());
+    clearTimeout(this.rest);
+    if (moving) this.rest = setTimeout(() => this.change(), 150);
+  }
+
+  move(camera) { this.camera = camera; this.change(true); }
+
+  draw() {
+    this.waiting = 0;
+    if (!this.caster) return;
+    const [width, height] = this.pixels();
+    if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
+    try {
+      if (this.moving) this.draw_draft(width, height);
+      else this.draw_sample(width, height);
+    } catch (error) {
+      if (!(error instanceof NoWebGl)) throw error;
+      this.fail(error.message);
+    }
+  }
+
+  draw_draft(width, height) {
+    const began = performance.now(), scale = this.draft_scale;
+    this.caster.begin(this.camera, Math.max(1, Math.round(width * scale)), Math.max(1, Math.round(height * scale)));
+    this.caster.cast(0, { shade: false, lines: false });
+    this.caster.present(this.linear_background());
+    this.caster.read(0, 0, 1, 1, 2);  // waits for the device
+    const took = performance.now() - began;
+    this.draft_scale = Math.min(1, Math.max(0.125, scale * Math.sqrt(kDraft / Math.max(took, 1))));
+    if (this.draft_scale > 0.8) this.draft_scale = 1;
+    this.canvas.dataset.draft = took.toFixed(1);
+  }
+
+  draw_sample(width, height) {
+    if (this.sample < 0) this.caster.begin(this.camera, width, height);
+    this.caster.cast(++this.sample, this.effects);
+    this.caster.present(this.linear_background());
+    if (this.sample + 1 < this.figure.samples.length) this.waiting = requestAnimationFrame(() => this.draw());
+    else this.canvas.dataset.rest = "true";
+  }
+
+  linear_background() {
+    return this.background.map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
+  }
+
+  pick(x, y) {
+    if (!this.caster) return null;
+    if (this.sample < 0) { this.moving = false; const [width, height] = this.pixels(); this.draw_sample(width, height); }
+    const box = this.canvas.getBoundingClientRect();
+    return this.caster.pick(Math.floor((x - box.left) * this.canvas.width / box.width),
+      Math.floor((y - box.top) * this.canvas.height / box.height));
+  }
+
+  atom_name(atom) {
+    const { names, tables } = this.figure, place = tables.shown[atom];
+    let low = 0, high = names.starts.length;
+    while (high - low > 1) { const middle = (low + high) >> 1; if (names.starts[middle] <= place) low = middle; else high = middle; }
+    return `${names.residues[low]} ${names.atoms[place]}`;
+  }
+
+  /// Atom and residue, and which patch it is on.
+  words(picked) {
+    const record = this.figure.tables.primitives.subarray(12 * picked.primitive, 12 * picked.primitive + 12), kind = record[7];
+    const floats = new Float32Array(this.figure.tables.rows.buffer);
+    if (kind >= kCylinder || record[8] === kNoPrimitive) return this.atom_name(picked.atom);
+    if (kind === 0) return `${this.atom_name(picked.atom)} – convex patch`;
+    if (kind === 1) return `${this.atom_name(picked.atom)} – toroidal patch of ${this.atom_name(record[9])} and ${this.atom_name(record[10])}`;
+    const contacts = [], first = record[5] + 1 + record[6];
+    for (let n = 0; n < record[9]; ++n) contacts.push(this.atom_name(this.figure.tables.rows[4 * (first + n) + 3]));
+    return `${this.atom_name(picked.atom)} – concave patch of ${contacts.join(", ")}`;
+  }
+
+  /// A PNG of the view as it is at rest.
+  async png() {
+    const [width, height] = this.pixels();
+    this.moving = false;
+    this.sample = -1;
+    do this.draw_sample(width, height); while (this.sample + 1 < this.figure.samples.length);
+    cancelAnimationFrame(this.waiting);
+    this.waiting = 0;
+    return new Promise((done) => this.canvas.toBlob(done, "image/png"));
+  }
+}
+
+function say(sentence) {
+  element("message").textContent = sentence;
+  element("message").hidden = sentence === "";
+}
+
+/// The live picture, or the still one.
+function show_picture(live) {
+  element("picture").hidden = !live;
+  element("controls").hidden = !live;
+  if (element("still")) element("still").hidden = live;
+}
+
+function follow_pointer(viewer) {
+  const canvas = viewer.canvas, pointers = new Map();
+  let drag = null;
+  const middle = () => { const all = [...pointers.values()]; return { x: (all[0].x + all[1].x) / 2, y: (all[0].y + all[1].y) / 2, span: Math.hypot(all[0].x - all[1].x, all[0].y - all[1].y) || 1 }; };
+  canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+  canvas.addEventListener("pointerdown", (event) => {
+    canvas.setPointerCapture(event.pointerId);
+    pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
+    drag = { pans: event.button !== 0 || event.shiftKey, button: event.button, wandered: 0 };
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    const last = pointers.get(event.pointerId);
+    if (!last || !drag) return;
+    const height = canvas.clientHeight, before = pointers.size === 2 ? middle() : null;
+    const [dx, dy] = [event.clientX - last.x, event.clientY - last.y];
+    pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
+    if (before) {
+      const after = middle();
+      drag.wandered = kClick;
+      viewer.move(panned(zoomed(viewer.camera, after.span / before.span), (after.x - before.x) / height, (after.y - before.y) / height));
+      return;
+    }
+    drag.wandered += Math.hypot(dx, dy);
+    if (drag.wandered < kClick) return;
+    viewer.move(drag.pans ? panned(viewer.camera, dx / height, dy / height) : orbited(viewer.camera, dx / height, dy / height));
+  });
+  const release = (event) => {
+    pointers.delete(event.pointerId);
+    if (event.type === "pointerup" && drag && drag.button === 0 && drag.wandered < kClick) {
+      const picked = viewer.pick(event.clientX, event.clientY);
+      element("picked").textContent = picked ? viewer.words(picked) : "";
+    }
+    if (pointers.size === 0) drag = null;
+    else drag.wandered = kClick;
+  };
+  canvas.addEventListener("pointerup", release);
+  canvas.addEventListener("pointercancel", release);
+  canvas.addEventListener("dblclick", (event) => {
+    const picked = viewer.pick(event.clientX, event.clientY);
+    if (picked) { viewer.camera = centered(viewer.camera, picked.point); viewer.change(); }
+  });
+  canvas.addEventListener("wheel", (event) => {
+    event.preventDefault();
+    const factor = Math.exp(-event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? 1 : 16) * 0.0015);
+    const box = canvas.getBoundingClientRect();
+    viewer.move(zoomed(viewer.camera, Math.min(2, Math.max(0.5, factor)), (event.clientX - box.left - box.width / 2) / box.height,
+      (event.clientY - box.top - box.height / 2) / box.height));
+  }, { passive: false });
+}
+
+function follow_keys(viewer) {
+  const step = 1 / 36, steps = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] };
+  viewer.canvas.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const camera = viewer.camera, way = steps[event.key];
+    if (way) viewer.move((event.shiftKey ? panned : orbited)(camera, ...way));
+    else if (event.key === "+" || event.key === "=") viewer.move(zoomed(camera, 1.1));
+    else if (event.key === "-") viewer.move(zoomed(camera, 1 / 1.1));
+    else if (event.key === "," || event.key === ".") viewer.move(rolled(camera, event.key === "," ? -0.1 : 0.1));
+    else if (event.key === "r" || event.key === "R") element("reset").click();
+    else if (event.key === "p" || event.key === "P") set_projection(viewer, !camera.orthographic);
+    else return;
+    event.preventDefault();
+  });
+}
+
+function set_projection(viewer, orthographic) {
+  viewer.camera = projected(viewer.camera, orthographic, viewer.caster.radius);
+  element("projection").value = orthographic ? "orthographic" : "perspective";
+  viewer.change();
+}
+
+function follow_controls(viewer) {
+  const hex = viewer.background.map((c) => Math.round(255 * c).toString(16).padStart(2, "0")).join("");
+  element("background").value = `#${hex}`;
+  element("projection").value = viewer.camera.orthographic ? "orthographic" : "perspective";
+  for (const name of ["shade", "lines"]) {
+    element(name).checked = viewer.effects[name];
+    element(name).parentElement.hidden = !viewer.effects[name];
+    element(name).addEventListener("change", () => { viewer.effects[name] = element(name).checked; viewer.change(); });
+  }
+  element("reset").addEventListener("click", () => {
+    viewer.camera = viewer.first;
+    element("projection").value = viewer.camera.orthographic ? "orthographic" : "perspective";
+    viewer.change();
+  });
+  element("projection").addEventListener("change", () => set_projection(viewer, element("projection").value === "orthographic"));
+  element("background").addEventListener("input", () => {
+    viewer.background = [1, 3, 5].map((n) => parseInt(element("background").value.slice(n, n + 2), 16) / 255);
+    viewer.change();
+  });
+  element("save").addEventListener("click", async () => {
+    const link = document.createElement("a");
+    link.href = URL.createObjectURL(await viewer.png());
+    link.download = `${(viewer.figure.title.match(/[\w-]+/g) ?? ["figure"]).join("_")}.png`;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  });
+}
+
+async function main() {
+  show_picture(false);
+  if (typeof DecompressionStream === "undefined") return say("This browser is too old to unpack the figure: what is shown is a still picture.");
+  try {
+    const viewer = new Viewer(await read_figure(element("data").textContent, Number(element("data").dataset.bytes)));
+    show_picture(true);
+    follow_pointer(viewer);
+    follow_keys(viewer);
+    follow_controls(viewer);
+    viewer.change();
+    window.meniscus = viewer;
+  } catch (error) {
+    say(error instanceof NoWebGl ? error.message : `The figure cannot be shown: ${error.message}`);
+    if (!(error instanceof NoWebGl)) throw error;
+  }
+}
+
+main();

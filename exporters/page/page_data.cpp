@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sorts the bytes of tables, deflates them, and spells them.
+#include "exporters/page/page_data.h"
+
+#include <array>
+
+#include <zlib.h>
+
+#include "core/base/error.h"
+
+namespace meniscus::page {
+
+void PageData::add_table(std::string_view name, std::span<const std::byte> bytes, std::size_t stride) {
+  const std::size_t count = bytes.size() / stride;
+  tables_.push_back({{"name", name}, {"stride", stride}, {"count", count}});
+  bytes_.reserve(bytes_.size() + bytes.size());
+  for (std::size_t byte = 0; byte < stride; ++byte)
+    for (std::size_t n = 0; n < count; ++n) bytes_.push_back(static_cast<char>(bytes[n * stride + byte]));
+}
+
+std::string PageData::deflated(nlohmann::json description) const {
+  description["tables"] = tables_;
+  // Names come from files, in any encoding.
+  const std::string words = description.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  std::string all;
+  for (int n = 0; n < 4; ++n) all.push_back(static_cast<char>(words.size() >> (8 * n) & 0xff));
+  all += words;
+  all += bytes_;
+  uLongf size = compressBound(static_cast<uLong>(all.size()));
+  std::string packed(size, '\0');
+  if (compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(all.data()),
+                static_cast<uLong>(all.size()), Z_BEST_COMPRESSION) != Z_OK)
+    throw CapacityError("the page's data cannot be deflated: memory is exhausted");
+  packed.resize(size);
+  return packed;
+}
+
+std::string text_of_bytes(std::string_view bytes) {
+  constexpr int kBits = 13, kBase = 91, kLine = 2000;
+  std::array<char, kBase> letters{};
+  std::size_t known = 0;
+  for (char c = '!'; known < letters.size(); ++c)
+    if (c != '&' && c != '<' && c != '>') letters[known++] = c;
+  std::string text;
+  text.reserve(bytes.size() * 16 / kBits + bytes.size() / kLine + 8);
+  std::uint32_t waiting = 0;
+  int bits = 0;
+  std::size_t in_line = 0;
+  const auto put = [&](std::uint32_t value) {
+    text += letters[value / kBase];
+    text += letters[value % kBase];
+    if ((in_line += 2) >= kLine) {
+      text += '\n';
+      in_line = 0;
+    }
+  };
+  for (const char c : bytes) {
+    waiting |= static_cast<std::uint32_t>(static_cast<unsigned char>(c)) << bits;
+    bits += 8;
+    if (bits < kBits) continue;
+    put(waiting & ((1u << kBits) - 1));
+    waiting >>= kBits;
+    bits -= kBits;
+  }
+  if (bits > 0) put(waiting);
+  return text;
+}
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const auto byte = [&](std::size_t n) -> std::uint32_t {
+    return n < bytes.size() ? static_cast<unsigned char>(bytes[n]) : 0;
+  };
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t n = 0; n < bytes.size(); n += 3) {
+    const std::uint32_t word = byte(n) << 16 | byte(n + 1) << 8 | byte(n + 2);
+    for (std::size_t k = 0; k < 4; ++k) text += n + k > bytes.size() ? '=' : kLetters[word >> (18 - 6 * k) & 63];
+  }
+  return text;
+}
+
+}  // namespace meniscus::page

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Puts records, shaders and the page's own files into one text.
+#include "exporters/page/page_file.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <tuple>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+#include <openssl/evp.h>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/base/version.h"
+#include "core/gpu/shader_source.h"
+#include "core/image/color_space.h"
+#include "core/math/ball.h"
+#include "core/render/linear_colors.h"
+#include "core/render/picture_block.h"
+#include "core/render/picture_object.h"
+#include "core/render/ray_cast_scene.h"
+#include "core/render/shape_packing.h"
+#include "exporters/page/page_data.h"
+#include "exporters/page/page_templates.h"
+
+namespace meniscus::page {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kMostSamples = 16;
+constexpr std::size_t kMostTexels = std::size_t{2048} * 8192;  // of a table
+
+json numbers(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+/// The words of a block of parameters, as the kernels have it.
+template <typename Block>
+json words_of(const Block& block) {
+  std::array<std::uint32_t, sizeof(Block) / sizeof(std::uint32_t)> words{};
+  std::memcpy(words.data(), &block, sizeof block);
+  return words;
+}
+
+/// For tables that belong to no camera: all that is in them is in front.
+PictureFrame frame_around(std::span<const Ball> balls) {
+  glm::dvec3 low(0.0), high(0.0);
+  for (std::size_t n = 0; n < balls.size(); ++n) {
+    low = n == 0 ? balls[n].center : glm::min(low, balls[n].center);
+    high = n == 0 ? balls[n].center : glm::max(high, balls[n].center);
+  }
+  constexpr double kFarAway = 1e7;  // Å
+  PictureFrame frame;
+  frame.pivot = 0.5 * (low + high);
+  frame.eye_distance = kFarAway;
+  frame.camera.projection = Projection::orthographic;
+  frame.camera.target = frame.pivot;
+  frame.camera.position = frame.pivot + glm::dvec3(0.0, 0.0, kFarAway);
+  frame.basis = view_basis(frame.camera);
+  return frame;
+}
+
+/// "A THR 12", and the name of the atom alone.
+std::string residue_of(const Atom& atom) {
+  if (atom.residue_name.empty()) return fmt::format("atom {}", atom.index + 1);
+  const std::string code = atom.insertion_code == ' ' ? std::string() : std::string(1, atom.insertion_code);
+  return fmt::format("{}{}{} {}{}", atom.chain, atom.chain.empty() ? "" : " ", atom.residue_name, atom.residue_number,
+                     code);
+}
+
+/// Everything that counts atoms does so here: those of the surface, then those of shapes.
+class Tables {
+ public:
+  explicit Tables(const PageFigure& figure) : figure_(figure) {
+    std::vector<PictureObject> objects;
+    if (figure.surface) {
+      objects.emplace_back().surface = &figure.surface->surface;
+      objects.back().coloring = &figure.surface->coloring;
+    }
+    if (figure.shapes) {
+      objects.emplace_back().shapes = &figure.shapes->shapes;
+      objects.back().coloring = &figure.shapes->coloring;
+    }
+    const std::vector<Ball> balls = enclosing_balls(objects);
+    frame_ = frame_around(balls);
+    placement_ = place_atoms(balls, figure.surface ? figure.surface->surface.probe_radius : 0.0, frame_);
+    for (const Ball& ball : balls)
+      balls_.emplace_back(glm::vec3(ball.center - frame_.pivot), static_cast<float>(ball.radius));
+    if (figure.surface) add_surface(*figure.surface);
+    if (figure.shapes) add_shapes(*figure.shapes);
+    check_size(3 * scene_.primitives.size(), "primitives");
+    check_size(scene_.rows.size(), "rows of numbers");
+  }
+
+  const PictureFrame& frame() const { return frame_; }
+  const ScenePlacement& placement() const { return placement_; }
+  std::uint32_t atom_count() const { return static_cast<std::uint32_t>(shown_.size()); }
+  bool color_by_kind() const { return figure_.surface && figure_.surface->coloring.kind; }
+  bool some_hidden() const { return some_hidden_; }
+  bool has_marks() const { return std::ranges::any_of(marks_, [](std::uint32_t mark) { return mark != 0; }); }
+
+  void add_to(PageData& data) {
+    std::vector<glm::vec4> colors = colors_;
+    if (color_by_kind())
+      for (const glm::vec3& color : *figure_.surface->coloring.kind) colors.emplace_back(linear_from_srgb(color), 1.0f);
+    data.add<ray_cast::Primitive>("primitives", scene_.primitives);
+    data.add<glm::vec4>("rows", scene_.rows);
+    data.add<glm::vec4>("colors", colors);
+    data.add<std::uint32_t>("marks", marks_);
+    data.add<std::uint32_t>("shown", shown_);
+    data.add<glm::vec4>("balls", balls_);
+  }
+
+ private:
+  void check_size(std::size_t texels, const char* what) const {
+    if (texels > kMostTexels)
+      throw CapacityError(fmt::format("a page holds at most {} texels of {}; this figure has {}. Show fewer atoms",
+                                      with_thousands(kMostTexels), what, with_thousands(texels)));
+  }
+
+  void add_surface(const SurfaceObject& object) {
+    pack_scene(object.surface, object.coloring, frame_, scene_);
+    add_atoms(object.coloring, object.atom);
+  }
+
+  void add_shapes(const ColoredShapes& shapes) {
+    RayCastScene beside;
+    beside.slack = placement_.slack;
+    pack_shapes(shapes.shapes, shapes.coloring, frame_, beside.slack, beside);
+    const auto first_row = static_cast<std::uint32_t>(scene_.rows.size());
+    const std::uint32_t first_atom = atom_count();
+    for (ray_cast::Primitive primitive : beside.primitives) {
+      primitive.first_row += first_row;
+      primitive.atom += first_atom;
+      if (primitive.kind == ray_cast::kCylinder) primitive.second_atom += first_atom;
+      // A sphere of its own is told from the patch of an atom by its index.
+      primitive.patch_index = kShapeIndex;
+      if (primitive.kind == ray_cast::kTriangle)
+        for (std::uint32_t corner = 3; corner < 6; ++corner) {
+          float& atom = beside.rows[primitive.first_row - first_row + corner].w;
+          atom = std::bit_cast<float>(std::bit_cast<std::uint32_t>(atom) + first_atom);
+        }
+      scene_.primitives.push_back(primitive);
+    }
+    scene_.rows.insert(scene_.rows.end(), beside.rows.begin(), beside.rows.end());
+    std::vector<std::uint32_t> all(shapes.coloring.atom.size());
+    for (std::uint32_t n = 0; n < all.size(); ++n) all[n] = n;
+    add_atoms(shapes.coloring, all);
+  }
+
+  void add_atoms(const Coloring& coloring, std::span<const std::uint32_t> shown) {
+    Coloring atoms = coloring;
+    atoms.kind.reset();
+    const std::vector<glm::vec4> colors = linear_colors(atoms);
+    colors_.insert(colors_.end(), colors.begin(), colors.end());
+    std::vector<std::uint32_t> marks = coloring.line_marks();
+    marks.resize(shown.size(), 0);
+    marks_.insert(marks_.end(), marks.begin(), marks.end());
+    shown_.insert(shown_.end(), shown.begin(), shown.end());
+    some_hidden_ = some_hidden_ || coloring.hides_some();
+  }
+
+  static constexpr std::uint32_t kShapeIndex = 0xffffffffu;
+
+  const PageFigure& figure_;
+  PictureFrame frame_;
+  ScenePlacement placement_;
+  RayCastScene scene_;
+  std::vector<glm::vec4> colors_, balls_;
+  std::vector<std::uint32_t> marks_, shown_;
+  bool some_hidden_ = false;
+};
+
+/// The shaders in GLSL ES 3.00, from their #version on: it must be their first line.
+json shaders() {
+  const auto find = [](std::string_view wanted) -> std::optional<std::string_view> {
+    for (const EmbeddedShader& shader : embedded_shaders())
+      if (shader.path == wanted) return shader.text;
+    return std::nullopt;
+  };
+  json sources = json::object();
+  for (const char* const name : {"footprint.vert", "whole.vert", "cast.frag", "points.frag", "occlusion.frag",
+                                 "finish.frag", "present.frag"})
+    sources[name] = expand_shader(fmt::format("gpu_shaders/webgl/{}", name), find, {}).text;
+  return sources;
+}
+
+json names_of(std::span<const Atom> atoms) {
+  json residues = json::array(), starts = json::array(), names = json::array();
+  std::string last;
+  for (std::size_t n = 0; n < atoms.size(); ++n) {
+    names.push_back(atoms[n].name);
+    std::string residue = residue_of(atoms[n]);
+    if (n > 0 && residue == last) continue;
+    residues.push_back(residue);
+    starts.push_back(n);
+    last = std::move(residue);
+  }
+  return {{"residues", residues}, {"starts", starts}, {"atoms", names}};
+}
+
+json camera_of(const Camera& camera, const glm::dvec3& origin) {
+  const ViewBasis basis = view_basis(camera);
+  return {{"position", numbers(camera.position - origin)},
+          {"target", numbers(camera.target - origin)},
+          {"up", numbers(basis.up)},
+          {"orthographic", camera.projection == Projection::orthographic},
+          {"fov", camera.vertical_fov},
+          {"height", camera.height}};
+}
+
+json description_of(const PageFigure& figure, const Tables& tables) {
+  const Look& look = figure.look;
+  json samples = json::array();
+  for (int n = 0; n < kMostSamples; ++n) samples.push_back({sample_offset(n).x, sample_offset(n).y});
+  const glm::vec3 background = look.background;
+  return {{"title", figure.title},
+          {"size", {figure.size.x, figure.size.y}},
+          {"camera", camera_of(figure.camera, tables.frame().pivot)},
+          {"origin", numbers(tables.frame().pivot)},
+          {"background", {background.x, background.y, background.z}},
+          {"cast", words_of(cast_parameters(tables.placement(), look, tables.atom_count(), tables.color_by_kind()))},
+          {"occlusion", words_of(occlusion_parameters(look, figure.size, 0))},
+          {"finish", words_of(finish_parameters(look, tables.placement(), figure.size, 0, tables.has_marks()))},
+          {"has_shade", look.ambient_occlusion > 0.0f},
+          {"has_lines", look.widest_line() > 0.0f},
+          {"line_step", look.line_step},
+          {"some_hidden", tables.some_hidden()},
+          {"samples", samples},
+          {"names", names_of(figure.atoms)},
+          {"shaders", shaders()}};
+}
+
+std::string hash_source(std::string_view text) {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned size = 0;
+  if (EVP_Digest(text.data(), text.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1)
+    throw Error("OpenSSL has no SHA-256");
+  return fmt::format("'sha256-{}'", base64({reinterpret_cast<const char*>(digest.data()), size}));
+}
+
+std::string hex_color(const glm::vec3& color) {
+  const auto byte = [](float channel) { return std::lround(255.0f * std::clamp(channel, 0.0f, 1.0f)); };
+  return fmt::format("#{:02x}{:02x}{:02x}", byte(color.x), byte(color.y), byte(color.z));
+}
+
+/// Swatches are drawings: a style of their own the page's policy would refuse.
+std::string swatch(const glm::vec3& color) {
+  return fmt::format(
+      R"(<svg class="swatch" viewBox="0 0 1 1" aria-hidden="true"><rect width="1" height="1" fill="{}"/></svg>)",
+      hex_color(color));
+}
+
+std::string bar(const ColorScale& scale) {
+  constexpr int kSteps = 64;
+  std::string text = fmt::format(R"(<svg class="bar" viewBox="0 0 {} 4" preserveAspectRatio="none" aria-hidden="true">)", kSteps);
+  for (int n = 0; n < kSteps; ++n) {
+    const double number = scale.range[0] + (scale.range[1] - scale.range[0]) * (n + 0.5) / kSteps;
+    text += fmt::format(R"(<rect x="{}" width="1.1" height="4" fill="{}"/>)", n, hex_color(scale.color(number)));
+  }
+  return text + "</svg>";
+}
+
+std::string legend_of(const ColorKey& key) {
+  std::string text;
+  if (key.scale && key.scale->classes.empty()) {
+    const ColorScale& scale = *key.scale;
+    const auto end = [&](int n) {
+      return scale.ends[n].empty() ? fmt::format("{:.4g}", scale.range[n])
+                                   : fmt::format("{:.4g} {}", scale.range[n], html_escaped(scale.ends[n]));
+    };
+    text += fmt::format("<p>{}{}</p><p class=\"scale\"><span>{}</span>{}<span>{}</span></p>", html_escaped(scale.title),
+                        scale.unit.empty() ? "" : ", " + html_escaped(scale.unit), end(0), bar(scale), end(1));
+  } else if (!key.classes.empty()) {
+    text += fmt::format("<p>{}</p>", html_escaped(key.scale ? key.scale->title : key.title));
+  }
+  if (key.classes.empty()) return text;
+  text += "<ul>";
+  for (const ColorClass& entry : key.classes)
+    text += fmt::format("<li>{}{}</li>", swatch(entry.color), html_escaped(entry.name));
+  return text + "</ul>";
+}
+
+std::string facts_of(const PageFigure& figure) {
+  std::string text;
+  for (const auto& [name, value] : figure.facts)
+    text += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>", html_escaped(name), html_escaped(value));
+  return text;
+}
+
+}  // namespace
+
+std::string html_escaped(std::string_view text) {
+  std::string escaped_text;
+  for (const char c : text) {
+    if (c == '&') escaped_text += "&amp;";
+    else if (c == '<') escaped_text += "&lt;";
+    else if (c == '>') escaped_text += "&gt;";
+    else if (c == '"') escaped_text += "&quot;";
+    else if (static_cast<unsigned char>(c) >= 0x20 && c != 0x7f) escaped_text += c;
+    else escaped_text += ' ';
+  }
+  return escaped_text;
+}
+
+std::string page_text(const PageFigure& figure) {
+  Tables tables(figure);
+  PageData data;
+  tables.add_to(data);
+  const std::string packed = data.deflated(description_of(figure, tables));
+  const auto file = [](std::string_view path) { return template_text(page_templates(), path); };
+  std::string script = "\"use strict\";\n";
+  for (const char* const part : {"data.js", "camera.js", "caster.js", "controls.js"}) script += file(part);
+  const std::string style = "\n" + std::string(file("page.css"));
+  const std::string_view png(reinterpret_cast<const char*>(figure.png.data()), figure.png.size());
+  const std::string still =
+      figure.png.empty() ? std::string()
+                         : fmt::format("<img id=\"still\" src=\"data:image/png;base64,{}\" alt=\"{}\">", base64(png),
+                                       html_escaped(figure.description));
+  return filled(file("page.html"), {{"TITLE", html_escaped(figure.title)},
+                                    {"VERSION", MENISCUS_VERSION},
+                                    {"STYLE", style},
+                                    {"STYLE_HASH", hash_source(style)},
+                                    {"SCRIPT", script},
+                                    {"SCRIPT_HASH", hash_source(script)},
+                                    {"DESCRIPTION", html_escaped(figure.description)},
+                                    {"FACTS", facts_of(figure)},
+                                    {"LEGEND", legend_of(figure.key)},
+                                    {"STILL", still},
+                                    {"BYTES", std::to_string(packed.size())},
+                                    {"DATA", text_of_bytes(packed)}});
+}
+
+}  // namespace meniscus::page

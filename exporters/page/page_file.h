@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A page of one file that casts the exact patches of a figure in its reader's browser, and fetches nothing.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "core/camera/camera.h"
+#include "core/color/color_key.h"
+#include "core/queries/colored_shapes.h"
+#include "core/queries/surface_object.h"
+#include "core/render/look.h"
+#include "core/structure/structure.h"
+
+namespace meniscus::page {
+
+/// What a page shows. Texts may come from files; what is pointed to must stay until the page is written.
+struct PageFigure {
+  std::string title;
+  std::string description;                                   ///< a sentence or two, for those who do not see the picture
+  std::vector<std::pair<std::string, std::string>> facts{};  ///< rows of its table
+  const SurfaceObject* surface = nullptr;                    ///< where it stands, one copy; nullptr: none
+  const ColoredShapes* shapes = nullptr;                     ///< of atoms; nullptr: none
+  std::span<const Atom> atoms{};                             ///< SurfaceObject::atom and those of shapes are places here
+  Camera camera;                                             ///< at first
+  glm::ivec2 size{0};                                        ///< of the picture that the look was made for, pixels
+  Look look;
+  ColorKey key;                   ///< what its colours mean
+  std::vector<std::uint8_t> png;  ///< the picture, for readers without WebGL 2; empty: none
+};
+
+/// The page's text. The same figure gives the same text. Throws CapacityError for a figure of more records than textures of
+/// 2048 x 8192 texels hold.
+std::string page_text(const PageFigure& figure);
+
+/// Text between the tags of HTML.
+std::string html_escaped(std::string_view text);
+
+}  // namespace meniscus::page
