@@ -19,7 +19,7 @@
 #include "core/base/output_file.h"
 #include "core/base/text.h"
 #include "core/image/color_space.h"
-#include "core/image/png_file.h"
+#include "core/image/image_codec.h"
 #include "core/queries/copies.h"
 #include "core/render/surface_renderer.h"
 #include "core/scene/representations.h"
@@ -37,8 +37,7 @@ void check_page(const Scene& scene) {
     throw UsageError(fmt::format("{}: pages do not show {} yet; leave it out, or use render", option, why));
   };
   if (scene.molecule.color.by == ColorScheme::By::volume) refuse("--color-map-file", "colours of points");
-  if (scene.molecule.color.by == ColorScheme::By::lipophilicity)
-    refuse("--color lipophilicity", "colours of points");
+  if (scene.molecule.color.by == ColorScheme::By::lipophilicity) refuse("--color lipophilicity", "colours of points");
   if (!scene.figure.cuts.empty()) refuse("--clip", "cuts");
   if (scene.figure.thickens) refuse("--film-opacity", "opacity by viewing angle");
   if (!scene.figure.objects.empty()) refuse("--object", "objects with looks of their own");
@@ -47,8 +46,8 @@ void check_page(const Scene& scene) {
 }
 
 /// The picture that readers see whose browser cannot draw the figure: on white, of at most 800 pixels.
-std::vector<std::uint8_t> still_picture(std::span<const PictureObject> objects, const Camera& camera,
-                                        glm::ivec2 size, const Look& look) {
+std::vector<std::uint8_t> still_picture(std::span<const PictureObject> objects, const Camera& camera, glm::ivec2 size,
+                                        const Look& look) {
   constexpr int kSide = 800, kSamples = 9;
   const double share = std::min(1.0, static_cast<double>(kSide) / std::max(size.x, size.y));
   RenderSettings settings;
@@ -56,14 +55,22 @@ std::vector<std::uint8_t> still_picture(std::span<const PictureObject> objects, 
   settings.samples = kSamples;
   settings.look = look;
   const Framebuffer drawn = make_cpu_renderer()->render(objects, camera, settings);
-  std::vector<std::uint8_t> pixels(drawn.color.size() * 3);
-  display_bytes(drawn.color, look.background, 3, pixels.data());
+  std::vector<float> pixels;
+  pixels.reserve(3 * drawn.color.size());
+  for (const glm::vec4& pixel : drawn.color) {
+    const glm::vec4 color = display_color(pixel, look.background);
+    for (const float channel : {color.x, color.y, color.z}) pixels.push_back(channel);
+  }
   ImageToEncode image;
-  image.format = "png";
+  image.format = "jpeg";
+  image.compression = "jpeg:85";
+  image.color_space = "sRGB";
   image.width = drawn.size.x;
   image.height = drawn.size.y;
   image.channels = {"R", "G", "B"};
-  return encode_png(image, pixels, 3);
+  const std::unique_ptr<RowEncoder> encoder = image_codec().begin(image);
+  encoder->add(pixels);
+  return encoder->finish();
 }
 
 std::string description_of(const Molecule& molecule, const Scene& scene, std::string_view name) {
@@ -73,9 +80,8 @@ std::string description_of(const Molecule& molecule, const Scene& scene, std::st
   return scene.figure.hides_surface
              ? fmt::format("{}: {} atoms", name, with_thousands(molecule.structure.atoms.size()))
              : fmt::format("The {} surface of {}, {} atoms, coloured by {}", kind, name,
-                           with_thousands(molecule.structure.atoms.size()), key_of(molecule).title.empty()
-                                                                                ? std::string("one colour")
-                                                                                : key_of(molecule).title);
+                           with_thousands(molecule.structure.atoms.size()),
+                           key_of(molecule).title.empty() ? std::string("one colour") : key_of(molecule).title);
 }
 
 std::vector<std::pair<std::string, std::string>> facts_of(const Molecule& molecule, const SurfaceObject& surface,
@@ -84,10 +90,10 @@ std::vector<std::pair<std::string, std::string>> facts_of(const Molecule& molecu
   if (scene.figure.hides_surface) return facts;
   if (scene.molecule.surface.kind == SurfaceKind::ses)
     facts.emplace_back("Probe", fmt::format("{:g} Å", surface.surface.probe_radius));
-  facts.emplace_back("Patches",
-                     fmt::format("{} convex, {} toroidal, {} concave", with_thousands(surface.surface.convex.size()),
-                                 with_thousands(surface.surface.toroidal.size()),
-                                 with_thousands(surface.surface.concave.size())));
+  facts.emplace_back(
+      "Patches",
+      fmt::format("{} convex, {} toroidal, {} concave", with_thousands(surface.surface.convex.size()),
+                  with_thousands(surface.surface.toroidal.size()), with_thousands(surface.surface.concave.size())));
   facts.emplace_back("Radii", molecule.structure.radii_set);
   return facts;
 }
@@ -98,12 +104,14 @@ void write_page(const SceneCommand& command, FigureFrame frame) {
   Figure& figure = frame.figure;
   const std::string name = std::filesystem::path(scene.molecule.file).filename().string();
   const std::vector<Atom> atoms = shown_atoms(figure.molecule.structure);
-  page::PageFigure shown{.title = name, .description = description_of(figure.molecule, scene, name)};
+  page::PageFigure shown;
+  shown.title = name;
+  shown.description = description_of(figure.molecule, scene, name);
   shown.key = key_of(figure.molecule);
   shown.camera = frame.camera;
   shown.size = scene.picture.size();
-  shown.look = look_of(scene.look, shown.size, scene.image.background,
-                       hues_of(scene.molecule.color, scene.legend.asked()));
+  shown.look =
+      look_of(scene.look, shown.size, scene.image.background, hues_of(scene.molecule.color, scene.legend.asked()));
   const SurfaceObject surface = merged(std::exchange(figure.molecule.objects, {}));
   shown.facts = facts_of(figure.molecule, surface, scene);
   std::vector<PictureObject> objects;
@@ -121,7 +129,7 @@ void write_page(const SceneCommand& command, FigureFrame frame) {
   }
   if (objects.empty()) throw RequestError("the surface is not shown, and there is nothing beside it");
   shown.atoms = atoms;
-  shown.png = still_picture(objects, frame.camera, shown.size, shown.look);
+  shown.still = still_picture(objects, frame.camera, shown.size, shown.look);
   const std::string text = page::page_text(shown);
   OutputFile file(scene.output, command.existing());
   file.write(text);
@@ -151,12 +159,13 @@ void export_page(const SceneCommand& asked) {
 }  // namespace
 
 void add_export_page(CLI::App& command) {
-  describe(command,
-           "  meniscus export page 1tii.pdb -o 1tii.html              then open it in a browser\n"
-           "  meniscus export page 1tii.pdb -o 1tii.html --color chain --sticks ligand\n"
-           "  meniscus export page --scene fig.json -o fig.html",
-           "The page fetches nothing, and casts the exact patches by WebGL 2 in the browser of whoever opens it. Others "
-           "see\na still picture that is in it.");
+  describe(
+      command,
+      "  meniscus export page 1tii.pdb -o 1tii.html              then open it in a browser\n"
+      "  meniscus export page 1tii.pdb -o 1tii.html --color chain --sticks ligand\n"
+      "  meniscus export page --scene fig.json -o fig.html",
+      "The page fetches nothing, and casts the exact patches by WebGL 2 in the browser of whoever opens it. Others "
+      "see\na still picture that is in it.");
   auto declared = std::make_shared<DeclaredCommand<>>(command, for_page);
   declared->options.describe_output("HTML file to write");
   command.callback([declared] {

@@ -13,8 +13,8 @@
 
 namespace meniscus::page {
 
-/// Tables, one after the other. Of each the first bytes of all records come first, then the second ones, and so on: what is
-/// alike in them lies together, and deflates well.
+/// Tables, one after the other. Of each the first bytes of all records come first, then the second ones, and so on:
+/// what is alike in them lies together, and deflates well.
 class PageData {
  public:
   /// T: of whole words, without padding.
@@ -23,8 +23,8 @@ class PageData {
     add_table(name, std::as_bytes(records), sizeof(T));
   }
 
-  /// zlib's format (RFC 1950): the length of the JSON in four bytes, lowest first; the JSON, to which "tables" is added; the
-  /// tables.
+  /// zlib's format (RFC 1950): the length of the JSON in four bytes, lowest first; the JSON, to which "tables" is
+  /// added; the tables.
   std::string deflated(nlohmann::json description) const;
 
  private:
@@ -34,8 +34,8 @@ class PageData {
   std::string bytes_;
 };
 
-/// Bytes as printable text: 13 bits as two of 91 characters, none of which means anything in HTML, in lines. A fifth longer
-/// than the bytes, where base64 is a third longer.
+/// Bytes as printable text: 13 bits as two of 91 characters, none of which means anything in HTML, in lines. A fifth
+/// longer than the bytes, where base64 is a third longer.
 std::string text_of_bytes(std::string_view bytes);
 
 /// Base64 (RFC 4648).

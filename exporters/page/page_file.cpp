@@ -48,6 +48,26 @@ json words_of(const Block& block) {
   return words;
 }
 
+/// What is rounded to this is stored in less room: Å, or a part of a unit vector.
+constexpr float kRounding = 1.0f / (1 << 18);
+/// What rounding may part neighbours by, who overlap by so much more.
+constexpr float kRoundingSlack = 2.0f * kRounding;
+
+float rounded(float value) { return std::round(value / kRounding) * kRounding; }
+
+/// has_whole: its last word is not a number, but the bits of an atom's.
+void round_row(glm::vec4& row, bool has_whole) {
+  row = glm::vec4(rounded(row.x), rounded(row.y), rounded(row.z), has_whole ? row.w : rounded(row.w));
+}
+
+/// Coarser, and larger by as much.
+glm::vec4 rounded_bound(const glm::vec4& bound) {
+  constexpr float kSteps = 256.0f;  // an Å
+  const glm::vec3 center = glm::round(glm::vec3(bound) * kSteps) / kSteps;
+  return glm::vec4(center,
+                   std::ceil((bound.w + glm::length(center - glm::vec3(bound)) + kRoundingSlack) * kSteps) / kSteps);
+}
+
 /// For tables that belong to no camera: all that is in them is in front.
 PictureFrame frame_around(std::span<const Ball> balls) {
   glm::dvec3 low(0.0), high(0.0);
@@ -90,10 +110,12 @@ class Tables {
     const std::vector<Ball> balls = enclosing_balls(objects);
     frame_ = frame_around(balls);
     placement_ = place_atoms(balls, figure.surface ? figure.surface->surface.probe_radius : 0.0, frame_);
+    placement_.slack += kRoundingSlack;
     for (const Ball& ball : balls)
       balls_.emplace_back(glm::vec3(ball.center - frame_.pivot), static_cast<float>(ball.radius));
     if (figure.surface) add_surface(*figure.surface);
     if (figure.shapes) add_shapes(*figure.shapes);
+    round_tables();
     check_size(3 * scene_.primitives.size(), "primitives");
     check_size(scene_.rows.size(), "rows of numbers");
   }
@@ -103,7 +125,9 @@ class Tables {
   std::uint32_t atom_count() const { return static_cast<std::uint32_t>(shown_.size()); }
   bool color_by_kind() const { return figure_.surface && figure_.surface->coloring.kind; }
   bool some_hidden() const { return some_hidden_; }
-  bool has_marks() const { return std::ranges::any_of(marks_, [](std::uint32_t mark) { return mark != 0; }); }
+  bool has_marks() const {
+    return std::ranges::any_of(marks_, [](std::uint32_t mark) { return mark != 0; });
+  }
 
   void add_to(PageData& data) {
     std::vector<glm::vec4> colors = colors_;
@@ -166,6 +190,21 @@ class Tables {
     some_hidden_ = some_hidden_ || coloring.hides_some();
   }
 
+  /// What no page asks for is 0: it depends on a camera, or decides between points at one depth.
+  void round_tables() {
+    for (ray_cast::Primitive& primitive : scene_.primitives) {
+      const bool is_concave = primitive.kind == ray_cast::kConcave, is_triangle = primitive.kind == ray_cast::kTriangle;
+      const std::uint32_t rows = is_triangle ? 6 : primitive.kind == ray_cast::kCylinder ? 2 : row_count(primitive);
+      for (std::uint32_t n = 0; n < rows; ++n)
+        round_row(scene_.rows[primitive.first_row + n],
+                  (is_concave && n > primitive.plane_count) || (is_triangle && n > 2));
+      primitive.bound = rounded_bound(primitive.bound);
+      primitive.nearest = 0.0f;
+      primitive.tie_key = 0;
+      if (primitive.patch_index != kShapeIndex) primitive.patch_index = 0;
+    }
+  }
+
   static constexpr std::uint32_t kShapeIndex = 0xffffffffu;
 
   const PageFigure& figure_;
@@ -185,8 +224,8 @@ json shaders() {
     return std::nullopt;
   };
   json sources = json::object();
-  for (const char* const name : {"footprint.vert", "whole.vert", "cast.frag", "points.frag", "occlusion.frag",
-                                 "finish.frag", "present.frag"})
+  for (const char* const name :
+       {"footprint.vert", "whole.vert", "cast.frag", "points.frag", "occlusion.frag", "finish.frag", "present.frag"})
     sources[name] = expand_shader(fmt::format("gpu_shaders/webgl/{}", name), find, {}).text;
   return sources;
 }
@@ -259,7 +298,8 @@ std::string swatch(const glm::vec3& color) {
 
 std::string bar(const ColorScale& scale) {
   constexpr int kSteps = 64;
-  std::string text = fmt::format(R"(<svg class="bar" viewBox="0 0 {} 4" preserveAspectRatio="none" aria-hidden="true">)", kSteps);
+  std::string text =
+      fmt::format(R"(<svg class="bar" viewBox="0 0 {} 4" preserveAspectRatio="none" aria-hidden="true">)", kSteps);
   for (int n = 0; n < kSteps; ++n) {
     const double number = scale.range[0] + (scale.range[1] - scale.range[0]) * (n + 0.5) / kSteps;
     text += fmt::format(R"(<rect x="{}" width="1.1" height="4" fill="{}"/>)", n, hex_color(scale.color(number)));
@@ -299,12 +339,18 @@ std::string facts_of(const PageFigure& figure) {
 std::string html_escaped(std::string_view text) {
   std::string escaped_text;
   for (const char c : text) {
-    if (c == '&') escaped_text += "&amp;";
-    else if (c == '<') escaped_text += "&lt;";
-    else if (c == '>') escaped_text += "&gt;";
-    else if (c == '"') escaped_text += "&quot;";
-    else if (static_cast<unsigned char>(c) >= 0x20 && c != 0x7f) escaped_text += c;
-    else escaped_text += ' ';
+    if (c == '&')
+      escaped_text += "&amp;";
+    else if (c == '<')
+      escaped_text += "&lt;";
+    else if (c == '>')
+      escaped_text += "&gt;";
+    else if (c == '"')
+      escaped_text += "&quot;";
+    else if (static_cast<unsigned char>(c) >= 0x20 && c != 0x7f)
+      escaped_text += c;
+    else
+      escaped_text += ' ';
   }
   return escaped_text;
 }
@@ -318,11 +364,11 @@ std::string page_text(const PageFigure& figure) {
   std::string script = "\"use strict\";\n";
   for (const char* const part : {"data.js", "camera.js", "caster.js", "controls.js"}) script += file(part);
   const std::string style = "\n" + std::string(file("page.css"));
-  const std::string_view png(reinterpret_cast<const char*>(figure.png.data()), figure.png.size());
-  const std::string still =
-      figure.png.empty() ? std::string()
-                         : fmt::format("<img id=\"still\" src=\"data:image/png;base64,{}\" alt=\"{}\">", base64(png),
-                                       html_escaped(figure.description));
+  const std::string_view picture(reinterpret_cast<const char*>(figure.still.data()), figure.still.size());
+  const std::string still = figure.still.empty()
+                                ? std::string()
+                                : fmt::format("<img id=\"still\" src=\"data:image/jpeg;base64,{}\" alt=\"{}\">",
+                                              base64(picture), html_escaped(figure.description));
   return filled(file("page.html"), {{"TITLE", html_escaped(figure.title)},
                                     {"VERSION", MENISCUS_VERSION},
                                     {"STYLE", style},

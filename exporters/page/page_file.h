@@ -24,20 +24,20 @@ namespace meniscus::page {
 /// What a page shows. Texts may come from files; what is pointed to must stay until the page is written.
 struct PageFigure {
   std::string title;
-  std::string description;                                   ///< a sentence or two, for those who do not see the picture
+  std::string description;  ///< a sentence or two, for those who do not see the picture
   std::vector<std::pair<std::string, std::string>> facts{};  ///< rows of its table
   const SurfaceObject* surface = nullptr;                    ///< where it stands, one copy; nullptr: none
   const ColoredShapes* shapes = nullptr;                     ///< of atoms; nullptr: none
-  std::span<const Atom> atoms{};                             ///< SurfaceObject::atom and those of shapes are places here
-  Camera camera;                                             ///< at first
-  glm::ivec2 size{0};                                        ///< of the picture that the look was made for, pixels
+  std::span<const Atom> atoms{};  ///< SurfaceObject::atom and those of shapes are places here
+  Camera camera;                  ///< at first
+  glm::ivec2 size{0};             ///< of the picture that the look was made for, pixels
   Look look;
-  ColorKey key;                   ///< what its colours mean
-  std::vector<std::uint8_t> png;  ///< the picture, for readers without WebGL 2; empty: none
+  ColorKey key;                     ///< what its colours mean
+  std::vector<std::uint8_t> still;  ///< its picture as JPEG, for readers without WebGL 2; empty: none
 };
 
-/// The page's text. The same figure gives the same text. Throws CapacityError for a figure of more records than textures of
-/// 2048 x 8192 texels hold.
+/// The page's text. The same figure gives the same text. Throws CapacityError for a figure of more records than
+/// textures of 2048 x 8192 texels hold.
 std::string page_text(const PageFigure& figure);
 
 /// Text between the tags of HTML.

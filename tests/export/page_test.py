@@ -1,0 +1,192 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The page of `export page` in a real browser, pixel by pixel against `render`: arguments PROGRAM CHROMIUM FREESASA_DATA.
+
+With MENISCUS_SCREENSHOTS=FOLDER in the environment, pictures of the pages are left there to be looked at."""
+
+import base64
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "preview"))
+
+import numpy
+import OpenImageIO
+from browser import Browser
+
+PROGRAM, CHROMIUM, FREESASA = sys.argv[1:4]
+TOXIN = "/usr/share/pymol/data/demo/1tii.pdb"
+UBIQUITIN = f"{FREESASA}/1ubq.pdb"
+SIZE = (320, 240)
+SOFTWARE_GL = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+NOTHING = 0xffffffff
+
+# One sample through the middle of each pixel, with the look: words of what is met, and of the sums of colours.
+CAST = """(() => {
+  const viewer = window.meniscus, caster = viewer.caster, gl = caster.gl, [width, height] = [%d, %d];
+  caster.begin(viewer.first, width, height);
+  caster.cast(0, viewer.effects);
+  const text = (words) => { let all = ""; for (const byte of new Uint8Array(words.buffer)) all += String.fromCharCode(byte);
+    return btoa(all); };
+  const what = text(caster.read(0, 0, width, height, 2));
+  const sums = new Uint32Array(4 * width * height);
+  gl.bindFramebuffer(gl.FRAMEBUFFER, caster.targets.sum);
+  gl.readPixels(0, 0, width, height, gl.RGBA_INTEGER, gl.UNSIGNED_INT, sums);
+  const { forward, eye_distance, pixel_size, orthographic } = caster.frame;
+  return { what, sums: text(sums), shown: [...viewer.figure.tables.shown], eye_distance, pixel_size, orthographic };
+})()""" % SIZE
+
+
+def srgb(linear):
+    linear = numpy.clip(linear, 0, 1)
+    return numpy.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+
+
+class PageTest(unittest.IsolatedAsyncioTestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def run_program(self, *words):
+        done = subprocess.run([PROGRAM, *words], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stderr
+
+    def export(self, molecule, *options, name="page.html"):
+        self.run_program("export", "page", molecule, "-o", self.path(name), "--force", "-q", *options)
+        return self.path(name)
+
+    def browser(self, size=(900, 500)):
+        return Browser(CHROMIUM, size, SOFTWARE_GL)
+
+    async def open(self, page, path):
+        await page.send("Page.navigate", url="file://" + path)
+        await page.until("document.getElementById('picture')?.dataset.rest !== undefined ||"
+                         " document.getElementById('message')?.textContent", 100)
+        fault = await page.evaluate("document.getElementById('message').textContent")
+        if "WebGL 2" in fault:
+            print(f"skipped: this Chromium has no WebGL 2 ({fault})")
+            sys.exit(77)
+        self.assertEqual(fault, "")
+
+    async def shoot(self, page, name):
+        if "MENISCUS_SCREENSHOTS" in os.environ:
+            await page.screenshot(os.path.join(os.environ["MENISCUS_SCREENSHOTS"], name))
+
+    def rendered(self, molecule, *options):
+        """Colour (sRGB over white), distance and atom of each pixel."""
+        self.run_program("render", molecule, "-o", self.path("r.exr"), "--force", "-q", "--aovs", "--samples", "1", "--size",
+                         "%dx%d" % SIZE, "--device", "cpu", *options)
+        image = OpenImageIO.ImageBuf(self.path("r.exr"))
+        names, pixels = image.spec().channelnames, image.get_pixels(OpenImageIO.FLOAT)
+        channel = lambda name: pixels[:, :, names.index(name)]
+        color = numpy.stack([channel(c) + 1 - channel("A") for c in "RGB"], axis=2)
+        return srgb(color), channel("Z"), channel("atom").astype(numpy.int64)
+
+    async def cast(self, page):
+        answer = await page.evaluate(CAST)
+        width, height = SIZE
+        words = lambda key: numpy.frombuffer(base64.b64decode(answer[key]), numpy.uint32).reshape(height, width, 4)
+        what, sums = words("what"), words("sums").view(numpy.float32)
+        met = what[:, :, 1] != NOTHING
+        t = what[:, :, 3].view(numpy.float32)
+        x = (numpy.arange(width) + 0.5 - width / 2) * answer["pixel_size"] / answer["eye_distance"]
+        y = (numpy.arange(height) + 0.5 - height / 2) * answer["pixel_size"] / answer["eye_distance"]
+        slant = 1 if answer["orthographic"] else numpy.sqrt(1 + x[None, :] ** 2 + y[:, None] ** 2)
+        z = numpy.where(met, t + answer["eye_distance"] * slant, numpy.inf)
+        shown = numpy.array(answer["shown"] + [-1])
+        atom = shown[numpy.where(met, what[:, :, 0], len(shown) - 1)]
+        return srgb(sums[:, :, :3] + 1 - sums[:, :, 3:]), z, atom
+
+    async def compare(self, page, molecule, *options):
+        """At most one pixel in a thousand differs; none by more than what a neighbour shows."""
+        await self.open(page, self.export(molecule, "--size", "%dx%d" % SIZE, *options))
+        color, z, atom = await self.cast(page)
+        true_color, true_z, true_atom = self.rendered(molecule, *options)
+        both = numpy.isfinite(z) & numpy.isfinite(true_z)
+        self.assertGreater(both.sum(), 0.1 * both.size)
+        far = numpy.isfinite(z) != numpy.isfinite(true_z)
+        far |= both & (numpy.abs(numpy.where(both, z, 0) - numpy.where(both, true_z, 0)) > 2e-3)
+        other_atom = atom != true_atom
+        other_color = numpy.abs(color - true_color).max(axis=2) > 2 / 255
+        differs = far | other_atom | other_color
+        print(f"{os.path.basename(molecule)} {' '.join(options)}: of {differs.size} pixels differ in depth {far.sum()}, "
+              f"atom {other_atom.sum()}, colour {other_color.sum()}; any {100 * differs.mean():.3f} %")
+        self.assertLessEqual(differs.mean(), 1e-3)
+        # What else a pixel shows is what lies within half a pixel of its middle: between what its neighbours show.
+        for y, x in zip(*numpy.nonzero(far)):
+            around = true_z[max(y - 1, 0):y + 2, max(x - 1, 0):x + 2]
+            self.assertTrue(around.min() - 0.05 <= z[y, x] <= around.max() + 0.05, f"pixel {x}, {y}: {z[y, x]} Å")
+
+    async def test_pixels_are_those_of_render(self):
+        async with self.browser() as page:
+            await self.compare(page, UBIQUITIN)
+            await self.shoot(page, "page_1ubq.png")
+            await self.compare(page, UBIQUITIN, "--projection", "orthographic", "--color", "kind", "--preset", "flat")
+            await self.compare(page, TOXIN, "--color", "chain")
+            await self.shoot(page, "page_1tii.png")
+            await self.compare(page, TOXIN, "--show", "chain A", "--sticks", "chain C", "--zoom-to", "chain C")
+            self.assertEqual(page.complaints, [])
+
+    async def test_turns_and_picks(self):
+        async with self.browser() as page:
+            await self.open(page, self.export(UBIQUITIN, "--color", "residue"))
+            await page.at_rest(100)
+            before = await page.evaluate("window.meniscus.camera.position")
+            box = await page.evaluate("(() => { const b = meniscus.canvas.getBoundingClientRect();"
+                                      " return [b.left + b.width / 2, b.top + b.height / 2]; })()")
+            await page.drag([box, [box[0] + 60, box[1] + 20]])
+            await page.at_rest(100)
+            self.assertNotEqual(before, await page.evaluate("window.meniscus.camera.position"))
+            await page.drag([box])
+            self.assertRegex(await page.evaluate("document.getElementById('picked').textContent"),
+                             r"^A [A-Z]{3}\d+ \w+ – (convex|toroidal|concave) patch")
+            await page.evaluate("meniscus.canvas.focus()")
+            for key in ("ArrowLeft", "+", ".", "p", "r"):
+                await page.send("Input.dispatchKeyEvent", type="keyDown", key=key)
+                await page.send("Input.dispatchKeyEvent", type="keyUp", key=key)
+            self.assertEqual(before, await page.evaluate("window.meniscus.camera.position"))
+            bytes_of_png = await page.evaluate("meniscus.png().then((png) => png.size)")
+            self.assertGreater(bytes_of_png, 5000)
+            self.assertEqual(page.complaints, [])
+
+    async def test_what_files_say_runs_nowhere(self):
+        evil = "</script><script>window.stolen=1</script><!--"
+        with open(UBIQUITIN) as file:
+            rows = [line for line in file if line.startswith("ATOM")][:40]
+        molecule = self.path("<script>window.stolen=1<!--.cif")
+        fields = ["group_PDB", "id", "type_symbol", "label_atom_id", "label_comp_id", "label_asym_id", "label_seq_id",
+                  "auth_asym_id", "Cartn_x", "Cartn_y", "Cartn_z"]
+        with open(molecule, "w") as file:
+            file.write("data_x\nloop_\n" + "".join(f"_atom_site.{field}\n" for field in fields))
+            for n, row in enumerate(rows):
+                file.write(f"ATOM {n + 1} {row[76:78].strip()} '{row[12:16].strip()}{evil}' '{evil}' '{evil}' 1 '{evil}' "
+                           f"{row[30:38]} {row[38:46]} {row[46:54]}\n")
+        async with self.browser((600, 400)) as page:
+            path = self.export(molecule, "--color", "chain", "--unknown-element", "guess")
+            await self.open(page, path)
+            self.assertIsNone(await page.evaluate("window.stolen"))
+            self.assertIn("window.stolen", await page.evaluate("document.getElementById('legend').textContent"))
+            self.assertIn("window.stolen", await page.evaluate("window.meniscus.atom_name(0)"))
+            # Neither may scripts that come later, nor anything from elsewhere.
+            await page.evaluate("(() => { const s = document.createElement('script'); s.textContent = 'window.stolen=1';"
+                                " document.body.append(s); })()")
+            self.assertIsNone(await page.evaluate("window.stolen"))
+            self.assertEqual(await page.evaluate("fetch('https://example.org').then(() => 'came', () => 'refused')"), "refused")
+        with open(path) as file:
+            self.assertEqual(file.read().count("<script"), 2)
+
+    def test_a_page_of_five_thousand_atoms_is_small(self):
+        size = os.path.getsize(self.export(TOXIN))
+        print(f"1tii: {size} bytes")
+        self.assertLessEqual(size, 2_000_000)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
