@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "core/base/error.h"
 #include "core/base/output_file.h"
 #include "core/base/text.h"
+#include "core/color/color_atoms.h"
 #include "core/image/color_space.h"
 #include "core/image/image_codec.h"
 #include "core/queries/copies.h"
@@ -45,10 +47,10 @@ void check_page(const Scene& scene) {
     if (rule.opacity > 0.0f && rule.opacity < 1.0f) refuse("--opacity", "what is seen through, only hidden atoms (0)");
 }
 
-/// The picture that readers see whose browser cannot draw the figure: on white, of at most 800 pixels.
+/// The picture that readers see whose browser cannot draw the figure: on white, of at most 720 pixels.
 std::vector<std::uint8_t> still_picture(std::span<const PictureObject> objects, const Camera& camera, glm::ivec2 size,
                                         const Look& look) {
-  constexpr int kSide = 800, kSamples = 9;
+  constexpr int kSide = 720, kSamples = 9;
   const double share = std::min(1.0, static_cast<double>(kSide) / std::max(size.x, size.y));
   RenderSettings settings;
   settings.size = glm::max(glm::ivec2(glm::dvec2(size) * share), glm::ivec2(1));
@@ -63,7 +65,7 @@ std::vector<std::uint8_t> still_picture(std::span<const PictureObject> objects, 
   }
   ImageToEncode image;
   image.format = "jpeg";
-  image.compression = "jpeg:85";
+  image.compression = "jpeg:80";
   image.color_space = "sRGB";
   image.width = drawn.size.x;
   image.height = drawn.size.y;
@@ -98,6 +100,45 @@ std::vector<std::pair<std::string, std::string>> facts_of(const Molecule& molecu
   return facts;
 }
 
+/// What readers can choose instead of the figure's colours: schemes that need nothing but the file.
+std::vector<page::PageScheme> more_schemes(const Structure& structure, const SurfaceObject* surface,
+                                           const FigureRequest& figure, const ColorScheme& asked) {
+  std::vector<page::PageScheme> schemes;
+  for (const char* const word :
+       {"element", "chain", "residue", "secondary", "kind", "hydrophobicity", "bfactor", "charge", "rainbow"}) {
+    const ColorScheme scheme = parse_color_scheme(word).value();
+    if (scheme.by == asked.by && asked.rules.empty()) continue;
+    try {
+      page::PageScheme made{word, color_key(structure, scheme, {}), {}, {}};
+      if (surface) {
+        const Coloring coloring = color_object(structure, surface->atom, scheme, 0);
+        made.colors = coloring.atom;
+        made.kind = coloring.kind;
+      }
+      const Coloring beside = shown_shapes(structure, figure.representations, scheme).coloring;
+      made.colors.insert(made.colors.end(), beside.atom.begin(), beside.atom.end());
+      schemes.push_back(std::move(made));
+    } catch (const InputError&) {
+      // This molecule has no such numbers.
+    }
+  }
+  return schemes;
+}
+
+/// What the scene file says and the page does not show, in a sentence. Throws UsageError for frames.
+void tell_left_out(const SceneCommand& command, std::span<const std::string> keys) {
+  std::string names;
+  for (const std::string& key : keys) {
+    if (key.starts_with("frames."))
+      throw UsageError(
+          fmt::format("{}: a page shows one molecule, not a run of frames; leave it out of the scene", key));
+    const bool is_seen = key.starts_with("annotations.") || key.starts_with("look.") || key.starts_with("camera.") ||
+                         (key.starts_with("legend.") && key != "legend.shown");
+    if (is_seen) names += (names.empty() ? "" : ", ") + key;
+  }
+  if (!names.empty()) say(command, "note: the page does not show what the scene says of " + names);
+}
+
 /// Of the molecule; what it is written to.
 void write_page(const SceneCommand& command, FigureFrame frame) {
   const Scene& scene = command.scene;
@@ -129,6 +170,8 @@ void write_page(const SceneCommand& command, FigureFrame frame) {
   }
   if (objects.empty()) throw RequestError("the surface is not shown, and there is nothing beside it");
   shown.atoms = atoms;
+  shown.scheme = scheme_word(figure.molecule.color);
+  shown.more_schemes = more_schemes(figure.molecule.structure, shown.surface, scene.figure, figure.molecule.color);
   shown.still = still_picture(objects, frame.camera, shown.size, shown.look);
   const std::string text = page::page_text(shown);
   OutputFile file(scene.output, command.existing());
@@ -139,8 +182,9 @@ void write_page(const SceneCommand& command, FigureFrame frame) {
     say(command, "warning: readers load all of it; --show or --select make a smaller page");
 }
 
-void export_page(const SceneCommand& asked) {
+void export_page(const SceneCommand& asked, std::span<const std::string> left_out) {
   check_page(asked.scene);
+  tell_left_out(asked, left_out);
   check_output(asked.scene.output, asked.existing());
   check_saved_camera(asked);
   FigureRun run(asked);
@@ -170,7 +214,7 @@ void add_export_page(CLI::App& command) {
   declared->options.describe_output("HTML file to write");
   command.callback([declared] {
     declared->options.take();
-    run_and_save_scene(declared->state, [&] { export_page(declared->state); });
+    run_and_save_scene(declared->state, [&] { export_page(declared->state, declared->options.left_out()); });
   });
 }
 

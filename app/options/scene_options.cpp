@@ -265,6 +265,7 @@ void SceneOptions::take_setting(const SceneSetting& setting) {
     places_[std::string(property.key)] = setting.place;
     return set(property, setting.texts);
   }
+  left_out_.emplace_back(property.key);
   const bool shows = has_option(property_of("surface.color"), bit_);
   if (!shows || !property.has(needs_support)) return;
   Scene alone;

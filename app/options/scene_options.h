@@ -83,6 +83,8 @@ class SceneOptions {
   bool typed(std::string_view key) const;
   /// What the command line says of it: one text, of repeatable ones all, of a flag an empty one.
   std::vector<std::string> typed_texts(const Property& property) const;
+  /// Keys of what the scene file sets and this command has no option for.
+  const std::vector<std::string>& left_out() const { return left_out_; }
   /// The path of the scene file; empty: there is none.
   const std::string& file() const { return file_; }
   const CLI::App& command() const { return command_; }
@@ -102,6 +104,7 @@ class SceneOptions {
   SceneCommand& into_;
   std::string file_;
   std::map<std::string, std::string> places_;  ///< in the scene file, by key
+  std::vector<std::string> left_out_;
 };
 
 /// A command and its options; `State` is a SceneCommand with what else the command has.

@@ -49,15 +49,22 @@ json words_of(const Block& block) {
 }
 
 /// What is rounded to this is stored in less room: Å, or a part of a unit vector.
-constexpr float kRounding = 1.0f / (1 << 18);
+constexpr float kRounding = 1.0f / (1 << 17);
+/// What colours alone depend on: the borders between atoms, and how much fades at a depth.
+constexpr float kColorRounding = 1.0f / (1 << 13);
 /// What rounding may part neighbours by, who overlap by so much more.
 constexpr float kRoundingSlack = 2.0f * kRounding;
 
-float rounded(float value) { return std::round(value / kRounding) * kRounding; }
+float rounded(float value, float step = kRounding) { return std::round(value / step) * step; }
 
-/// has_whole: its last word is not a number, but the bits of an atom's.
-void round_row(glm::vec4& row, bool has_whole) {
-  row = glm::vec4(rounded(row.x), rounded(row.y), rounded(row.z), has_whole ? row.w : rounded(row.w));
+glm::vec3 rounded(const glm::vec3& v, float step) {
+  return {rounded(v.x, step), rounded(v.y, step), rounded(v.z, step)};
+}
+
+/// of_atom: a direction, and the bits of an atom's number.
+void round_row(glm::vec4& row, bool of_atom) {
+  row = of_atom ? glm::vec4(rounded(glm::vec3(row), kColorRounding), row.w)
+                : glm::vec4(rounded(glm::vec3(row), kRounding), rounded(row.w));
 }
 
 /// Coarser, and larger by as much.
@@ -112,7 +119,8 @@ class Tables {
     placement_ = place_atoms(balls, figure.surface ? figure.surface->surface.probe_radius : 0.0, frame_);
     placement_.slack += kRoundingSlack;
     for (const Ball& ball : balls)
-      balls_.emplace_back(glm::vec3(ball.center - frame_.pivot), static_cast<float>(ball.radius));
+      balls_.emplace_back(rounded(glm::vec3(ball.center - frame_.pivot), kColorRounding),
+                          static_cast<float>(ball.radius));
     if (figure.surface) add_surface(*figure.surface);
     if (figure.shapes) add_shapes(*figure.shapes);
     round_tables();
@@ -133,15 +141,33 @@ class Tables {
     std::vector<glm::vec4> colors = colors_;
     if (color_by_kind())
       for (const glm::vec3& color : *figure_.surface->coloring.kind) colors.emplace_back(linear_from_srgb(color), 1.0f);
-    data.add<ray_cast::Primitive>("primitives", scene_.primitives);
+    std::vector<ray_cast::Primitive> primitives = scene_.primitives;
+    for (std::size_t n = primitives.size(); n-- > 1;) primitives[n].first_row -= primitives[n - 1].first_row;
+    data.add<ray_cast::Primitive>("primitives", primitives);
     data.add<glm::vec4>("rows", scene_.rows);
     data.add<glm::vec4>("colors", colors);
+    for (std::size_t n = 0; n < figure_.more_schemes.size(); ++n)
+      data.add<std::uint32_t>(fmt::format("scheme_{}", n + 1), color_words(figure_.more_schemes[n]));
     data.add<std::uint32_t>("marks", marks_);
     data.add<std::uint32_t>("shown", shown_);
     data.add<glm::vec4>("balls", balls_);
   }
 
  private:
+  /// sRGB, red lowest: of atoms, then of kinds.
+  static std::vector<std::uint32_t> color_words(const PageScheme& scheme) {
+    std::vector<std::uint32_t> words;
+    words.reserve(scheme.colors.size() + 3);
+    const auto add = [&](const glm::vec3& color) {
+      words.push_back(
+          static_cast<std::uint32_t>(display_byte(color.x) | display_byte(color.y) << 8 | display_byte(color.z) << 16));
+    };
+    for (const glm::vec3& color : scheme.colors) add(color);
+    if (scheme.kind)
+      for (const glm::vec3& color : *scheme.kind) add(color);
+    return words;
+  }
+
   void check_size(std::size_t texels, const char* what) const {
     if (texels > kMostTexels)
       throw CapacityError(fmt::format("a page holds at most {} texels of {}; this figure has {}. Show fewer atoms",
@@ -254,36 +280,6 @@ json camera_of(const Camera& camera, const glm::dvec3& origin) {
           {"height", camera.height}};
 }
 
-json description_of(const PageFigure& figure, const Tables& tables) {
-  const Look& look = figure.look;
-  json samples = json::array();
-  for (int n = 0; n < kMostSamples; ++n) samples.push_back({sample_offset(n).x, sample_offset(n).y});
-  const glm::vec3 background = look.background;
-  return {{"title", figure.title},
-          {"size", {figure.size.x, figure.size.y}},
-          {"camera", camera_of(figure.camera, tables.frame().pivot)},
-          {"origin", numbers(tables.frame().pivot)},
-          {"background", {background.x, background.y, background.z}},
-          {"cast", words_of(cast_parameters(tables.placement(), look, tables.atom_count(), tables.color_by_kind()))},
-          {"occlusion", words_of(occlusion_parameters(look, figure.size, 0))},
-          {"finish", words_of(finish_parameters(look, tables.placement(), figure.size, 0, tables.has_marks()))},
-          {"has_shade", look.ambient_occlusion > 0.0f},
-          {"has_lines", look.widest_line() > 0.0f},
-          {"line_step", look.line_step},
-          {"some_hidden", tables.some_hidden()},
-          {"samples", samples},
-          {"names", names_of(figure.atoms)},
-          {"shaders", shaders()}};
-}
-
-std::string hash_source(std::string_view text) {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned size = 0;
-  if (EVP_Digest(text.data(), text.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1)
-    throw Error("OpenSSL has no SHA-256");
-  return fmt::format("'sha256-{}'", base64({reinterpret_cast<const char*>(digest.data()), size}));
-}
-
 std::string hex_color(const glm::vec3& color) {
   const auto byte = [](float channel) { return std::lround(255.0f * std::clamp(channel, 0.0f, 1.0f)); };
   return fmt::format("#{:02x}{:02x}{:02x}", byte(color.x), byte(color.y), byte(color.z));
@@ -325,6 +321,45 @@ std::string legend_of(const ColorKey& key) {
   for (const ColorClass& entry : key.classes)
     text += fmt::format("<li>{}{}</li>", swatch(entry.color), html_escaped(entry.name));
   return text + "</ul>";
+}
+
+json schemes_of(const PageFigure& figure, bool by_kind) {
+  json schemes = json::array();
+  schemes.push_back({{"name", figure.scheme}, {"legend", legend_of(figure.key)}, {"by_kind", by_kind}});
+  for (const PageScheme& scheme : figure.more_schemes)
+    schemes.push_back({{"name", scheme.name}, {"legend", legend_of(scheme.key)}, {"by_kind", scheme.kind.has_value()}});
+  return schemes;
+}
+
+json description_of(const PageFigure& figure, const Tables& tables) {
+  const Look& look = figure.look;
+  json samples = json::array();
+  for (int n = 0; n < kMostSamples; ++n) samples.push_back({sample_offset(n).x, sample_offset(n).y});
+  const glm::vec3 background = look.background;
+  return {{"title", figure.title},
+          {"size", {figure.size.x, figure.size.y}},
+          {"camera", camera_of(figure.camera, tables.frame().pivot)},
+          {"origin", numbers(tables.frame().pivot)},
+          {"background", {background.x, background.y, background.z}},
+          {"cast", words_of(cast_parameters(tables.placement(), look, tables.atom_count(), tables.color_by_kind()))},
+          {"occlusion", words_of(occlusion_parameters(look, figure.size, 0))},
+          {"finish", words_of(finish_parameters(look, tables.placement(), figure.size, 0, tables.has_marks()))},
+          {"has_shade", look.ambient_occlusion > 0.0f},
+          {"has_lines", look.widest_line() > 0.0f},
+          {"line_step", look.line_step},
+          {"some_hidden", tables.some_hidden()},
+          {"samples", samples},
+          {"schemes", schemes_of(figure, tables.color_by_kind())},
+          {"names", names_of(figure.atoms)},
+          {"shaders", shaders()}};
+}
+
+std::string hash_source(std::string_view text) {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned size = 0;
+  if (EVP_Digest(text.data(), text.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1)
+    throw Error("OpenSSL has no SHA-256");
+  return fmt::format("'sha256-{}'", base64({reinterpret_cast<const char*>(digest.data()), size}));
 }
 
 std::string facts_of(const PageFigure& figure) {

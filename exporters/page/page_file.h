@@ -2,6 +2,7 @@
 // A page of one file that casts the exact patches of a figure in its reader's browser, and fetches nothing.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -21,6 +22,14 @@
 
 namespace meniscus::page {
 
+/// Colours that readers can choose instead of the figure's own.
+struct PageScheme {
+  std::string name;                                ///< "chain", ...
+  ColorKey key;                                    ///< what they mean
+  std::vector<glm::vec3> colors;                   ///< sRGB: of the surface's atoms, then of those that shapes name
+  std::optional<std::array<glm::vec3, 3>> kind{};  ///< Coloring::kind
+};
+
 /// What a page shows. Texts may come from files; what is pointed to must stay until the page is written.
 struct PageFigure {
   std::string title;
@@ -32,6 +41,8 @@ struct PageFigure {
   Camera camera;                  ///< at first
   glm::ivec2 size{0};             ///< of the picture that the look was made for, pixels
   Look look;
+  std::string scheme;  ///< the name of its colours
+  std::vector<PageScheme> more_schemes{};
   ColorKey key;                     ///< what its colours mean
   std::vector<std::uint8_t> still;  ///< its picture as JPEG, for readers without WebGL 2; empty: none
 };

@@ -146,7 +146,7 @@ class PageTest(unittest.IsolatedAsyncioTestCase):
             self.assertNotEqual(before, await page.evaluate("window.meniscus.camera.position"))
             await page.drag([box])
             self.assertRegex(await page.evaluate("document.getElementById('picked').textContent"),
-                             r"^A [A-Z]{3}\d+ \w+ – (convex|toroidal|concave) patch")
+                             r"^A [A-Z]{3} \d+ \w+ – (convex|toroidal|concave) patch")
             await page.evaluate("meniscus.canvas.focus()")
             for key in ("ArrowLeft", "+", ".", "p", "r"):
                 await page.send("Input.dispatchKeyEvent", type="keyDown", key=key)

@@ -9,6 +9,8 @@ const kBuckets = 4096;  // of depth, front to back
 /// A figure cannot be drawn here, in a sentence for its reader.
 class NoWebGl extends Error {}
 
+const linear_from_srgb = (color) => color.map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
+
 class Caster {
   constructor(canvas, figure) {
     this.figure = figure;
@@ -21,7 +23,9 @@ class Caster {
     this.blocks = new Map();
     this.size = [0, 0];
     this.tables = {};
-    for (const name of ["primitives", "rows", "colors", "marks"]) this.tables[name] = this.table(name);
+    for (const name of ["primitives", "rows", "marks"]) this.tables[name] = this.table(name);
+    this.tables.colors = null;
+    this.set_scheme(0);
     this.make_groups();
     gl.pixelStorei(gl.PACK_ALIGNMENT, 1);
     gl.disable(gl.DITHER);
@@ -66,6 +70,21 @@ class Caster {
     this.groups = groups.map((list, n) => ({ define: ["", "TORI", "SHAPES"][n], list: Uint32Array.from(list) }));
     this.buffer = gl.createBuffer();
     this.vertices = gl.createVertexArray();
+  }
+
+  /// scheme: its place among the figure's.
+  set_scheme(scheme) {
+    const { figure, gl } = this, own = new Float32Array(figure.tables.own_colors.buffer);
+    figure.tables.colors = figure.tables.own_colors;
+    if (scheme > 0) {
+      const words = figure.tables[`scheme_${scheme}`], colors = new Float32Array(4 * words.length);
+      words.forEach((word, n) => colors.set([...linear_from_srgb([0, 8, 16].map((bit) => ((word >> bit) & 255) / 255)),
+        n < figure.tables.shown.length ? own[4 * n + 3] : 1], 4 * n));
+      figure.tables.colors = new Uint32Array(colors.buffer);
+    }
+    this.by_kind = figure.schemes[scheme].by_kind ? 1 : 0;
+    gl.deleteTexture(this.tables.colors);
+    this.tables.colors = this.table("colors");
   }
 
   shader(type, name, defines) {
@@ -231,7 +250,7 @@ class Caster {
     const points = this.program("whole.vert", "points.frag");
     this.use(points, { primitive_texels: tables.primitives, row_texels: tables.rows, color_texels: tables.colors,
       mark_texels: tables.marks, found_texels: pixels.found }, { pivot: this.frame.pivot });
-    this.set_block(points, "Parameters", figure.cast, {});
+    this.set_block(points, "Parameters", figure.cast, { color_by_kind: this.by_kind });
     gl.drawArrays(gl.TRIANGLES, 0, 3);
     const normal = first ? pixels.first_normal : pixels.normal, what = first ? pixels.first_what : pixels.what;
     if (effects.shade) {
@@ -326,6 +345,6 @@ class Caster {
 }
 
 /// Members that are whole numbers; the others are floats.
-const kWholeMembers = new Set(["orthographic", "size", "map_size", "sample_index", "has_marks", "keeps_alpha", "tiles"]);
+const kWholeMembers = new Set(["orthographic", "size", "map_size", "sample_index", "has_marks", "keeps_alpha", "tiles", "color_by_kind"]);
 /// Words of FinishParameters (gpu_shaders/look/parameters.glsl).
 const kLineWords = { patch_lines: 11, outer_lines: 15, inner_lines: 16, part_lines: 17, widest_line: 18 };

@@ -22,7 +22,17 @@ class Viewer {
     new ResizeObserver(() => this.change()).observe(element("stage"));
   }
 
-  start() { this.caster = new Caster(this.canvas, this.figure); }
+  start() {
+    this.caster = new Caster(this.canvas, this.figure);
+    this.caster.set_scheme(this.scheme ?? 0);
+  }
+
+  set_scheme(scheme) {
+    this.scheme = scheme;
+    this.caster.set_scheme(scheme);
+    element("legend").innerHTML = this.figure.schemes[scheme].legend;  // escaped where it was written
+    this.change();
+  }
 
   fail(sentence) {
     cancelAnimationFrame(this.waiting);
@@ -68,7 +78,7 @@ class Viewer {
     const began = performance.now(), scale = this.draft_scale;
     this.caster.begin(this.camera, Math.max(1, Math.round(width * scale)), Math.max(1, Math.round(height * scale)));
     this.caster.cast(0, { shade: false, lines: false });
-    this.caster.present(this.linear_background());
+    this.caster.present(linear_from_srgb(this.background));
     this.caster.read(0, 0, 1, 1, 2);  // waits for the device
     const took = performance.now() - began;
     this.draft_scale = Math.min(1, Math.max(0.125, scale * Math.sqrt(kDraft / Math.max(took, 1))));
@@ -79,13 +89,9 @@ class Viewer {
   draw_sample(width, height) {
     if (this.sample < 0) this.caster.begin(this.camera, width, height);
     this.caster.cast(++this.sample, this.effects);
-    this.caster.present(this.linear_background());
+    this.caster.present(linear_from_srgb(this.background));
     if (this.sample + 1 < this.figure.samples.length) this.waiting = requestAnimationFrame(() => this.draw());
     else this.canvas.dataset.rest = "true";
-  }
-
-  linear_background() {
-    return this.background.map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
   }
 
   pick(x, y) {
@@ -220,6 +226,8 @@ function follow_controls(viewer) {
     element(name).parentElement.hidden = !viewer.effects[name];
     element(name).addEventListener("change", () => { viewer.effects[name] = element(name).checked; viewer.change(); });
   }
+  viewer.figure.schemes.forEach(({ name }, n) => element("scheme").append(new Option(name, n)));
+  element("scheme").addEventListener("change", () => viewer.set_scheme(Number(element("scheme").value)));
   element("reset").addEventListener("click", () => {
     viewer.camera = viewer.first;
     element("projection").value = viewer.camera.orthographic ? "orthographic" : "perspective";

@@ -37,6 +37,9 @@ async function read_figure(text, count) {
       for (let n = 0; n < count; ++n) table[n * stride + byte] = bytes[at++];
     tables[name] = new Uint32Array(table.buffer);
   }
+  tables.own_colors = tables.colors;
+  // First rows are written as how many more they are than the one before.
+  for (let n = 12; n < tables.primitives.length; n += 12) tables.primitives[n + 5] += tables.primitives[n - 12 + 5];
   if (at !== bytes.length) throw new Error("The page's data is not whole.");
   return { ...figure, tables };
 }
