@@ -33,15 +33,12 @@ namespace {
 
 constexpr double kManyBytes = 15e6;
 
-/// What a page cannot show is refused before anything is computed.
+/// What a page cannot show though it has the option is refused before anything is computed.
 void check_page(const Scene& scene) {
   const auto refuse = [](const std::string& option, const char* why) {
     throw UsageError(fmt::format("{}: pages do not show {} yet; leave it out, or use render", option, why));
   };
-  if (scene.molecule.color.by == ColorScheme::By::volume) refuse("--color-map-file", "colours of points");
   if (scene.molecule.color.by == ColorScheme::By::lipophilicity) refuse("--color lipophilicity", "colours of points");
-  if (!scene.figure.cuts.empty()) refuse("--clip", "cuts");
-  if (scene.figure.thickens) refuse("--film-opacity", "opacity by viewing angle");
   if (!scene.figure.objects.empty()) refuse("--object", "objects with looks of their own");
   for (const OpacityRule& rule : scene.molecule.color.opacities)
     if (rule.opacity > 0.0f && rule.opacity < 1.0f) refuse("--opacity", "what is seen through, only hidden atoms (0)");
@@ -203,13 +200,12 @@ void export_page(const SceneCommand& asked, std::span<const std::string> left_ou
 }  // namespace
 
 void add_export_page(CLI::App& command) {
-  describe(
-      command,
-      "  meniscus export page 1tii.pdb -o 1tii.html              then open it in a browser\n"
-      "  meniscus export page 1tii.pdb -o 1tii.html --color chain --sticks ligand\n"
-      "  meniscus export page --scene fig.json -o fig.html",
-      "The page fetches nothing, and casts the exact patches by WebGL 2 in the browser of whoever opens it. Others "
-      "see\na still picture that is in it.");
+  describe(command,
+           "  meniscus export page 1tii.pdb -o 1tii.html              then open it in a browser\n"
+           "  meniscus export page 1tii.pdb -o 1tii.html --color chain --sticks ligand\n"
+           "  meniscus export page --scene fig.json -o fig.html",
+           "The page fetches nothing, and casts the exact patches by WebGL 2 in the browser that opens it. Others "
+           "see\na still picture that is in it.");
   auto declared = std::make_shared<DeclaredCommand<>>(command, for_page);
   declared->options.describe_output("HTML file to write");
   command.callback([declared] {

@@ -268,6 +268,7 @@ for export in ("mesh", "ply"):
         OWN_ROWS["export " + export, option] = (ROWS[option][0], None)
 
 SMALL = {"render": ["--size", "32x24", "--samples", "1", "--no-provenance"], "preview": ["--size", "32x24", "--samples", "1"],
+         "export page": ["--size", "32x24"],
          "panels": ["--size", "200x100", "--samples", "1"],
          "film": ["--size", "32x24", "--samples", "1", "--hold", "0", "--transition", "0.08"]}
 MESHES = {"export blender", "export mitsuba", "export pbrt", "export mesh", "export ply"}
@@ -278,7 +279,7 @@ EXCLUDES = {"--tolerance-pixels": "--tolerance", "--density": "--tolerance", "--
 def output_of(command, context):
     of_run = "--frames" in CONTEXTS[context] or "--trajectory" in CONTEXTS[context]
     return {"film": "a.mp4" if context == "story film" else "a_#.png", "render": "a.mp4" if context == "film" else "a.exr" if context == "exr" else "a_#.png" if of_run else "a.png", "export mesh": "a.usda" if context == "usd" else "a_#.glb" if of_run else "a.glb",
-            "panels": "a.png", "morph": "a.pdb", "export ply": "a_#.ply" if of_run else "a.ply", "export atoms": "a.atoms", "export vdb": "a_#.vdb" if of_run else "a.vdb", "export blender": "a" if of_run else "a.mns"}.get(command, "a")
+            "panels": "a.png", "morph": "a.pdb", "export ply": "a_#.ply" if of_run else "a.ply", "export atoms": "a.atoms", "export vdb": "a_#.vdb" if of_run else "a.vdb", "export page": "a.html", "export blender": "a" if of_run else "a.mns"}.get(command, "a")
 
 
 def options_of(command):
@@ -413,7 +414,7 @@ class OptionUse(unittest.TestCase):
 
 
 TESTED = ["surface", "pockets", "info", "render", "film", "panels", "morph", "preview", "export povray", "export blender", "export mitsuba", "export pbrt",
-          "export mesh", "export ply", "export vdb", "export atoms", "formats", "farm bundle"]
+          "export mesh", "export ply", "export vdb", "export atoms", "export page", "formats", "farm bundle"]
 # What it is for is nothing that the command can do, or not with an output of that name.
 REFUSED = {("pockets", "--instances"), ("export vdb", "--instances"), ("render", "--frames"), ("render", "--trajectory"),
            *((f"export {mesh}", option) for mesh in ("mesh", "ply", "vdb") for option in ("--frames", "--trajectory")),

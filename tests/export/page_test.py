@@ -62,7 +62,7 @@ class PageTest(unittest.IsolatedAsyncioTestCase):
         self.run_program("export", "page", molecule, "-o", self.path(name), "--force", "-q", *options)
         return self.path(name)
 
-    def browser(self, size=(900, 500)):
+    def browser(self, size=(520, 260)):
         return Browser(CHROMIUM, size, SOFTWARE_GL)
 
     async def open(self, page, path):

@@ -79,10 +79,8 @@ function frame_of(camera, width, height) {
     pivot: plus(camera.position, times(basis.forward, eye_distance)) };
 }
 
-/// Where a point is seen, in heights of the picture from its middle, to the right and down; nothing: behind the camera.
-function place_of(camera, point) {
-  const { right, up, forward } = basis_of(camera), from = minus(point, camera.position), depth = dot(from, forward);
-  if (depth <= 0) return null;
-  const height = camera.orthographic ? camera.height : 2 * depth * Math.tan(camera.fov * Math.PI / 360);
-  return { x: dot(from, right) / height, y: -dot(from, up) / height, depth };
+/// The same view where a picture is narrower than the one that it was made for: all that was seen across is seen.
+function widened(camera, factor) {
+  if (camera.orthographic) return { ...camera, height: camera.height * factor };
+  return { ...camera, fov: Math.atan(Math.tan(camera.fov * Math.PI / 360) * factor) * 360 / Math.PI };
 }

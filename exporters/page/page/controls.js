@@ -48,6 +48,17 @@ class Viewer {
     return [Math.max(1, Math.round(stage.clientWidth * scale)), Math.max(1, Math.round(stage.clientHeight * scale))];
   }
 
+  /// By how much more is seen from top to bottom than the camera says.
+  growth() {
+    const [width, height] = this.figure.size, { clientWidth, clientHeight } = element("stage");
+    return Math.max(1, (width / height) * (clientHeight / Math.max(clientWidth, 1)));
+  }
+
+  begin(width, height) { this.caster.begin(widened(this.camera, this.growth()), width, height); }
+
+  /// Of the camera's picture, CSS pixels: what motions are measured by.
+  height() { return this.canvas.clientHeight / this.growth(); }
+
   /// Something is to be seen otherwise; moving: and will change again soon.
   change(moving = false) {
     this.moving = moving;
@@ -76,7 +87,7 @@ class Viewer {
 
   draw_draft(width, height) {
     const began = performance.now(), scale = this.draft_scale;
-    this.caster.begin(this.camera, Math.max(1, Math.round(width * scale)), Math.max(1, Math.round(height * scale)));
+    this.begin(Math.max(1, Math.round(width * scale)), Math.max(1, Math.round(height * scale)));
     this.caster.cast(0, { shade: false, lines: false });
     this.caster.present(linear_from_srgb(this.background));
     this.caster.read(0, 0, 1, 1, 2);  // waits for the device
@@ -87,7 +98,7 @@ class Viewer {
   }
 
   draw_sample(width, height) {
-    if (this.sample < 0) this.caster.begin(this.camera, width, height);
+    if (this.sample < 0) this.begin(width, height);
     this.caster.cast(++this.sample, this.effects);
     this.caster.present(linear_from_srgb(this.background));
     if (this.sample + 1 < this.figure.samples.length) this.waiting = requestAnimationFrame(() => this.draw());
@@ -112,7 +123,6 @@ class Viewer {
   /// Atom and residue, and which patch it is on.
   words(picked) {
     const record = this.figure.tables.primitives.subarray(12 * picked.primitive, 12 * picked.primitive + 12), kind = record[7];
-    const floats = new Float32Array(this.figure.tables.rows.buffer);
     if (kind >= kCylinder || record[8] === kNoPrimitive) return this.atom_name(picked.atom);
     if (kind === 0) return `${this.atom_name(picked.atom)} – convex patch`;
     if (kind === 1) return `${this.atom_name(picked.atom)} – toroidal patch of ${this.atom_name(record[9])} and ${this.atom_name(record[10])}`;
@@ -158,7 +168,7 @@ function follow_pointer(viewer) {
   canvas.addEventListener("pointermove", (event) => {
     const last = pointers.get(event.pointerId);
     if (!last || !drag) return;
-    const height = canvas.clientHeight, before = pointers.size === 2 ? middle() : null;
+    const height = viewer.height(), before = pointers.size === 2 ? middle() : null;
     const [dx, dy] = [event.clientX - last.x, event.clientY - last.y];
     pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
     if (before) {
@@ -190,8 +200,8 @@ function follow_pointer(viewer) {
     event.preventDefault();
     const factor = Math.exp(-event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? 1 : 16) * 0.0015);
     const box = canvas.getBoundingClientRect();
-    viewer.move(zoomed(viewer.camera, Math.min(2, Math.max(0.5, factor)), (event.clientX - box.left - box.width / 2) / box.height,
-      (event.clientY - box.top - box.height / 2) / box.height));
+    viewer.move(zoomed(viewer.camera, Math.min(2, Math.max(0.5, factor)),
+      (event.clientX - box.left - box.width / 2) / viewer.height(), (event.clientY - box.top - box.height / 2) / viewer.height()));
   }, { passive: false });
 }
 
