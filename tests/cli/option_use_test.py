@@ -126,7 +126,7 @@ CONTEXTS = {
     "assembly": ["{one.pdb}", "--assembly", "1"], "hollow": ["{hollow.pdb}"],
     "exr": ["{one.pdb}"], "clip": ["{one.pdb}", "--clip", "depth>0.5"], "seen through": ["{one.pdb}", "--opacity", "0.4"],
     "shapes": ["{one.pdb}", "--sticks", "chain A"], "sticks": ["{one.pdb}", "--sticks", "chain A", "--hide-surface"],
-    "ring": ["{rings.pdb}", "--opacity", "0.1"],
+    "ring": ["{rings.pdb}", "--opacity", "0.1"], "covered ring": ["{rings.pdb}"],
     "tube": ["{one.pdb}", "--tube", "protein", "--hide-surface"],
     "mesh sticks": ["{one.pdb}", "--sticks", "chain A"], "mesh tube": ["{one.pdb}", "--tube", "protein"],
     "bare": ["{one.pdb}", "--opacity", "0.1"],
@@ -257,6 +257,9 @@ OWN_ROWS = {
 }
 for export in ("povray", "blender", "mitsuba", "pbrt"):
     OWN_ROWS["export " + export, "--dpi"] = ("90", "length")
+for shape in ("--sticks", "--balls", "--spheres", "--tube", "--bases", "--glycans"):
+    OWN_ROWS["export page", shape] = (ROWS[shape][0], "covered ring" if shape in ("--bases", "--glycans") else "plain")
+OWN_ROWS["export page", "--background"] = ("black", "plain")
 for export in ("mesh", "ply"):
     OWN_ROWS["export " + export, "--stick-radius"] = ("0.7", "mesh sticks")
     OWN_ROWS["export " + export, "--tube-radius"] = ("0.9", "mesh tube")
@@ -420,7 +423,7 @@ REFUSED = {("pockets", "--instances"), ("export vdb", "--instances"), ("render",
            *((f"export {mesh}", option) for mesh in ("mesh", "ply", "vdb") for option in ("--frames", "--trajectory")),
            ("preview", "--color-map-file"), ("preview", "--map-offset"), ("export atoms", "--color-map-file"), ("export atoms", "--map-offset"), ("export pbrt", "--color-map-file"),
            ("export pbrt", "--map-offset"), ("export mitsuba", "--cap-hatching"), ("export mitsuba", "--film-opacity"),
-           ("export pbrt", "--cap-hatching"), ("export pbrt", "--film-opacity")}
+           ("export pbrt", "--cap-hatching"), ("export pbrt", "--film-opacity"), ("export page", "--opacity"), ("export page", "--object")}
 # There are no pockets in what is made whole, a cavity is not seen from outside, and copies that stand apart look the same.
 SILENT = {("pockets", "--whole"), ("render", "--instances"), ("render", "--cavities")}
 
