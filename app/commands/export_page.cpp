@@ -148,8 +148,8 @@ void write_page(const SceneCommand& command, FigureFrame frame) {
   shown.key = key_of(figure.molecule);
   shown.camera = frame.camera;
   shown.size = scene.picture.size();
-  shown.look =
-      look_of(scene.look, shown.size, scene.image.background, hues_of(scene.molecule.color, scene.legend.asked()));
+  shown.look = look_of(scene.look, shown.size, scene.image.background,
+                       hues_of(scene.molecule.color, scene.legend.asked(), false));
   const SurfaceObject surface = merged(std::exchange(figure.molecule.objects, {}));
   shown.facts = facts_of(figure.molecule, surface, scene);
   std::vector<PictureObject> objects;
