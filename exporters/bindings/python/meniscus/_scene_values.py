@@ -63,7 +63,8 @@ class SurfaceValues(TypedDict, total=False):
     #: COLOR: Colour of the lines around --patches [black]
     patch_line_color: Text
     #: F: Fade of the farthest atoms into the background, 0 to 1. A transparent background counts as white.
-    #: Presets do not fade where colours show numbers, a legend explains them or a surface is seen through
+    #: Presets do not fade where colours show numbers, a legend explains them, or a surface is seen through or
+    #: cut for atoms to be seen (--look-into)
     depth_cue: float
     #: Make transparent edges for programs that blend in linear light. Without it .png and .tif pictures look
     #: right on a page
