@@ -79,6 +79,37 @@ std::string shell_word(std::string_view text) {
   return quoted + "'";
 }
 
+std::string markup_text(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
+    else if (c == '"')
+      result += "&quot;";
+    else if ((static_cast<unsigned char>(c) >= 0x20 && c != 0x7f) || c == '\n' || c == '\t')
+      result += c;
+  }
+  return result;
+}
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const auto byte = [&](std::size_t n) -> std::uint32_t {
+    return n < bytes.size() ? static_cast<unsigned char>(bytes[n]) : 0;
+  };
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t n = 0; n < bytes.size(); n += 3) {
+    const std::uint32_t word = byte(n) << 16 | byte(n + 1) << 8 | byte(n + 2);
+    for (std::size_t k = 0; k < 4; ++k) text += n + k > bytes.size() ? '=' : kLetters[word >> (18 - 6 * k) & 63];
+  }
+  return text;
+}
+
 std::string pointed_at(std::string_view text, std::size_t position) {
   constexpr std::size_t kBefore = 50, kAfter = 30;
   const auto continues = [&](std::size_t n) { return n < text.size() && (text[n] & 0xc0) == 0x80; };  // inside UTF-8

@@ -32,6 +32,13 @@ std::string with_thousands(std::uint64_t count);
 /// One word of a POSIX shell, whatever the text holds.
 std::string shell_word(std::string_view text);
 
+/// Text between the tags of XML and HTML, or in a double-quoted attribute. Control characters, which XML does not have,
+/// are left out; new lines and tabs stay.
+std::string markup_text(std::string_view text);
+
+/// Three bytes as four letters (RFC 4648).
+std::string base64(std::string_view bytes);
+
 /// Two lines: the text, and a caret under byte `position` of it (at most its size). Of a long text only a window around
 /// the place is shown; control characters are escaped, and UTF-8 counts by character.
 std::string pointed_at(std::string_view text, std::size_t position);

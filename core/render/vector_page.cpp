@@ -15,6 +15,7 @@
 #include "core/base/error.h"
 #include "core/base/output_file.h"
 #include "core/base/system_file.h"
+#include "core/base/text.h"
 #include "core/base/version.h"
 #include "core/image/png_file.h"
 
@@ -44,59 +45,6 @@ int byte_of(float value) { return static_cast<int>(std::clamp(value, 0.0f, 1.0f)
 std::string hex(const glm::vec3& color) {
   return fmt::format("#{:02x}{:02x}{:02x}", byte_of(color.x), byte_of(color.y), byte_of(color.z));
 }
-
-/// Text between the tags of an XML file, or of an attribute. Characters that XML does not have are left out.
-std::string xml(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t')
-      result += c;
-  }
-  return result;
-}
-
-/// Three bytes make four letters (RFC 4648).
-class Base64 {
- public:
-  template <typename Write>
-  void add(std::span<const std::uint8_t> bytes, const Write& write) {
-    std::string text;
-    for (const std::uint8_t byte : bytes) {
-      kept_[count_++] = byte;
-      if (count_ < 3) continue;
-      text += letters(4);
-      count_ = 0;
-    }
-    write(text);
-  }
-  std::string rest() {
-    if (count_ == 0) return {};
-    std::fill(kept_.begin() + static_cast<std::ptrdiff_t>(count_), kept_.end(), std::uint8_t{0});
-    std::string text = letters(count_ + 1);
-    text.resize(4, '=');
-    return text;
-  }
-
- private:
-  std::string letters(std::size_t count) const {
-    constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const unsigned bits = kept_[0] << 16 | kept_[1] << 8 | kept_[2];
-    std::string text;
-    for (std::size_t n = 0; n < count; ++n) text += kLetters[bits >> (18 - 6 * n) & 63];
-    return text;
-  }
-
-  std::array<std::uint8_t, 3> kept_{};
-  std::size_t count_ = 0;
-};
 
 /// Compresses a stream (RFC 1950) as it comes.
 class Deflater {
@@ -177,7 +125,10 @@ class PageFile::SvgEncoder : public Encoder {
                     "xlink:href=\"data:image/png;base64,",
                     layout.picture_place.x, layout.picture_place.y, image.width, image.height));
     png_.emplace(image, [this](std::span<const std::uint8_t> bytes) {
-      base64_.add(bytes, [this](std::string_view text) { output_.write(text); });
+      waiting_.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+      const std::size_t whole = waiting_.size() / 3 * 3;
+      output_.write(base64(std::string_view(waiting_).substr(0, whole)));
+      waiting_.erase(0, whole);
     });
   }
 
@@ -195,9 +146,10 @@ class PageFile::SvgEncoder : public Encoder {
         "width=\"{}\" height=\"{}\" viewBox=\"{} {} {} {}\">\n",
         length(page.x), length(page.y), layout_.low.x, layout_.low.y, page.x, page.y));
     if (settings_.names_program) output_.write("<!-- Meniscus " MENISCUS_VERSION " -->\n");
-    if (!settings_.command.empty()) output_.write("<desc>" + xml(settings_.command) + "</desc>\n");
+    if (!settings_.command.empty()) output_.write("<desc>" + markup_text(settings_.command) + "</desc>\n");
     if (!settings_.scene.empty())
-      output_.write("<metadata><scene xmlns=\"urn:meniscus:scene\">" + xml(settings_.scene) + "</scene></metadata>\n");
+      output_.write("<metadata><scene xmlns=\"urn:meniscus:scene\">" + markup_text(settings_.scene) +
+                    "</scene></metadata>\n");
     if (settings_.background)
       output_.write(fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n", layout_.low.x,
                                 layout_.low.y, page.x, page.y, hex(*settings_.background)));
@@ -208,7 +160,7 @@ class PageFile::SvgEncoder : public Encoder {
   void finish(std::span<const PageShape> shapes) override {
     if (png_) {
       png_->finish();
-      output_.write(base64_.rest() + "\"/>\n");
+      output_.write(base64(waiting_) + "\"/>\n");
     }
     for (const PageShape& shape : shapes) output_.write(element(shape));
     output_.write("</svg>\n");
@@ -234,7 +186,7 @@ class PageFile::SvgEncoder : public Encoder {
     }
     if (path.empty()) return {};  // blanks
     const std::string opacity = shape.opacity < 1.0 ? fmt::format(" opacity=\"{}\"", number(shape.opacity)) : "";
-    const std::string name = shape.text.empty() ? "" : fmt::format(" aria-label=\"{}\"", xml(shape.text));
+    const std::string name = shape.text.empty() ? "" : fmt::format(" aria-label=\"{}\"", markup_text(shape.text));
     if (shape.line == 0.0)
       return fmt::format("<path{}{} fill=\"{}\" d=\"{}\"/>\n", name, opacity, hex(shape.color), path);
     return fmt::format(
@@ -243,7 +195,7 @@ class PageFile::SvgEncoder : public Encoder {
         opacity, hex(shape.color), number(shape.line), path);
   }
 
-  Base64 base64_;
+  std::string waiting_;  ///< bytes of the picture that do not make four letters yet
   std::optional<PngEncoder> png_;
 };
 

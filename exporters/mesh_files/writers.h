@@ -21,6 +21,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/base/output_file.h"
+#include "core/base/text.h"
 #include "exporters/mesh_files/mesh_file.h"
 
 namespace meniscus {
@@ -117,20 +118,10 @@ inline std::vector<float> without_gaps(std::vector<float> values) {
 
 /// Letters of ASCII as they are, what XML takes for its own as entities, all else as '_'.
 inline std::string xml_text(std::string_view text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '&')
-      safe += "&amp;";
-    else if (c == '<')
-      safe += "&lt;";
-    else if (c == '>')
-      safe += "&gt;";
-    else if (c == '"')
-      safe += "&quot;";
-    else
-      safe += c >= ' ' && c <= '~' ? c : '_';
-  }
-  return safe;
+  std::string safe(text);
+  std::ranges::replace_if(
+      safe, [](char c) { return c < ' ' || c > '~'; }, '_');
+  return markup_text(safe);
 }
 
 }  // namespace meniscus

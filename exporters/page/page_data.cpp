@@ -66,18 +66,4 @@ std::string text_of_bytes(std::string_view bytes) {
   return text;
 }
 
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  const auto byte = [&](std::size_t n) -> std::uint32_t {
-    return n < bytes.size() ? static_cast<unsigned char>(bytes[n]) : 0;
-  };
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t n = 0; n < bytes.size(); n += 3) {
-    const std::uint32_t word = byte(n) << 16 | byte(n + 1) << 8 | byte(n + 2);
-    for (std::size_t k = 0; k < 4; ++k) text += n + k > bytes.size() ? '=' : kLetters[word >> (18 - 6 * k) & 63];
-  }
-  return text;
-}
-
 }  // namespace meniscus::page

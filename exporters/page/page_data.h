@@ -38,7 +38,4 @@ class PageData {
 /// longer than the bytes, where base64 is a third longer.
 std::string text_of_bytes(std::string_view bytes);
 
-/// Base64 (RFC 4648).
-std::string base64(std::string_view bytes);
-
 }  // namespace meniscus::page

@@ -309,17 +309,17 @@ std::string legend_of(const ColorKey& key) {
     const ColorScale& scale = *key.scale;
     const auto end = [&](int n) {
       return scale.ends[n].empty() ? fmt::format("{:.4g}", scale.range[n])
-                                   : fmt::format("{:.4g} {}", scale.range[n], html_escaped(scale.ends[n]));
+                                   : fmt::format("{:.4g} {}", scale.range[n], markup_text(scale.ends[n]));
     };
-    text += fmt::format("<p>{}{}</p><p class=\"scale\"><span>{}</span>{}<span>{}</span></p>", html_escaped(scale.title),
-                        scale.unit.empty() ? "" : ", " + html_escaped(scale.unit), end(0), bar(scale), end(1));
+    text += fmt::format("<p>{}{}</p><p class=\"scale\"><span>{}</span>{}<span>{}</span></p>", markup_text(scale.title),
+                        scale.unit.empty() ? "" : ", " + markup_text(scale.unit), end(0), bar(scale), end(1));
   } else if (!key.classes.empty()) {
-    text += fmt::format("<p>{}</p>", html_escaped(key.scale ? key.scale->title : key.title));
+    text += fmt::format("<p>{}</p>", markup_text(key.scale ? key.scale->title : key.title));
   }
   if (key.classes.empty()) return text;
   text += "<ul>";
   for (const ColorClass& entry : key.classes)
-    text += fmt::format("<li>{}{}</li>", swatch(entry.color), html_escaped(entry.name));
+    text += fmt::format("<li>{}{}</li>", swatch(entry.color), markup_text(entry.name));
   return text + "</ul>";
 }
 
@@ -365,30 +365,11 @@ std::string hash_source(std::string_view text) {
 std::string facts_of(const PageFigure& figure) {
   std::string text;
   for (const auto& [name, value] : figure.facts)
-    text += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>", html_escaped(name), html_escaped(value));
+    text += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>", markup_text(name), markup_text(value));
   return text;
 }
 
 }  // namespace
-
-std::string html_escaped(std::string_view text) {
-  std::string escaped_text;
-  for (const char c : text) {
-    if (c == '&')
-      escaped_text += "&amp;";
-    else if (c == '<')
-      escaped_text += "&lt;";
-    else if (c == '>')
-      escaped_text += "&gt;";
-    else if (c == '"')
-      escaped_text += "&quot;";
-    else if (static_cast<unsigned char>(c) >= 0x20 && c != 0x7f)
-      escaped_text += c;
-    else
-      escaped_text += ' ';
-  }
-  return escaped_text;
-}
 
 std::string page_text(const PageFigure& figure) {
   Tables tables(figure);
@@ -403,14 +384,14 @@ std::string page_text(const PageFigure& figure) {
   const std::string still = figure.still.empty()
                                 ? std::string()
                                 : fmt::format("<img id=\"still\" src=\"data:image/jpeg;base64,{}\" alt=\"{}\">",
-                                              base64(picture), html_escaped(figure.description));
-  return filled(file("page.html"), {{"TITLE", html_escaped(figure.title)},
+                                              base64(picture), markup_text(figure.description));
+  return filled(file("page.html"), {{"TITLE", markup_text(figure.title)},
                                     {"VERSION", MENISCUS_VERSION},
                                     {"STYLE", style},
                                     {"STYLE_HASH", hash_source(style)},
                                     {"SCRIPT", script},
                                     {"SCRIPT_HASH", hash_source(script)},
-                                    {"DESCRIPTION", html_escaped(figure.description)},
+                                    {"DESCRIPTION", markup_text(figure.description)},
                                     {"FACTS", facts_of(figure)},
                                     {"LEGEND", legend_of(figure.key)},
                                     {"STILL", still},

@@ -51,7 +51,4 @@ struct PageFigure {
 /// textures of 2048 x 8192 texels hold.
 std::string page_text(const PageFigure& figure);
 
-/// Text between the tags of HTML.
-std::string html_escaped(std::string_view text);
-
 }  // namespace meniscus::page

@@ -30,6 +30,20 @@ TEST(Text, PointsAtCharactersNotIntoThem) {
   EXPECT_EQ(pointed_at(middles, 60), middles + "\n^");
 }
 
+TEST(Text, IsSafeBetweenTagsAndInAttributes) {
+  EXPECT_EQ(markup_text("</script> \"a\" & b\x01\n\xc3\xa5"), "&lt;/script&gt; &quot;a&quot; &amp; b\n\xc3\xa5");
+}
+
+// The examples of RFC 4648, section 10.
+TEST(Text, SpellsBytesInBase64) {
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foo"), "Zm9v");
+  EXPECT_EQ(base64("foob"), "Zm9vYg==");
+  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+}
+
 TEST(Text, GroupsDigits) {
   EXPECT_EQ(with_thousands(0), "0");
   EXPECT_EQ(with_thousands(999), "999");
