@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus export page`: writes one HTML file in which readers turn the exact surface.
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <span>
@@ -18,6 +17,7 @@
 #include "app/reports/notes.h"
 #include "core/base/error.h"
 #include "core/base/output_file.h"
+#include "core/base/system_file.h"
 #include "core/base/text.h"
 #include "core/color/color_atoms.h"
 #include "core/image/color_space.h"
@@ -140,7 +140,7 @@ void tell_left_out(const SceneCommand& command, std::span<const std::string> key
 void write_page(const SceneCommand& command, FigureFrame frame) {
   const Scene& scene = command.scene;
   Figure& figure = frame.figure;
-  const std::string name = std::filesystem::path(scene.molecule.file).filename().string();
+  const std::string name = text_of_path(path_of_text(scene.molecule.file).filename());
   const std::vector<Atom> atoms = shown_atoms(figure.molecule.structure);
   page::PageFigure shown;
   shown.title = name;

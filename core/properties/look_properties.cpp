@@ -107,8 +107,7 @@ constexpr auto kTable = of_commands(
         number("look.depth_cue", "--depth-cue", "F",
                "Fade of the farthest atoms into the background, 0 to 1. A transparent background counts as white. "
                "Presets do not fade where colours show numbers, a legend explains them, or a surface is seen through "
-               "or cut "
-               "for atoms to be seen (--look-into)")
+               "or cut for atoms to be seen (--look-into)")
             .from(0, 1)
             .slider("Depth", 1)
             .in(kLight, kLook),

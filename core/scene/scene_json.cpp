@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "core/base/system_file.h"
 #include "core/base/text_file.h"
 #include "core/base/text.h"
 #include "core/scene/scene_values.h"
@@ -198,7 +198,7 @@ std::string scene_text(const Scene& scene, const std::string& folder, std::span<
     if (!ordered.contains(section)) ordered[section] = keys;
   for (const AddedFile& file : added)
     if (file.fit)
-      ordered[kSuperposedKey].push_back({{"file", std::filesystem::path(file.file).filename().string()},
+      ordered[kSuperposedKey].push_back({{"file", text_of_path(path_of_text(file.file).filename())},
                                          {"model", file.model},
                                          {"atoms", file.fit->atoms},
                                          {"rmsd", file.fit->rmsd}});
