@@ -106,7 +106,7 @@ build_libm() {
   sed -i -E 's/\b__(sin|cos|tan)(l|df|f)?\b/inner_\1\2/g' "$copy"/*.[ch] "$copy/include/libm.h"
   printf '#define __BYTE_ORDER 1234\n#define __LITTLE_ENDIAN 1234\n#define __BIG_ENDIAN 4321\n' > "$copy/include/endian.h"
   [[ $triple == *linux* ]] || : > "$copy/include/features.h"
-  local names=(acos asin atan atan2 cos sin sincos tan exp exp2 exp10 exp_data log log10 log_data log2 log2_data pow pow_data hypot cbrt scalbn
+  local names=(acos asin atan atan2 cos sin sincos tan exp exp_data log log10 log_data log2 log2_data pow pow_data hypot cbrt scalbn
                acosf asinf atanf atan2f cosf sinf tanf expf exp2f exp2f_data logf logf_data powf powf_data hypotf cbrtf)
   local inner=(cos sin tan rem_pio2 rem_pio2_large cosdf sindf tandf rem_pio2f math_divzero math_invalid math_oflow
                math_uflow math_xflow math_divzerof math_invalidf math_oflowf math_uflowf math_xflowf)
