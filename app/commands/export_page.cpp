@@ -24,6 +24,8 @@
 #include "core/image/image_codec.h"
 #include "core/queries/copies.h"
 #include "core/render/surface_renderer.h"
+#include "core/scene/cut.h"
+#include "core/scene/figure.h"
 #include "core/scene/representations.h"
 #include "core/scene/scene_picture.h"
 #include "exporters/page/page_file.h"
@@ -40,8 +42,9 @@ void check_page(const Scene& scene) {
   };
   if (scene.molecule.color.by == ColorScheme::By::lipophilicity) refuse("--color lipophilicity", "colours of points");
   if (!scene.figure.objects.empty()) refuse("--object", "objects with looks of their own");
-  for (const OpacityRule& rule : scene.molecule.color.opacities)
-    if (rule.opacity > 0.0f && rule.opacity < 1.0f) refuse("--opacity", "what is seen through, only hidden atoms (0)");
+  if (scene.figure.cuts.size() > page::kMostPlanes)
+    throw UsageError(fmt::format("--clip: pages show at most {} planes, and there are {}; leave some out",
+                                 page::kMostPlanes, scene.figure.cuts.size()));
 }
 
 /// The picture that readers see whose browser cannot draw the figure: on white, of at most 720 pixels.
@@ -149,23 +152,20 @@ void write_page(const SceneCommand& command, FigureFrame frame) {
   shown.camera = frame.camera;
   shown.size = scene.picture.size();
   shown.look = look_of(scene.look, shown.size, scene.image.background,
-                       hues_of(scene.molecule.color, scene.legend.asked(), false));
+                       hues_of(scene.molecule.color, scene.legend.asked(), uses_atoms(scene.figure.cuts)));
+  const std::vector<Ball> balls = placed_balls(figure.molecule.objects);
   const SurfaceObject surface = merged(std::exchange(figure.molecule.objects, {}));
   shown.facts = facts_of(figure.molecule, surface, scene);
-  std::vector<PictureObject> objects;
-  if (!scene.figure.hides_surface) {
+  const std::vector<PictureObject> objects =
+      picture_objects(surface.surface, surface.coloring, scene.figure, &figure.beside, frame.camera, balls);
+  for (const PictureObject& object : objects) {
+    if (object.shapes) shown.shapes = &figure.beside.shapes;
+    if (!object.surface) continue;
     shown.surface = &surface;
-    PictureObject& object = objects.emplace_back();
-    object.surface = &surface.surface;
-    object.coloring = &surface.coloring;
+    shown.clip = object.clip;
+    shown.cap = object.cap;
+    shown.thickens = object.thickens;
   }
-  if (!figure.beside.shapes.empty()) {
-    shown.shapes = &figure.beside.shapes;
-    PictureObject& object = objects.emplace_back();
-    object.shapes = &figure.beside.shapes.shapes;
-    object.coloring = &figure.beside.shapes.coloring;
-  }
-  if (objects.empty()) throw RequestError("the surface is not shown, and there is nothing beside it");
   shown.atoms = atoms;
   shown.scheme = scheme_word(figure.molecule.color);
   shown.more_schemes = more_schemes(figure.molecule.structure, shown.surface, scene.figure, figure.molecule.color);

@@ -164,24 +164,20 @@ constexpr auto kTable = of_commands(
             .in_short_help(),
         flag("surface.film_opacity", "--film-opacity",
              "Make transparent surfaces denser at grazing angles, like a thin film")
-            .of(kForFigures & ~for_page)
             .in(kFigure, kSeen | live | of_surfaces),
         text("surface.clip", "--clip", "PLANE",
              "Cut by a plane with exact caps: x<20, 1,1,0>35 or depth>0.5. The part where this holds is kept. depth "
              "runs along the line of sight from 0 (nearest) to 1 (farthest). 'through EXPR' goes through the middle of "
              "these atoms, 'before EXPR' is as deep as it must be for them to be seen. Repeatable; all apply")
-            .of(kForFigures & ~for_page)
             .in(kFigure, kSeen | live | repeatable | of_surfaces)
             .in_short_help(),
         text("surface.cap_color", "--cap-color", "COLOR",
              "Colour of caps: atom (that of the nearest) or a colour (red, #rrggbb)")
             .initially("atom")
-            .of(kForFigures & ~for_page)
             .in(kFigure, kSeen | live | of_surfaces),
         number("surface.cap_hatching", "--cap-hatching", "Å", "Distance of dark lines on caps, in Å; 0: no lines")
             .from(0, 1000)
             .initially("0")
-            .of(kForFigures & ~for_page)
             .in(kFigure, kSeen | live | of_surfaces),
 
         text("figure.sticks", "--sticks", "EXPR", "Draw these atoms as sticks, also outside --select. Repeatable")

@@ -175,7 +175,8 @@ class Tables {
   }
 
   void add_surface(const SurfaceObject& object) {
-    pack_scene(object.surface, object.coloring, frame_, scene_);
+    // What planes cut is packed whole: the points of hidden atoms, too, tell what is solid.
+    pack_scene(object.surface, figure_.clip.empty() ? object.coloring : Coloring(), frame_, scene_);
     add_atoms(object.coloring, object.atom);
   }
 
@@ -213,7 +214,7 @@ class Tables {
     marks.resize(shown.size(), 0);
     marks_.insert(marks_.end(), marks.begin(), marks.end());
     shown_.insert(shown_.end(), shown.begin(), shown.end());
-    some_hidden_ = some_hidden_ || coloring.hides_some();
+    some_hidden_ = some_hidden_ || (figure_.clip.empty() && coloring.hides_some());
   }
 
   /// What no page asks for is 0: it depends on a camera, or decides between points at one depth.
@@ -242,7 +243,19 @@ class Tables {
   bool some_hidden_ = false;
 };
 
-/// The shaders in GLSL ES 3.00, from their #version on: it must be their first line.
+/// Without lines that are comments alone.
+std::string without_comments(std::string_view text) {
+  std::string code;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size() - 1) + 1;
+    const std::string_view line = text.substr(0, end);
+    if (!line.substr(std::min(line.find_first_not_of(' '), line.size() - 1)).starts_with("//")) code += line;
+    text.remove_prefix(end);
+  }
+  return code;
+}
+
+/// The shaders in GLSL ES 3.00 and what they include, by their paths; the page's script puts them together.
 json shaders() {
   const auto find = [](std::string_view wanted) -> std::optional<std::string_view> {
     for (const EmbeddedShader& shader : embedded_shaders())
@@ -250,24 +263,27 @@ json shaders() {
     return std::nullopt;
   };
   json sources = json::object();
-  for (const char* const name :
-       {"footprint.vert", "whole.vert", "cast.frag", "points.frag", "occlusion.frag", "finish.frag", "present.frag"})
-    sources[name] = expand_shader(fmt::format("gpu_shaders/webgl/{}", name), find, {}).text;
+  for (const char* const name : {"footprint.vert", "whole.vert", "cast.frag", "points.frag", "occlusion.frag",
+                                 "finish.frag", "present.frag", "layer_start.frag", "layer_event.frag",
+                                 "layer_keep.frag", "layer_blend.frag", "layer_sum.frag", "cap_atom.frag"})
+    for (const std::string& file : expand_shader(fmt::format("gpu_shaders/webgl/{}", name), find, {}).files)
+      sources[file] = without_comments(find(file).value());
   return sources;
 }
 
 json names_of(std::span<const Atom> atoms) {
-  json residues = json::array(), starts = json::array(), names = json::array();
+  json residues = json::array(), starts = json::array(), names = json::array(), chains = json::array();
   std::string last;
   for (std::size_t n = 0; n < atoms.size(); ++n) {
     names.push_back(atoms[n].name);
     std::string residue = residue_of(atoms[n]);
     if (n > 0 && residue == last) continue;
     residues.push_back(residue);
+    chains.push_back(atoms[n].chain);
     starts.push_back(n);
     last = std::move(residue);
   }
-  return {{"residues", residues}, {"starts", starts}, {"atoms", names}};
+  return {{"residues", residues}, {"chains", chains}, {"starts", starts}, {"atoms", names}};
 }
 
 json camera_of(const Camera& camera, const glm::dvec3& origin) {
@@ -331,6 +347,35 @@ json schemes_of(const PageFigure& figure, bool by_kind) {
   return schemes;
 }
 
+/// What layers.js asks for; null without a surface. origin: from where the records count.
+json layers_of(const PageFigure& figure, const glm::dvec3& origin) {
+  if (!figure.surface) return nullptr;
+  const SurfaceObject& object = *figure.surface;
+  const bool hides = !figure.clip.empty() && object.coloring.hides_some();
+  json planes = json::array(), hatching = json::array();
+  for (const ClipPlane& plane : figure.clip) {
+    const glm::dvec3& n = plane.normal;
+    planes.push_back({n.x, n.y, n.z, plane.offset - glm::dot(n, origin)});
+    const double distance = std::sqrt(2.0) * figure.cap.hatching;
+    const glm::dvec3 across = figure.cap.hatching > 0.0 ? hatching_direction(n) / distance : glm::dvec3(0.0);
+    const double phase = glm::dot(origin, across);
+    hatching.push_back({across.x, across.y, across.z, phase - std::floor(phase)});
+  }
+  const glm::vec3 cap = linear_from_srgb(figure.cap.color.value_or(glm::vec3(0.0f)));
+  double largest = 0.0;
+  for (const Ball& ball : object.surface.atoms) largest = std::max(largest, ball.radius);
+  return {{"planes", planes},
+          {"hatching", hatching},
+          {"hatched_look", {kHatchedShare, kHatchedLight}},
+          {"cap_color", {cap.x, cap.y, cap.z, figure.cap.color ? 1 : 0}},
+          {"thickens", figure.thickens ? 1 : 0},
+          {"seen_through", object.coloring.is_translucent() || hides ? 1 : 0},
+          {"specular", figure.look.material.specular},
+          {"surface_atoms", object.surface.atoms.size()},
+          {"largest_ball", largest},
+          {"probe", object.surface.probe_radius}};
+}
+
 json description_of(const PageFigure& figure, const Tables& tables) {
   const Look& look = figure.look;
   json samples = json::array();
@@ -348,6 +393,7 @@ json description_of(const PageFigure& figure, const Tables& tables) {
           {"has_lines", look.widest_line() > 0.0f},
           {"line_step", look.line_step},
           {"some_hidden", tables.some_hidden()},
+          {"layers", layers_of(figure, tables.frame().pivot)},
           {"samples", samples},
           {"schemes", schemes_of(figure, tables.color_by_kind())},
           {"names", names_of(figure.atoms)},
@@ -378,7 +424,7 @@ std::string page_text(const PageFigure& figure) {
   const std::string packed = data.deflated(description_of(figure, tables));
   const auto file = [](std::string_view path) { return template_text(page_templates(), path); };
   std::string script = "\"use strict\";\n";
-  for (const char* const part : {"data.js", "camera.js", "caster.js", "controls.js"}) script += file(part);
+  for (const char* const part : {"data.js", "camera.js", "caster.js", "layers.js", "controls.js"}) script += file(part);
   const std::string style = "\n" + std::string(file("page.css"));
   const std::string_view picture(reinterpret_cast<const char*>(figure.still.data()), figure.still.size());
   const std::string still = figure.still.empty()

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -18,6 +19,7 @@
 #include "core/queries/colored_shapes.h"
 #include "core/queries/surface_object.h"
 #include "core/render/look.h"
+#include "core/render/picture_object.h"
 #include "core/structure/structure.h"
 
 namespace meniscus::page {
@@ -36,6 +38,9 @@ struct PageFigure {
   std::string description;  ///< a sentence or two, for those who do not see the picture
   std::vector<std::pair<std::string, std::string>> facts{};  ///< rows of its table
   const SurfaceObject* surface = nullptr;                    ///< where it stands, one copy; nullptr: none
+  std::vector<ClipPlane> clip{};                             ///< cut it
+  CapStyle cap{};                                            ///< where they do
+  bool thickens = false;                                     ///< PictureObject::thickens
   const ColoredShapes* shapes = nullptr;                     ///< of atoms; nullptr: none
   std::span<const Atom> atoms{};  ///< SurfaceObject::atom and those of shapes are places here
   Camera camera;                  ///< at first
@@ -47,8 +52,10 @@ struct PageFigure {
   std::vector<std::uint8_t> still;  ///< its picture as JPEG, for readers without WebGL 2; empty: none
 };
 
-/// The page's text. The same figure gives the same text. Throws CapacityError for a figure of more records than
-/// textures of 2048 x 8192 texels hold.
+inline constexpr std::size_t kMostPlanes = 8;
+
+/// The page's text. The same figure gives the same text. clip: at most kMostPlanes. Throws CapacityError for a figure
+/// of more records than textures of 2048 x 8192 texels hold.
 std::string page_text(const PageFigure& figure);
 
 }  // namespace meniscus::page

@@ -1,6 +1,7 @@
 #version 300 es
 // SPDX-License-Identifier: BSD-3-Clause
-// A sample in the shade, in the air and under the lines, added to those before.
+// A sample in the shade, in the air and under the lines, added to those before. With LAYERS it is opaque, whatever its alpha
+// says, and what lines cover of it is written, too.
 #include "gpu_shaders/webgl/sample_texels.glsl"
 
 uniform usampler2D sample_texels;      // points.frag's colours
@@ -9,6 +10,9 @@ uniform usampler2D visibility_texels;  // there for AMBIENT_OCCLUSION
 uniform usampler2D sum_texels;         // of the samples before
 layout(std140) uniform Parameters { FinishParameters params; };
 layout(location = 0) out uvec4 sum;  // as bits
+#ifdef LAYERS
+layout(location = 1) out uvec4 ink;
+#endif
 
 float visibility_at(ivec2 pixel) { return uintBitsToFloat(texelFetch(visibility_texels, pixel, 0).x); }
 
@@ -20,7 +24,17 @@ int mark_at(ivec2 pixel) { return int(texelFetch(what_texels, pixel, 0).z); }
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  vec4 color = finished_sample(uintBitsToFloat(texelFetch(sample_texels, pixel, 0)), pixel, depth_at(pixel));
+  float depth = depth_at(pixel);
+  vec4 color = uintBitsToFloat(texelFetch(sample_texels, pixel, 0));
+#ifdef LAYERS
+  color.a = depth == kNothing ? 0.0 : 1.0;
+  ink = uvec4(0u);
+#ifdef SILHOUETTES
+  Ink line = ink_on(pixel, depth);
+  ink.x = floatBitsToUint(line.covered * clarity(line.depth));
+#endif
+#endif
+  color = finished_sample(color, pixel, depth);
   if (params.sample_index != 0u) color += uintBitsToFloat(texelFetch(sum_texels, pixel, 0));
   sum = floatBitsToUint(color);
 }

@@ -7,7 +7,11 @@
 TileListParameters params;  // of the one block that is the picture
 #include "gpu_shaders/ray_cast/bound_footprint.glsl"
 
-in uint primitive;  // its number
+in uint primitive;  // its number; with BALLS that of an atom
+#ifdef BALLS
+uniform usampler2D ball_texels;  // centre, radius
+uniform float probe;             // Å by which they are larger here
+#endif
 uniform vec2 depth_range;  // distances from the eye that depths begin and end at, Å
 flat out uint index;
 flat out vec4 bound;  // from where the records count
@@ -21,7 +25,11 @@ void main() {
   params.orthographic = view.orthographic;
   params.block_center = 0.5 - view.first_offset;
   index = primitive;
+#ifdef BALLS
+  bound = uintBitsToFloat(entry(ball_texels, primitive)) + vec4(0.0, 0.0, 0.0, probe);
+#else
   bound = uintBitsToFloat(entry(primitive_texels, 3u * primitive));
+#endif
   vec3 center = bound.xyz - pivot;
   vec4 pixels = bound_pixels(vec4(center, bound.w));
   float depth = view.orthographic != 0u ? view.eye_distance + dot(center, view.forward)

@@ -3,15 +3,45 @@
 // What the point is like that a pixel's ray has met: its colour in the light, its normal, its depth, its atom.
 #include "gpu_shaders/webgl/scene.glsl"
 
+#ifdef LAYERS
+uniform usampler2D event_texels;     // of layer_event.frag
+uniform usampler2D cap_atom_texels;  // of cap_atom.frag
+uniform vec4 cap_color;              // of caps; alpha 0: that of the atom
+uniform vec4 hatching[kMostPlanes];  // of each plane: stripes begin where dot(xyz, x) + w is whole; 0: none
+uniform vec2 hatched_look;           // which share of a stripe is dark, and how much light is left there
+uniform float surface_opacity;       // times that of atoms
+uniform float thickens;              // 1: what is seen through is a film
+#else
 uniform usampler2D found_texels;  // of cast.frag
+#endif
 uniform usampler2D mark_texels;   // of atoms: Coloring::line_marks()
 layout(location = 0) out uvec4 color;   // linear, premultiplied, as bits
 layout(location = 1) out uvec4 normal;  // towards the solvent, and the depth along the view axis, as bits
 layout(location = 2) out uvec4 what;    // atom, primitive, mark, t as bits
 
+#ifdef LAYERS
+SurfacePoint cap_point(ivec2 pixel, uint plane_number) {
+  SurfacePoint point;
+  point.normal = planes[plane_number].xyz;
+  point.atom = texelFetch(cap_atom_texels, pixel, 0).x;
+  return point;
+}
+
+vec3 on_cap(vec3 albedo, vec3 x, uint plane_number) {
+  if (cap_color.a > 0.0) albedo = cap_color.rgb;
+  vec4 stripes = hatching[plane_number];
+  bool hatched = stripes.xyz != vec3(0.0) && fract(dot(stripes.xyz, x) + stripes.w) < hatched_look.x;
+  return hatched ? hatched_look.y * albedo : albedo;
+}
+#endif
+
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
+#ifdef LAYERS
+  uvec4 met = texelFetch(event_texels, pixel, 0);
+#else
   uvec2 met = texelFetch(found_texels, pixel, 0).xy;
+#endif
   color = uvec4(0u);
   normal = uvec4(0u, 0u, 0u, floatBitsToUint(kNothing));
   what = uvec4(kNoPrimitive, kNoPrimitive, 0u, floatBitsToUint(kMiss));
@@ -19,14 +49,33 @@ void main() {
   PixelRay ray = pixel_ray(pixel);
   float t = uintBitsToFloat(met.x);
   vec3 x = ray.p + ray.d * t;
-  Primitive primitive = load_primitive(met.y);
   SurfacePoint point;
-  if (primitive.kind == kCylinder) point = cylinder_point(primitive, x);
-  else if (primitive.kind == kTriangle) point = triangle_point(primitive, x);
-  else point = surface_point(primitive, x);
-  bool by_kind = params.color_by_kind != 0u && primitive.kind < kCylinder;
-  vec3 albedo = color_of(by_kind ? params.atom_count + primitive.kind : point.atom).rgb;
-  color = floatBitsToUint(vec4(lit(albedo, point.normal, ray.d), 1.0));
+  uint kind = kCylinder;  // or any other that is no patch
+#ifdef LAYERS
+  if (met.y == kOnPlane) {
+    point = cap_point(pixel, met.z);
+  } else
+#endif
+  {
+    Primitive primitive = load_primitive(met.y);
+    kind = primitive.kind;
+    if (kind == kCylinder) point = cylinder_point(primitive, x);
+    else if (kind == kTriangle) point = triangle_point(primitive, x);
+    else point = surface_point(primitive, x);
+  }
+  vec4 of_atom = color_of(point.atom);
+  vec3 albedo = params.color_by_kind != 0u && kind < kCylinder ? color_of(params.atom_count + kind).rgb : of_atom.rgb;
+  uint mark = entry(mark_texels, point.atom).x;
+  float alpha = 1.0;
+#ifdef LAYERS
+  if (met.y == kOnPlane) {
+    albedo = on_cap(albedo, x, met.z);
+    mark &= ~3u;  // caps have no patches
+  }
+  alpha = of_atom.a * surface_opacity;
+  if (thickens > 0.0 && alpha > 0.0 && alpha < 1.0) alpha = film_opacity(alpha, uintBitsToFloat(met.w));
+#endif
+  color = floatBitsToUint(vec4(lit(albedo, point.normal, ray.d), alpha));
   normal = floatBitsToUint(vec4(point.normal, view.eye_distance + t * dot(ray.d, view.forward)));
-  what = uvec4(point.atom, met.y, entry(mark_texels, point.atom).x, met.x);
+  what = uvec4(point.atom, met.y, mark, met.x);
 }

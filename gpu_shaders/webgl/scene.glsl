@@ -36,6 +36,22 @@ truth shows(uint atom) { return color_of(atom).a > 0.0; }
 #include "gpu_shaders/ray_cast/shade.glsl"
 #include "gpu_shaders/ray_cast/shape_hits.glsl"
 
+#ifdef LAYERS
+const int kMostPlanes = 8;
+uniform vec4 planes[kMostPlanes];  // kept is where dot(xyz, x) < w
+uniform float planes_there;
+int plane_count() { return int(planes_there); }
+vec4 plane(int i) { return planes[i]; }
+#include "gpu_shaders/ray_cast/layers.glsl"
+#include "gpu_shaders/ray_cast/repeated_hit.glsl"
+
+// Of a ray in state_texels: t that the next hit lies beyond, as bits; facing of the hit there, as bits; these.
+const uint kHasHit = 1u;    // there is a hit at t
+const uint kEnded = 2u;     // nothing more is seen of it
+const uint kHasBegun = 4u;  // it has gone in through a cap, or has met the surface
+const uint kHasShown = 8u;  // something on it is seen
+#endif
+
 // The ray of a pixel, from where the records count.
 struct PixelRay {
   vec3 p;

@@ -27,6 +27,7 @@ NOTHING = 0xffffffff
 # One sample through the middle of each pixel, with the look: words of what is met, and of the sums of colours.
 CAST = """(() => {
   const viewer = window.meniscus, caster = viewer.caster, gl = caster.gl, [width, height] = [%d, %d];
+  cancelAnimationFrame(viewer.waiting);  // the viewer's own picture is not asked for
   caster.begin(viewer.first, width, height);
   caster.cast(0, viewer.effects);
   const text = (words) => { let all = ""; for (const byte of new Uint8Array(words.buffer)) all += String.fromCharCode(byte);
@@ -132,6 +133,18 @@ class PageTest(unittest.IsolatedAsyncioTestCase):
             await self.compare(page, TOXIN, "--color", "chain")
             await self.shoot(page, "page_1tii.png")
             await self.compare(page, TOXIN, "--show", "chain A", "--sticks", "chain C", "--zoom-to", "chain C")
+            self.assertEqual(page.complaints, [])
+
+    async def test_cuts_and_what_is_seen_through_are_those_of_render(self):
+        async with self.browser() as page:
+            await self.compare(page, UBIQUITIN, "--clip", "depth>0.4", "--sticks", "resid 1-20", "--color", "residue")
+            await self.shoot(page, "page_cut.png")
+            await self.compare(page, UBIQUITIN, "--clip", "1,1,0<62", "--clip", "depth>0.2", "--cap-color", "orange", "--cap-hatching", "1.5",
+                               "--projection", "orthographic")
+            await self.compare(page, UBIQUITIN, "--opacity", "0.5", "--sticks", "backbone", "--color", "chain")
+            await self.shoot(page, "page_seen_through.png")
+            await self.compare(page, UBIQUITIN, "--opacity", "resid 1-30=0.4", "--film-opacity", "--clip", "depth>0.3", "--show",
+                               "resid 1-60", "--preset", "cover")
             self.assertEqual(page.complaints, [])
 
     async def test_turns_and_picks(self):

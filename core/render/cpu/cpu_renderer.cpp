@@ -46,6 +46,13 @@ class Interruption {
 
 namespace {
 
+/// Formulas of the shared sources.
+struct SeenThrough {
+  using vec3 = glm::vec3;
+  using vec4 = glm::vec4;
+#include "gpu_shaders/look/seen_through.glsl"
+};
+
 constexpr ray_cast::Hit kNoHit{glm::vec3(0.0f), 0.0f, ray_cast::kNoPrimitive, ray_cast::kNoPrimitive, 0, 0};
 
 /// In whole tiles.
@@ -494,7 +501,7 @@ void CpuRenderer::look_at_front(LaneLook task, const RenderSettings& settings, I
       const glm::vec4& color = front_.color[at];
       glm::vec4& over = samples_.over[at];
       if (color.w > 0.0f) {
-        over += color.w * (front_sums_[at] - glm::vec4(glm::vec3(color), 1.0f));
+        over = SeenThrough().with_finished_front(over, color, front_sums_[at]);
         continue;
       }
       if (front_ink_[at] == 0.0f) continue;
@@ -502,8 +509,7 @@ void CpuRenderer::look_at_front(LaneLook task, const RenderSettings& settings, I
       for (int row = std::max(y - reach, 0); row <= std::min(y + reach, size.y - 1); ++row)
         for (int column = std::max(x - reach, 0); column <= std::min(x + reach, size.x - 1); ++column)
           nearby = std::max(nearby, front_.color[static_cast<std::size_t>(row) * size.x + column].w);
-      const float covered = front_ink_[at] * nearby;
-      over = over * (1.0f - covered) + glm::vec4(0.0f, 0.0f, 0.0f, covered);
+      over = SeenThrough().under_ink(over, front_ink_[at] * nearby);
     }
   });
 }

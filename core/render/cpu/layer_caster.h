@@ -53,24 +53,13 @@ class LayerBundle : Bundle {
 
   void clip(int packet) {
     Rays& rays = rays_[packet];
-    real in = rays.eye_t, out = real(kMiss);
-    natural in_plane = ClippedRay::kNoPlane, out_plane = ClippedRay::kNoPlane;
-    for (int i = 0; i < task_.plane_count; ++i) {
-      const vec4& plane = task_.planes[i];
-      const real room = plane.w - dot(rays.p, vec3(plane)), slope = dot(rays.d, vec3(plane));
-      const real t = room / slope;
-      const truth goes_in = slope < 0.0f && t > in, goes_out = slope > 0.0f && t < out;
-      in = select(goes_in, t, in);
-      in_plane = select(goes_in, natural(static_cast<uint>(i)), in_plane);
-      out = select(goes_out || (slope == 0.0f && room <= 0.0f), select(goes_out, t, real(-kMiss)), out);
-      out_plane = select(goes_out, natural(static_cast<uint>(i)), out_plane);
-    }
-    rays.from = in;
+    const KeptPart kept = kept_part(rays.p, rays.d, rays.eye_t);
+    rays.from = kept.from;
     for (int n = 0; n < kLanes; ++n) {
       const uint ray = ray_of(packet, n);
       if (ray == kNoRay) continue;
-      task_.clipped[ray] = {lane(in, n), lane(out, n), lane(in_plane, n), lane(out_plane, n)};
-      if (lane(out, n) <= lane(in, n)) rays.t.v[n] = -kMiss;
+      task_.clipped[ray] = {lane(kept.from, n), lane(kept.to, n), lane(kept.from_plane, n), lane(kept.to_plane, n)};
+      if (lane(kept.to, n) <= lane(kept.from, n)) rays.t.v[n] = -kMiss;
     }
   }
 
@@ -154,13 +143,15 @@ class LayerBundle : Bundle {
     }
   }
 
-  /// Of a film: what goes through it along a slant goes through more of it (Bouguer 1729).
-  float opacity(uint atom, float facing) const {
+  float opacity(uint atom, float facing) {
     const float straight = scene_.colors[atom].w;
     if (!task_.thickens || straight >= 1.0f || straight <= 0.0f) return straight;
-    const float cosine = facing < 0.0f ? -facing : facing;
-    return 1.0f - lane(pow(real(1.0f - straight), real(1.0f / (cosine > 0.05f ? cosine : 0.05f))), 0);
+    return lane(film_opacity(straight, facing), 0);
   }
+
+  int plane_count() const { return task_.plane_count; }
+  const vec4& plane(int i) const { return task_.planes[i]; }
+#include "gpu_shaders/ray_cast/layers.glsl"
 
   const LayerTask& task_;
   LayerHits& hits_;

@@ -33,12 +33,16 @@ glm::ivec2 pixel_of(const LaneTile& task, std::uint32_t ray) {
 
 std::uint32_t sample_of(std::uint32_t ray) { return ray / (kTileEdge * kTileEdge); }
 
-/// Patches overlap by a few roundings: along a border a ray meets two of them where there is one surface.
+/// Formulas of the shared sources, for single rays.
+struct SingleRays {
+  static float abs(float number) { return std::abs(number); }
+  static float max(float a, float b) { return std::max(a, b); }
+#include "gpu_shaders/ray_cast/repeated_hit.glsl"
+};
+
 bool is_repeated(const LayerHit& hit, const LayerHit& before, float slack) {
-  if (hit.primitive == kOnPlane || before.primitive == kOnPlane || hit.layer != before.layer ||
-      (hit.facing < 0.0f) != (before.facing < 0.0f))
-    return false;
-  return hit.t - before.t <= 8.0f * slack / std::max(std::abs(hit.facing), 0.01f);
+  if (hit.primitive == kOnPlane || before.primitive == kOnPlane || hit.layer != before.layer) return false;
+  return SingleRays().is_repeated(hit.t, hit.facing, before.t, before.facing, slack);
 }
 
 /// Where a plane cuts, hidden atoms are seen through: their points tell what is solid.

@@ -11,6 +11,13 @@ class NoWebGl extends Error {}
 
 const linear_from_srgb = (color) => color.map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
 
+/// A source with what it includes put in place, each file once.
+function expanded(sources, path, seen = new Set()) {
+  if (seen.has(path)) return "";
+  seen.add(path);
+  return sources[path].replace(/^#include "(.*)"$/gm, (_, included) => expanded(sources, included, seen));
+}
+
 class Caster {
   constructor(canvas, figure) {
     this.figure = figure;
@@ -60,14 +67,14 @@ class Caster {
     this.primitive_count = words.length / 12;
     this.centers = new Float32Array(3 * this.primitive_count);
     this.radii = new Float32Array(this.primitive_count);
-    const groups = [[], [], []];
+    const groups = [[], [], [], []];
     for (let n = 0; n < this.primitive_count; ++n) {
       this.centers.set(numbers.subarray(12 * n, 12 * n + 3), 3 * n);
       this.radii[n] = numbers[12 * n + 3];
-      const kind = words[12 * n + 7];
-      groups[kind === kToroidal ? 1 : kind >= kCylinder ? 2 : 0].push(n);
+      const kind = words[12 * n + 7], is_shape = kind >= kCylinder || words[12 * n + 8] === kNoPrimitive;
+      groups[is_shape ? (kind >= kCylinder ? 3 : 2) : kind === kToroidal ? 1 : 0].push(n);
     }
-    this.groups = groups.map((list, n) => ({ define: ["", "TORI", "SHAPES"][n], list: Uint32Array.from(list) }));
+    this.groups = groups.map((list, n) => ({ define: ["", "TORI", "", "SHAPES"][n], of_surface: n < 2, list: Uint32Array.from(list) }));
     this.buffer = gl.createBuffer();
     this.vertices = gl.createVertexArray();
   }
@@ -83,12 +90,26 @@ class Caster {
       figure.tables.colors = new Uint32Array(colors.buffer);
     }
     this.by_kind = figure.schemes[scheme].by_kind ? 1 : 0;
+    this.scheme = scheme;
+    if (this.hidden) {
+      const shown = new Float32Array(figure.tables.colors.slice().buffer);
+      this.hidden.forEach((atom) => { shown[4 * atom + 3] = 0; });
+      figure.tables.colors = new Uint32Array(shown.buffer);
+    }
     gl.deleteTexture(this.tables.colors);
     this.tables.colors = this.table("colors");
   }
 
+  /// atoms: numbers of those that are hidden beside those that the figure hides.
+  hide(atoms) {
+    this.hidden = atoms;
+    this.set_scheme(this.scheme);
+  }
+
+  hides_some() { return this.figure.some_hidden || (this.hidden?.length ?? 0) > 0; }
+
   shader(type, name, defines) {
-    const gl = this.gl, shader = gl.createShader(type), text = this.figure.shaders[name];
+    const gl = this.gl, shader = gl.createShader(type), text = expanded(this.figure.shaders, `gpu_shaders/webgl/${name}`);
     const start = text.indexOf("#version"), end = text.indexOf("\n", start) + 1;
     gl.shaderSource(shader, text.slice(start, end) + defines.map((word) => `#define ${word} 1\n`).join("") + text.slice(end));
     gl.compileShader(shader);
@@ -100,7 +121,7 @@ class Caster {
     const key = [vertex, fragment, ...defines].join();
     if (this.programs.has(key)) return this.programs.get(key);
     const gl = this.gl, program = gl.createProgram();
-    const shaders = [this.shader(gl.VERTEX_SHADER, vertex, []), this.shader(gl.FRAGMENT_SHADER, fragment, defines)];
+    const shaders = [this.shader(gl.VERTEX_SHADER, vertex, defines.filter((word) => word === "BALLS")), this.shader(gl.FRAGMENT_SHADER, fragment, defines)];
     for (const shader of shaders) gl.attachShader(program, shader);
     gl.bindAttribLocation(program, 0, "primitive");
     gl.linkProgram(program);
@@ -151,8 +172,8 @@ class Caster {
       gl.bindTexture(gl.TEXTURE_2D, texture);
       gl.uniform1i(gl.getUniformLocation(made.program, name), unit);
     });
-    for (const [name, value] of Object.entries(numbers))
-      gl[`uniform${value.length}fv`](gl.getUniformLocation(made.program, name), value);
+    for (const [name, value] of Object.entries(numbers))  // more than four are an array of four each
+      gl[`uniform${Math.min(value.length, 4)}fv`](gl.getUniformLocation(made.program, name), value);
     this.set_block(made, "ViewBlock", [], this.frame);
   }
 
@@ -172,17 +193,15 @@ class Caster {
     for (const target of Object.values(this.targets ?? {})) gl.deleteFramebuffer(target);
     if (this.depth) gl.deleteRenderbuffer(this.depth);
     this.size = [width, height];
-    const wide = () => this.texture(gl.RGBA32UI);
-    const pixels = { found: this.texture(gl.RG32UI), visibility: this.texture(gl.R32UI), color: wide(), normal: wide(),
-      what: wide(), first_normal: wide(), first_what: wide(), sum: wide(), other_sum: wide() };
+    const pixels = this.make_pixels(), targets = this.make_targets(pixels);
     this.depth = gl.createRenderbuffer();
     gl.bindRenderbuffer(gl.RENDERBUFFER, this.depth);
     gl.renderbufferStorage(gl.RENDERBUFFER, gl.DEPTH_COMPONENT32F, width, height);
-    const targets = { found: this.target(pixels.found), first: this.target(pixels.color, pixels.first_normal, pixels.first_what),
-      points: this.target(pixels.color, pixels.normal, pixels.what), visibility: this.target(pixels.visibility),
-      sum: this.target(pixels.sum), other_sum: this.target(pixels.other_sum) };
-    gl.bindFramebuffer(gl.FRAMEBUFFER, targets.found);
-    gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.RENDERBUFFER, this.depth);
+    for (const name of kDeepTargets) {
+      if (!targets[name]) continue;
+      gl.bindFramebuffer(gl.FRAMEBUFFER, targets[name]);
+      gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.RENDERBUFFER, this.depth);
+    }
     for (const [name, target] of Object.entries(targets)) {
       gl.bindFramebuffer(gl.FRAMEBUFFER, target);
       const status = gl.checkFramebufferStatus(gl.FRAMEBUFFER);
@@ -190,6 +209,20 @@ class Caster {
         throw new NoWebGl(`This device cannot draw into the textures of the figure (${name}, ${status}): what is shown is a still picture.`);
     }
     Object.assign(this, { pixels, targets });
+  }
+
+  wide() { return this.texture(this.gl.RGBA32UI); }
+
+  make_pixels() {
+    const { gl } = this, wide = () => this.wide();
+    return { found: this.texture(gl.RG32UI), visibility: this.texture(gl.R32UI), color: wide(), normal: wide(), what: wide(),
+      first_normal: wide(), first_what: wide(), sum: wide(), other_sum: wide() };
+  }
+
+  make_targets(pixels) {
+    return { found: this.target(pixels.found), first: this.target(pixels.color, pixels.first_normal, pixels.first_what),
+      points: this.target(pixels.color, pixels.normal, pixels.what), visibility: this.target(pixels.visibility),
+      sum: this.target(pixels.sum), other_sum: this.target(pixels.other_sum) };
   }
 
   /// Front to back, by where their bounds begin.
@@ -220,8 +253,10 @@ class Caster {
     let first = Infinity, last = -Infinity, radius = 0;
     for (let n = 0; n < balls.length; n += 4) {
       const center = [balls[n], balls[n + 1], balls[n + 2]], depth = dot(minus(center, eye), forward);
-      first = Math.min(first, depth - balls[n + 3]);
-      last = Math.max(last, depth + balls[n + 3]);
+      if (!this.is_cut_away(n / 4, center, balls[n + 3])) {
+        first = Math.min(first, depth - balls[n + 3]);
+        last = Math.max(last, depth + balls[n + 3]);
+      }
       radius = Math.max(radius, length(center) + balls[n + 3]);
     }
     const reach = this.frame.orthographic ? -dot(eye, forward) : length(eye);
@@ -229,6 +264,8 @@ class Caster {
     this.range = [Math.max(reach - radius - 1, 0), reach + radius + 1];
     this.depth_range = { first_depth: Math.max(Math.min(first, last), 0), last_depth: last };
   }
+
+  is_cut_away() { return false; }
 
   /// Begins a picture of so many pixels.
   begin(camera, width, height) {
@@ -240,61 +277,92 @@ class Caster {
 
   /// effects: {shade, lines}, whether; sample: 0 first.
   cast(sample, effects) {
-    const gl = this.gl, { figure, pixels, targets, tables } = this, first = sample === 0;
-    this.frame.sample_offset = figure.samples[sample];
-    gl.viewport(0, 0, ...this.size);
-    this.find(figure);
-    gl.disable(gl.DEPTH_TEST);
-    gl.bindVertexArray(null);
-    gl.bindFramebuffer(gl.FRAMEBUFFER, first ? targets.first : targets.points);
-    const points = this.program("whole.vert", "points.frag");
-    this.use(points, { primitive_texels: tables.primitives, row_texels: tables.rows, color_texels: tables.colors,
-      mark_texels: tables.marks, found_texels: pixels.found }, { pivot: this.frame.pivot });
-    this.set_block(points, "Parameters", figure.cast, { color_by_kind: this.by_kind });
-    gl.drawArrays(gl.TRIANGLES, 0, 3);
+    const { pixels, targets } = this, first = sample === 0;
+    this.begin_sample(sample);
+    this.find(this.groups);
+    this.color_points(first ? targets.first : targets.points, { found_texels: pixels.found });
     const normal = first ? pixels.first_normal : pixels.normal, what = first ? pixels.first_what : pixels.what;
-    if (effects.shade) {
-      gl.bindFramebuffer(gl.FRAMEBUFFER, targets.visibility);
-      const occlusion = this.program("whole.vert", "occlusion.frag");
-      this.use(occlusion, { normal_texels: normal, map_texels: pixels.first_normal });
-      const [width, height] = this.size;
-      this.set_block(occlusion, "Parameters", figure.occlusion, { map_middle: [width / 2 - 0.5, height / 2 - 0.5],
-        map_size: this.size, texel_edge: 1, near_reach: 0, longest_reach: Math.hypot(width, height), sample_index: sample });
-      gl.drawArrays(gl.TRIANGLES, 0, 3);
-    }
-    const defines = [...(effects.shade ? ["AMBIENT_OCCLUSION"] : []), ...(effects.lines ? ["SILHOUETTES"] : [])];
-    const finish = this.program("whole.vert", "finish.frag", defines);
-    const [to, from] = sample % 2 === 0 ? ["sum", "other_sum"] : ["other_sum", "sum"];
-    gl.bindFramebuffer(gl.FRAMEBUFFER, targets[to]);
-    this.use(finish, { normal_texels: normal, sample_texels: pixels.color, what_texels: what,
-      ...(effects.shade ? { visibility_texels: pixels.visibility } : {}), sum_texels: pixels[from] });
-    this.set_block(finish, "Parameters", figure.finish, { ...this.depth_range, ...this.line_widths(), sample_index: sample });
-    gl.drawArrays(gl.TRIANGLES, 0, 3);
+    if (effects.shade) this.shade(normal, pixels.first_normal, sample);
+    const { to, from } = this.sums(sample);
+    this.finish(targets[to], { normal, what, color: pixels.color, sum: pixels[from] }, effects, { sample_index: sample });
     this.summed = { texture: pixels[to], samples: sample + 1 };
   }
 
-  /// Each primitive's footprint, nearest first.
-  find(figure) {
-    const gl = this.gl, { tables } = this;
-    gl.bindFramebuffer(gl.FRAMEBUFFER, this.targets.found);
+  begin_sample(sample) {
+    this.frame.sample_offset = this.figure.samples[sample];
+    this.gl.viewport(0, 0, ...this.size);
+  }
+
+  /// Where the sum goes, and where that of the samples before is.
+  sums(sample) { return sample % 2 === 0 ? { to: "sum", from: "other_sum" } : { to: "other_sum", from: "sum" }; }
+
+  /// A pass over the whole picture.
+  draw_whole(target, made, textures, numbers = {}, blocks = {}) {
+    const gl = this.gl;
+    gl.disable(gl.DEPTH_TEST);
+    gl.bindVertexArray(null);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, target);
+    this.use(made, textures, numbers);
+    for (const [name, { words, values }] of Object.entries(blocks)) this.set_block(made, name, words, values);
+    gl.drawArrays(gl.TRIANGLES, 0, 3);
+  }
+
+  scene_tables() {
+    const { tables } = this;
+    return { primitive_texels: tables.primitives, row_texels: tables.rows, color_texels: tables.colors };
+  }
+
+  /// Light on what was found. more: numbers, members of the block and defines that layers ask for.
+  color_points(target, textures, { numbers = {}, values = {}, defines = [] } = {}) {
+    this.draw_whole(target, this.program("whole.vert", "points.frag", defines),
+      { ...this.scene_tables(), mark_texels: this.tables.marks, ...textures }, { pivot: this.frame.pivot, ...numbers },
+      { Parameters: { words: this.figure.cast, values: { color_by_kind: this.by_kind, ...values } } });
+  }
+
+  /// map: the depths of the first sample.
+  shade(normal, map, sample) {
+    const [width, height] = this.size;
+    this.draw_whole(this.targets.visibility, this.program("whole.vert", "occlusion.frag"), { normal_texels: normal, map_texels: map }, {},
+      { Parameters: { words: this.figure.occlusion, values: { map_middle: [width / 2 - 0.5, height / 2 - 0.5], map_size: this.size,
+        texel_edge: 1, near_reach: 0, longest_reach: Math.hypot(width, height), sample_index: sample } } });
+  }
+
+  /// The look of some points, which is added to the sum if this is not the first sample.
+  finish(target, { normal, what, color, sum }, effects, values, defines = []) {
+    const wanted = [...(effects.shade ? ["AMBIENT_OCCLUSION"] : []), ...(effects.lines ? ["SILHOUETTES"] : []), ...defines];
+    this.draw_whole(target, this.program("whole.vert", "finish.frag", wanted), { normal_texels: normal, sample_texels: color, what_texels: what,
+      ...(effects.shade ? { visibility_texels: this.pixels.visibility } : {}), sum_texels: sum }, {},
+      { Parameters: { words: this.figure.finish, values: { ...this.depth_range, ...this.line_widths(), ...values } } });
+  }
+
+  /// Footprints of some primitives or balls, in their order. kind: of a program's vertex shader.
+  draw_footprints(list, made, textures, numbers, target) {
+    const gl = this.gl;
+    gl.bindFramebuffer(gl.FRAMEBUFFER, target);
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LESS);
-    gl.clearBufferuiv(gl.COLOR, 0, [0, kNoPrimitive, 0, 0]);
-    gl.clearBufferfv(gl.DEPTH, 0, [1]);
     gl.bindVertexArray(this.vertices);
     gl.bindBuffer(gl.ARRAY_BUFFER, this.buffer);
     gl.enableVertexAttribArray(0);
     gl.vertexAttribDivisor(0, 1);
-    for (const group of this.groups) {
+    gl.bufferData(gl.ARRAY_BUFFER, list, gl.STREAM_DRAW);
+    gl.vertexAttribIPointer(0, 1, gl.UNSIGNED_INT, 0, 0);
+    this.use(made, textures, { pivot: this.frame.pivot, depth_range: this.range, ...numbers });
+    this.set_block(made, "Parameters", this.figure.cast, {});
+    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, list.length);
+  }
+
+  /// The nearest primitive at each pixel.
+  find(groups, { textures = {}, numbers = {}, defines = [] } = {}) {
+    const gl = this.gl;
+    gl.bindFramebuffer(gl.FRAMEBUFFER, this.targets.found);
+    gl.clearBufferuiv(gl.COLOR, 0, [0, kNoPrimitive, 0, 0]);
+    gl.clearBufferfv(gl.DEPTH, 0, [1]);
+    for (const group of groups) {
       if (group.list.length === 0) continue;
-      gl.bufferData(gl.ARRAY_BUFFER, group.sorted, gl.STREAM_DRAW);
-      gl.vertexAttribIPointer(0, 1, gl.UNSIGNED_INT, 0, 0);
-      const defines = [...(group.define ? [group.define] : []), ...(figure.some_hidden ? ["SOME_HIDDEN"] : [])];
-      const cast = this.program("footprint.vert", "cast.frag", defines);
-      this.use(cast, { primitive_texels: tables.primitives, row_texels: tables.rows, color_texels: tables.colors },
-        { pivot: this.frame.pivot, depth_range: this.range });
-      this.set_block(cast, "Parameters", figure.cast, {});
-      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, group.list.length);
+      const wanted = [...(group.define ? [group.define] : []), ...(this.hides_some() ? ["SOME_HIDDEN"] : []), ...defines];
+      this.draw_footprints(group.sorted, this.program("footprint.vert", "cast.frag", wanted),
+        { ...this.scene_tables(), ...textures }, numbers, this.targets.found);
     }
   }
 
@@ -330,6 +398,9 @@ class Caster {
     return words;
   }
 
+  /// Where an atom is, from where the records count.
+  center_of(atom) { return [...new Float32Array(this.figure.tables.balls.buffer, 16 * atom, 3)]; }
+
   /// What a pixel shows: {atom, primitive, point}, or nothing.
   pick(x, y) {
     const [width, height] = this.size;
@@ -346,5 +417,7 @@ class Caster {
 
 /// Members that are whole numbers; the others are floats.
 const kWholeMembers = new Set(["orthographic", "size", "map_size", "sample_index", "has_marks", "keeps_alpha", "tiles", "color_by_kind"]);
+/// Targets that one depth buffer serves.
+const kDeepTargets = ["found", "cap_atom"];
 /// Words of FinishParameters (gpu_shaders/look/parameters.glsl).
 const kLineWords = { patch_lines: 11, outer_lines: 15, inner_lines: 16, part_lines: 17, widest_line: 18 };

@@ -3,6 +3,7 @@
 
 const kClick = 4;          // CSS pixels a click may wander
 const kDraft = 40;         // ms that a frame may take while the view moves
+const kMostChains = 24;    // that have a box each
 const kMostPixels = 2048;  // along a side: there the whole picture is its own map of shade
 const element = (id) => document.getElementById(id);
 
@@ -13,6 +14,9 @@ class Viewer {
     this.camera = this.first = figure.camera;
     this.background = figure.background;
     this.effects = { shade: figure.has_shade, lines: figure.has_lines };
+    this.opacity = 1;
+    this.cut = null;  // a plane beside those of the figure
+    this.hidden = [];  // atoms
     this.draft_scale = 1;
     this.sample = -1;  // the last one cast of the picture at rest
     this.moving = false;
@@ -23,14 +27,44 @@ class Viewer {
   }
 
   start() {
-    this.caster = new Caster(this.canvas, this.figure);
+    this.caster = new (this.figure.layers ? LayeredCaster : Caster)(this.canvas, this.figure);
+    this.caster.hidden = this.hidden;
     this.caster.set_scheme(this.scheme ?? 0);
+    if (this.figure.layers) this.caster.set_layers(this.planes(), this.opacity);
   }
 
   set_scheme(scheme) {
     this.scheme = scheme;
     this.caster.set_scheme(scheme);
     element("legend").innerHTML = this.figure.schemes[scheme].legend;  // escaped where it was written
+    this.change();
+  }
+
+  planes() { return [...this.figure.layers.planes, ...(this.cut ? [this.cut] : [])]; }
+
+  set_layers() {
+    this.caster.set_layers(this.planes(), this.opacity);
+    this.change(true);
+  }
+
+  /// depth: share of the molecule's, as it is seen now, that a plane takes away; 0: none.
+  set_cut(depth) {
+    const { forward } = basis_of(this.camera), balls = new Float32Array(this.figure.tables.balls.buffer);
+    let [nearest, farthest] = [Infinity, -Infinity];
+    for (let n = 0; n < balls.length; n += 4) {
+      const along = balls[n] * forward[0] + balls[n + 1] * forward[1] + balls[n + 2] * forward[2];
+      nearest = Math.min(nearest, along - balls[n + 3]);
+      farthest = Math.max(farthest, along + balls[n + 3]);
+    }
+    this.cut = depth > 0 ? [...times(forward, -1), -(nearest + depth * (farthest - nearest))] : null;
+    this.set_layers();
+  }
+
+  /// shown: names of chains.
+  show_chains(shown) {
+    const { names, tables } = this.figure;
+    this.hidden = [...tables.shown.keys()].filter((atom) => !shown.has(names.chains[this.residue_of(atom)]));
+    this.caster.hide(this.hidden);
     this.change();
   }
 
@@ -88,7 +122,7 @@ class Viewer {
   draw_draft(width, height) {
     const began = performance.now(), scale = this.draft_scale;
     this.begin(Math.max(1, Math.round(width * scale)), Math.max(1, Math.round(height * scale)));
-    this.caster.cast(0, { shade: false, lines: false });
+    this.caster.cast(0, { shade: false, lines: false, draft: true });
     this.caster.present(linear_from_srgb(this.background));
     this.caster.read(0, 0, 1, 1, 2);  // waits for the device
     const took = performance.now() - began;
@@ -113,15 +147,31 @@ class Viewer {
       Math.floor((y - box.top) * this.canvas.height / box.height));
   }
 
-  atom_name(atom) {
+  residue_of(atom) {
     const { names, tables } = this.figure, place = tables.shown[atom];
     let low = 0, high = names.starts.length;
     while (high - low > 1) { const middle = (low + high) >> 1; if (names.starts[middle] <= place) low = middle; else high = middle; }
-    return `${names.residues[low]} ${names.atoms[place]}`;
+    return low;
+  }
+
+  atom_name(atom) {
+    const { names, tables } = this.figure;
+    return `${names.residues[this.residue_of(atom)]} ${names.atoms[tables.shown[atom]]}`;
+  }
+
+  /// What the page says of a picked point, and how far its atom is from the one picked before.
+  tell(picked) {
+    const before = this.last_picked;
+    this.last_picked = picked?.atom;
+    if (!picked) return "";
+    if (before === undefined || before === picked.atom) return this.words(picked);
+    const distance = length(minus(this.caster.center_of(picked.atom), this.caster.center_of(before)));
+    return `${this.words(picked)}; ${distance.toFixed(2)} Å from ${this.atom_name(before)}`;
   }
 
   /// Atom and residue, and which patch it is on.
   words(picked) {
+    if (picked.primitive === kOnPlane) return `${this.atom_name(picked.atom)} – nearest to this point of the cut`;
     const record = this.figure.tables.primitives.subarray(12 * picked.primitive, 12 * picked.primitive + 12), kind = record[7];
     if (kind >= kCylinder || record[8] === kNoPrimitive) return this.atom_name(picked.atom);
     if (kind === 0) return `${this.atom_name(picked.atom)} – convex patch`;
@@ -185,7 +235,7 @@ function follow_pointer(viewer) {
     pointers.delete(event.pointerId);
     if (event.type === "pointerup" && drag && drag.button === 0 && drag.wandered < kClick) {
       const picked = viewer.pick(event.clientX, event.clientY);
-      element("picked").textContent = picked ? viewer.words(picked) : "";
+      element("picked").textContent = viewer.tell(picked);
     }
     if (pointers.size === 0) drag = null;
     else drag.wandered = kClick;
@@ -236,11 +286,16 @@ function follow_controls(viewer) {
     element(name).parentElement.hidden = !viewer.effects[name];
     element(name).addEventListener("change", () => { viewer.effects[name] = element(name).checked; viewer.change(); });
   }
+  follow_layers(viewer);
   viewer.figure.schemes.forEach(({ name }, n) => element("scheme").append(new Option(name, n)));
   element("scheme").addEventListener("change", () => viewer.set_scheme(Number(element("scheme").value)));
   element("reset").addEventListener("click", () => {
     viewer.camera = viewer.first;
     element("projection").value = viewer.camera.orthographic ? "orthographic" : "perspective";
+    Object.assign(viewer, { cut: null, opacity: 1 });
+    Object.assign(element("cut"), { value: 0 });
+    Object.assign(element("opacity"), { value: 100 });
+    if (viewer.figure.layers) viewer.set_layers();
     viewer.change();
   });
   element("projection").addEventListener("change", () => set_projection(viewer, element("projection").value === "orthographic"));
@@ -255,6 +310,26 @@ function follow_controls(viewer) {
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 1000);
   });
+}
+
+/// What of the surface is shown.
+function follow_layers(viewer) {
+  const { layers, names, some_hidden } = viewer.figure;
+  // Where the figure hides atoms, their patches are not in it, and nothing tells what is solid.
+  const cuts = layers && layers.planes.length < kMostPlanes && !some_hidden;
+  for (const [name, there] of [["cut", cuts], ["opacity", layers]]) element(name).parentElement.hidden = !there;
+  element("cut").addEventListener("input", () => viewer.set_cut(Number(element("cut").value) / 100));
+  element("opacity").addEventListener("input", () => { viewer.opacity = Number(element("opacity").value) / 100; viewer.set_layers(); });
+  const chains = [...new Set(names.chains)], shown = new Set(chains);
+  if (chains.length < 2 || chains.length > kMostChains) return;
+  element("chains").hidden = false;
+  for (const chain of chains) {
+    const label = document.createElement("label"), box = document.createElement("input");
+    Object.assign(box, { type: "checkbox", checked: true });
+    label.append(box, ` ${chain || "none"}`);
+    box.addEventListener("change", () => { shown[box.checked ? "add" : "delete"](chain); viewer.show_chains(shown); });
+    element("chains").append(label);
+  }
 }
 
 async function main() {

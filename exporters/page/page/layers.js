@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Surfaces that are cut or seen through: their hits are cast one behind the other, and put together along each ray.
+
+const kMostLayers = 8, kDraftLayers = 2, kMostPlanes = 8;
+const kOnPlane = 0xfffffffe;
+
+class LayeredCaster extends Caster {
+  constructor(canvas, figure) {
+    super(canvas, figure);
+    this.layers = { ...figure.layers };
+    this.queries = [];
+    this.tables.balls = this.table("balls");
+    this.surface_atoms = Uint32Array.from({ length: this.layers.surface_atoms }, (_, n) => n);
+  }
+
+  /// planes: [x, y, z, w] each, kept is where dot(xyz, x) < w; opacity: times that of the atoms.
+  set_layers(planes, opacity) {
+    const { layers } = this.figure, more = planes.length - layers.planes.length;
+    const hatching = [...layers.hatching, ...Array(Math.max(more, 0)).fill([0, 0, 0, 0])];
+    Object.assign(this.layers, { planes, hatching, opacity, seen_through: layers.seen_through || opacity < 1 ? 1 : 0 });
+  }
+
+  /// Whether the surface is cut or seen through; else it is cast at once.
+  has_layers() { return this.layers.planes.length > 0 || this.layers.seen_through > 0; }
+
+  /// Where planes cut, hidden atoms are seen through: their points tell what is solid.
+  hides_some() { return this.layers.planes.length === 0 && super.hides_some(); }
+  is_seen_through() { return this.layers.seen_through > 0 || (this.layers.planes.length > 0 && super.hides_some()); }
+
+  resize(width, height) {
+    if (this.laid !== this.has_layers()) this.size = [0, 0];
+    this.laid = this.has_layers();
+    super.resize(width, height);
+  }
+
+  make_pixels() {
+    const { gl } = this, wide = () => this.wide();
+    if (!this.laid) return super.make_pixels();
+    return { ...super.make_pixels(), event: wide(), cap_atom: this.texture(gl.R32UI), shape_what: wide(),
+      over: wide(), other_over: wide(), state: wide(), other_state: wide(),
+      opaque_color: wide(), opaque_normal: wide(), opaque_first_normal: wide(), opaque_what: wide(),
+      seen_color: wide(), seen_normal: wide(), seen_what: wide(), front: wide(), ink: this.texture(gl.R32UI), behind: wide() };
+  }
+
+  make_targets(pixels) {
+    if (!this.laid) return super.make_targets(pixels);
+    return { ...super.make_targets(pixels), shapes: this.target(pixels.color, pixels.normal, pixels.shape_what),
+      event: this.target(pixels.event), cap_atom: this.target(pixels.cap_atom),
+      ray: this.target(pixels.over, pixels.state), other_ray: this.target(pixels.other_over, pixels.other_state),
+      opaque: this.target(pixels.opaque_color, pixels.opaque_normal, pixels.opaque_what),
+      opaque_first: this.target(pixels.opaque_color, pixels.opaque_first_normal, pixels.opaque_what),
+      first: this.target(pixels.seen_color, pixels.first_normal, pixels.first_what),
+      seen: this.target(pixels.seen_color, pixels.seen_normal, pixels.seen_what),
+      front: this.target(pixels.front, pixels.ink), behind: this.target(pixels.behind) };
+  }
+
+  is_cut_away(atom, center, radius) {
+    return atom < this.surface_atoms.length && this.layers.planes.some((plane) => dot(plane, center) - radius >= plane[3]);
+  }
+
+  /// Uniforms that all shaders of layers share.
+  layer_numbers() {
+    const { layers } = this, padded = (list) => [...list.flat(), ...Array(4 * (kMostPlanes - list.length)).fill(0)];
+    return { pivot: this.frame.pivot, planes: padded(layers.planes), planes_there: [layers.planes.length], hatching: padded(layers.hatching),
+      hatched_look: layers.hatched_look, cap_color: layers.cap_color, thickens: [layers.thickens], surface_opacity: [layers.opacity ?? 1], seen_through: [this.is_seen_through() ? 1 : 0],
+      probe: [layers.probe], largest_ball: [layers.largest_ball] };
+  }
+
+  /// What the target has at one place, into a texture.
+  copy(target, attachment, texture) {
+    const gl = this.gl;
+    gl.bindFramebuffer(gl.FRAMEBUFFER, target);
+    gl.readBuffer(gl.COLOR_ATTACHMENT0 + attachment);
+    gl.activeTexture(gl.TEXTURE0);
+    gl.bindTexture(gl.TEXTURE_2D, texture);
+    gl.copyTexSubImage2D(gl.TEXTURE_2D, 0, 0, 0, 0, 0, ...this.size);
+  }
+
+  cast(sample, effects) {
+    if (!this.laid) return super.cast(sample, effects);
+    const { gl, pixels, targets } = this, first = sample === 0, seen_through = this.is_seen_through();
+    const seen_normal = first ? pixels.first_normal : pixels.seen_normal, seen_what = first ? pixels.first_what : pixels.seen_what;
+    const opaque_normal = first ? pixels.opaque_first_normal : pixels.opaque_normal;
+    const seen = first ? targets.first : targets.seen, opaque = first ? targets.opaque_first : targets.opaque;
+    this.begin_sample(sample);
+    this.find(this.groups.filter((group) => !group.of_surface));
+    this.color_points(targets.shapes, { found_texels: pixels.found });
+    for (const [attachment, texture] of [[0, pixels.opaque_color], [1, opaque_normal], [1, seen_normal], [2, pixels.opaque_what], [2, seen_what]])
+      this.copy(targets.shapes, attachment, texture);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, seen);
+    gl.clearBufferuiv(gl.COLOR, 0, [0, 0, 0, 0]);
+    this.walk(seen, opaque, !seen_through ? 1 : effects.draft ? kDraftLayers : this.layers_there(sample), first && !effects.draft);
+    const { to, from } = this.sums(sample), on_behind = { normal: opaque_normal, what: pixels.opaque_what, color: pixels.opaque_color };
+    if (!seen_through) {
+      if (effects.shade) this.shade(opaque_normal, pixels.opaque_first_normal, sample);
+      this.finish(targets[to], { ...on_behind, sum: pixels[from] }, effects, { sample_index: sample });
+    } else {
+      if (effects.shade) this.shade(seen_normal, pixels.first_normal, sample);
+      this.finish(targets.front, { normal: seen_normal, what: seen_what, color: pixels.seen_color, sum: pixels[from] }, effects,
+        { sample_index: 0, specular: 0 }, ["LAYERS"]);
+      if (effects.shade) this.shade(opaque_normal, pixels.opaque_first_normal, sample);
+      this.finish(targets.behind, { ...on_behind, sum: pixels[from] }, effects, { sample_index: 0 });
+      this.draw_whole(targets[to], this.program("whole.vert", "layer_sum.frag"), { over_texels: pixels[this.over], first_texels: pixels.seen_color,
+        front_texels: pixels.front, ink_texels: pixels.ink, behind_texels: pixels.behind, sum_texels: pixels[from] }, {},
+        { Parameters: { words: this.figure.finish, values: { ...this.line_widths(), sample_index: sample } } });
+    }
+    this.summed = { texture: pixels[to], samples: sample + 1 };
+  }
+
+  /// How many layers the picture has, as far as the device has told of its first sample.
+  layers_there(sample) {
+    if (sample === 0) return kMostLayers;
+    const { gl } = this, told = (query) => gl.getQueryParameter(query, gl.QUERY_RESULT_AVAILABLE) && !gl.getQueryParameter(query, gl.QUERY_RESULT);
+    const empty = this.queries.findIndex(told);
+    return empty < 0 ? kMostLayers : Math.max(empty, 1);
+  }
+
+  /// From hit to hit, at most `count` of them. counts: the device is asked which of them are there. seen, opaque: targets that keep the first one that is seen, and the opaque one.
+  walk(seen, opaque, count, counts) {
+    const { gl, figure, pixels, targets } = this, numbers = this.layer_numbers(), layers = ["LAYERS"];
+    const surface = this.groups.filter((group) => group.of_surface), block = { Parameters: { words: figure.cast, values: {} } };
+    const lit = this.is_seen_through() ? { specular: this.layers.specular } : {};
+    let [over, state, next] = ["over", "state", "other_"];
+    this.draw_whole(targets.ray, this.program("whole.vert", "layer_start.frag"), this.scene_tables(), numbers, block);
+    if (counts) this.queries.forEach((query) => gl.deleteQuery(query));
+    if (counts) this.queries = [];
+    for (let layer = 0; layer < count; ++layer) {
+      if (counts) gl.beginQuery(gl.ANY_SAMPLES_PASSED, this.queries[layer] = gl.createQuery());
+      this.find(surface, { textures: { state_texels: pixels[state] }, numbers, defines: layers });
+      if (counts) gl.endQuery(gl.ANY_SAMPLES_PASSED);
+      this.draw_whole(targets.event, this.program("whole.vert", "layer_event.frag"),
+        { ...this.scene_tables(), found_texels: pixels.found, state_texels: pixels[state] }, numbers, block);
+      if (this.layers.planes.length > 0) this.find_cap_atoms(numbers);
+      this.color_points(targets.points, { event_texels: pixels.event, cap_atom_texels: pixels.cap_atom }, { numbers, values: lit, defines: layers });
+      const on_ray = { ...this.scene_tables(), event_texels: pixels.event, state_texels: pixels[state], sample_texels: pixels.color,
+        shape_texels: pixels.shape_what };
+      const points = { normal_texels: pixels.normal, what_texels: pixels.what };
+      this.draw_whole(seen, this.program("whole.vert", "layer_keep.frag", ["FIRST"]), { ...on_ray, ...points }, numbers, block);
+      this.draw_whole(opaque, this.program("whole.vert", "layer_keep.frag"), { ...on_ray, ...points }, numbers, block);
+      this.draw_whole(next ? targets.other_ray : targets.ray, this.program("whole.vert", "layer_blend.frag"), { ...on_ray, over_texels: pixels[over] }, numbers, block);
+      [over, state, next] = next ? ["other_over", "other_state", ""] : ["over", "state", "other_"];
+    }
+    this.over = over;
+  }
+
+  find_cap_atoms(numbers) {
+    const { gl, pixels, targets, tables } = this;
+    gl.bindFramebuffer(gl.FRAMEBUFFER, targets.cap_atom);
+    gl.clearBufferuiv(gl.COLOR, 0, [0, 0, 0, 0]);
+    gl.clearBufferfv(gl.DEPTH, 0, [1]);
+    this.draw_footprints(this.surface_atoms, this.program("footprint.vert", "cap_atom.frag", ["BALLS"]),
+      { ...this.scene_tables(), ball_texels: tables.balls, event_texels: pixels.event }, numbers, targets.cap_atom);
+  }
+}

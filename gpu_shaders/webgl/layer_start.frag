@@ -1,0 +1,15 @@
+#version 300 es
+// SPDX-License-Identifier: BSD-3-Clause
+// Where each ray begins to look for a surface that is cut or seen through.
+#define LAYERS 1
+#include "gpu_shaders/webgl/scene.glsl"
+
+layout(location = 0) out uvec4 over;   // linear, premultiplied, as bits: what is seen through so far
+layout(location = 1) out uvec4 state;  // see scene.glsl
+
+void main() {
+  PixelRay ray = pixel_ray(ivec2(gl_FragCoord.xy));
+  KeptPart kept = kept_part(ray.p, ray.d, ray.eye_t);
+  over = uvec4(0u);
+  state = uvec4(floatBitsToUint(kept.from), floatBitsToUint(0.0), kept.to <= kept.from ? kEnded : 0u, 0u);
+}
