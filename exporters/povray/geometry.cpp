@@ -214,7 +214,7 @@ void Geometry::write(OutputFile& file, std::string_view head) const {
   for (std::size_t n = 0; n < objects_.size(); ++n) {
     if (palettes_[n].pieces.empty()) continue;
     const bool several = item_count(n) > 1;
-    if (declares()) out.literal("#declare object_").count(n + 1).literal(several ? " =\nunion{\n" : " =\n");
+    if (declares()) out.literal("#local object_").count(n + 1).literal(several ? " =\nunion{\n" : " =\n");
     write_pieces(file, out, n);
     if (declares() && several) out.literal("}\n");
   }

@@ -40,7 +40,7 @@ class Geometry {
   /// True when the text of write() is a single item, which a POV-Ray union does not like to hold.
   bool is_one_item() const;
 
-  /// Pieces or, when anything is copied, moved or divided into objects, `#declare object_N = union {...}` for each
+  /// Pieces or, when anything is copied, moved or divided into objects, `#local object_N = union {...}` for each
   /// object that shows something and then `object { object_N matrix <...> }` for each copy.
   /// head: scene text after the comments at the top.
   void write(OutputFile& file, std::string_view head = {}) const;

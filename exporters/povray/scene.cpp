@@ -2,12 +2,15 @@
 // Writes the scene of one surface.
 #include "exporters/povray/scene.h"
 
+#include <array>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
 
+#include "exporters/povray/own_scene.h"
 #include "exporters/povray/scene_content.h"
 #include "exporters/povray/scene_files.h"
 #include "core/base/text.h"
@@ -77,9 +80,13 @@ SceneReport write_scene(std::span<const SurfaceObject> given, const Camera& came
     OutputFile& file = begin_file(std::string(kMapFileEnding));
     write_density(style.map->grid, [&](std::string_view bytes) { file.write(bytes); });
   }
-  begin_file("_aov.inc").write(buffer_text(&table.colors(), options, extent, origin));
-  begin_file("_style.inc").write(style_text(style, options, origin));
-  begin_file(".pov").write(main_text({&camera, 1}, options, origin, parts));
+  const std::string buffers = buffer_text(&table.colors(), options, extent, origin);
+  const std::string styles = style_text(style, options, origin);
+  const std::string main = main_text({&camera, 1}, options, origin, parts);
+  begin_file("_aov.inc").write(buffers);
+  begin_file("_style.inc").write(styles);
+  begin_file(".pov").write(main);
+  begin_file(".inc").write(own_scene_text(options.name, std::array<std::string_view, 3>{main, styles, buffers}));
   begin_file(".ini").write(ini_text(options));
   begin_file("_objects.json").write(geometry.names_json(options.colors));
   output.commit();

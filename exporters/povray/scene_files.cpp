@@ -150,8 +150,8 @@ std::string main_text(std::span<const Camera> cameras, const SceneOptions& optio
   out.literal("//   #version 3.7; #declare Meniscus_Material = 2; #include \"")
       .literal(options.name)
       .literal(".pov\"\n");
-  out.literal("// For a scene that is all your own declare Meniscus_Own_Scene = 1: then nothing is placed, and\n");
-  out.literal("// object { Meniscus_Surface } stands where you put it.\n");
+  out.literal("// For a scene that is all your own include ").literal(options.name);
+  out.literal(".inc instead: it places nothing, and\n// object { Meniscus_Surface } stands where you put it.\n");
   out.literal("// Colours as srgb need assumed_gamma first: write global_settings of your own and declare\n");
   out.literal(
       "// Meniscus_Custom_Settings; likewise Meniscus_Custom_Camera and Meniscus_Custom_Lights.\n#version 3.7;\n");
@@ -193,13 +193,18 @@ std::string main_text(std::span<const Camera> cameras, const SceneOptions& optio
     add_surface(parts.single && !parts.caps, geometry, parts.caps ? "\n  " + include_of("caps") : "",
                 "Meniscus_Surface");
   }
-  if (parts.shapes) out.literal("\n").literal(include_of("shapes")).literal("\n");
+  const auto add_shapes = [&](const std::string& include, const std::string& handle) {
+    out.literal("\n#ifdef (Meniscus_Own_Scene) #declare ").literal(handle).literal(" = union { #end\n");
+    out.literal(include).literal("\n#ifdef (Meniscus_Own_Scene) } #end\n");
+  };
+  if (parts.shapes) add_shapes(include_of("shapes"), "Meniscus_Shapes");
   for (std::size_t n = 0; n < parts.objects.size(); ++n) {
     const std::string include = include_of(fmt::format("object_{}", n + 1));
+    const std::string handle = fmt::format("Meniscus_Object_{}", n + 1);
     if (parts.objects[n].is_surface)
-      add_surface(parts.objects[n].single, include, "", fmt::format("Meniscus_Object_{}", n + 1));
+      add_surface(parts.objects[n].single, include, "", handle);
     else
-      out.literal("\n").literal(include).literal("\n");
+      add_shapes(include, handle);
   }
   return out.text();
 }

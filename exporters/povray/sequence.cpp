@@ -3,7 +3,9 @@
 #include "exporters/povray/sequence.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,6 +16,7 @@
 #include "core/base/output_file.h"
 #include "core/base/text.h"
 #include "core/color/color_key_json.h"
+#include "exporters/povray/own_scene.h"
 #include "exporters/povray/scene_files.h"
 #include "exporters/povray/scene_report.h"
 #include "exporters/povray/scene_text.h"
@@ -94,11 +97,15 @@ SceneReport SequenceScene::write_shared() const {
     std::string& values = files.back().text;
     write_density(run_.map->grid, [&](std::string_view bytes) { values += bytes; });
   }
+  const std::string buffers = buffer_text(colors, options_, run_.extent, origin_);
+  const std::string style = style_text({colors, run_.map.get(), run_.materials}, options_, origin_);
+  const std::string main = main_text(run_.cameras, options_, origin_, parts(), &frames);
   const SharedFile texts[] = {
-      {name + "_aov.inc", buffer_text(colors, options_, run_.extent, origin_)},
-      {name + "_style.inc", style_text({colors, run_.map.get(), run_.materials}, options_, origin_)},
+      {name + "_aov.inc", buffers},
+      {name + "_style.inc", style},
       {name + "_objects.json", objects_text(run_, options_.colors)},
-      {name + ".pov", main_text(run_.cameras, options_, origin_, parts(), &frames)},
+      {name + ".pov", main},
+      {name + ".inc", own_scene_text(name, std::array<std::string_view, 3>{main, style, buffers})},
       {name + ".ini", ini_text(options_, run_.frames)}};
   files.insert(files.end(), std::begin(texts), std::end(texts));
   write_shared_files(folder_, options_.existing, files);

@@ -43,9 +43,9 @@ class SequenceScene {
   /// projections or of another number).
   SequenceScene(Run run, SceneOptions options, std::filesystem::path folder);
 
-  /// Writes <name>.ini, <name>.pov, <name>_style.inc, <name>_aov.inc, <name>_objects.json (the frames, and what the
-  /// colours mean), and of a volume map <name>_map.df3. Files that are there with just this content stay; the others
-  /// are written, all or none. Throws OutputError.
+  /// Writes <name>.ini, <name>.pov, <name>.inc, <name>_style.inc, <name>_aov.inc, <name>_objects.json (the frames, and
+  /// what the colours mean), and of a volume map <name>_map.df3. Files that are there with just this content stay; the
+  /// others are written, all or none. Throws OutputError.
   SceneReport write_shared() const;
 
   /// Writes <name>_geometry_#####.inc, numbered by the frame of the trajectory, and where the surface is several

@@ -44,7 +44,7 @@ TEST(PovrayCommand, TextOfAMoleculeNeverReachesTheScene) {
     if (!comment.empty()) {
       EXPECT_NE(style.find(comment + "\n"), std::string::npos) << style.substr(0, 500);
     }
-    for (const char* const file : {"surface.ini", "surface.pov", "surface_style.inc", "surface_aov.inc",
+    for (const char* const file : {"surface.ini", "surface.pov", "surface.inc", "surface_style.inc", "surface_aov.inc",
                                    "surface_geometry.inc", "surface_shapes.inc"}) {
       const std::string text = test::read_bytes(folder.path() / "b" / file);
       for (const char* const word : {"#fopen", "passwd", "#error", "write //"})
@@ -99,7 +99,7 @@ TEST(PovrayCommand, KeepsWhatExistsAndRefusesNonsense) {
   };
   const test::ProgramResult first = run({});
   ASSERT_EQ(first.exit_code, 0) << first.err;
-  EXPECT_NE(first.err.find("6 files"), std::string::npos) << first.err;
+  EXPECT_NE(first.err.find("7 files"), std::string::npos) << first.err;
   write_text(scene / "surface.pov", "mine");
   EXPECT_EQ(run({}).exit_code, 6);
   EXPECT_EQ(run({"--force", "--size", "0x10"}).exit_code, 2);

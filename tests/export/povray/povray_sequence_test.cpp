@@ -97,7 +97,7 @@ TEST_F(PovraySequence, SharesAreTheSameBytesAsOneRun) {
     EXPECT_EQ(test::read_bytes(entry.path()), test::read_bytes(path("shares") / name)) << name;
     ++files;
   }
-  EXPECT_EQ(files, 5 + kFrames.size());
+  EXPECT_EQ(files, 6 + kFrames.size());
   // What is there of another run is not overwritten.
   const test::ProgramResult other = export_run("shares", {"--frames", "0-4:2"});
   EXPECT_EQ(other.exit_code, 6) << other.err;
