@@ -14,11 +14,13 @@
 #include "app/commands/commands.h"
 #include "app/commands/parse_bundled_command.h"
 #include "app/farm/child_process.h"
+#include "app/farm/claims.h"
 #include "app/farm/frame_log.h"
 #include "app/farm/frame_record.h"
 #include "app/farm/inner_path.h"
 #include "app/farm/make_bundle.h"
 #include "app/farm/makers.h"
+#include "app/farm/merge.h"
 #include "app/farm/quote.h"
 #include "app/farm/read_bundle.h"
 #include "app/farm/status_report.h"
@@ -289,12 +291,88 @@ void add_farm_verify(CLI::App& command) {
   command.callback([state] { verify(state->folder, state->in_place); });
 }
 
+namespace {
+
+/// What came of one copy, and what of it was not taken, of each step the first in full and the others by number.
+void tell_merged(const std::string& copy, const farm::Merged& merged) {
+  std::map<std::string, std::vector<std::uint64_t>> more;
+  for (std::size_t n = 0; n < merged.not_taken.size(); ++n) {
+    const farm::NotTaken& result = merged.not_taken[n];
+    if (n < kFaultsShown) {
+      std::cerr << fmt::format(
+          "meniscus: {}: {} {} not taken: {}\n", escaped(copy), result.step,
+          result.frame == farm::kSharedFiles ? "files of all frames are" : fmt::format("frame {} is", result.frame),
+          escaped(result.what));
+    } else {
+      more[result.step].push_back(result.frame);
+    }
+  }
+  for (const auto& [step, frames] : more)
+    std::cerr << fmt::format("meniscus: {}: {} frames {} are not taken\n", escaped(copy), step,
+                             frame_list_text(frames));
+  const auto also = [](std::uint64_t count, const char* what) {
+    return count > 0 ? fmt::format(", {} {}", with_thousands(count), what) : std::string();
+  };
+  fmt::print(std::cout, "{}: {} taken, {} bytes; {} here already{}{}{}\n", escaped(copy), with_thousands(merged.taken),
+             with_thousands(merged.bytes), with_thousands(merged.there), also(merged.failed, "failed there"),
+             also(merged.busy, "being made here"), also(merged.not_taken.size(), "not taken"));
+}
+
+void merge(const std::filesystem::path& into, const std::vector<std::string>& copies) {
+  const farm::Bundle bundle = farm::read_bundle(into);
+  farm::check_places(into);
+  std::error_code none_there;
+  for (const std::string& copy : copies)
+    if (std::filesystem::equivalent(copy, into, none_there))
+      throw UsageError(fmt::format("{} is the bundle that takes from the others; leave it out", in_quotes(copy)));
+  const StopHandler handler([] { farm::give_back_all_claims(); }, kExitStopped);
+  farm::MergeTarget target(bundle, into);
+  std::size_t not_taken = 0, unread = 0;
+  for (const std::string& copy : copies) {
+    try {
+      const farm::Merged merged = target.take_from(copy);
+      not_taken += merged.not_taken.size();
+      tell_merged(copy, merged);
+    } catch (const InputError& error) {
+      ++unread;
+      std::cerr << fmt::format("meniscus: nothing is taken from {}: {}\n", escaped(copy), escaped(error.what()));
+    }
+  }
+  const farm::BundleStatus status = farm::status_of(bundle, into);
+  for (const farm::StepStatus& step : status.steps)
+    fmt::print(std::cout, "{}: {} of {} frames are made\n", step.step, with_thousands(step.done),
+               with_thousands(bundle.frames.size()));
+  if (not_taken + unread > 0)
+    throw RunError(kExitInput, fmt::format("{}: {} frames and {} copies are not taken; all else is", into.string(),
+                                           with_thousands(not_taken), with_thousands(unread)));
+}
+
+}  // namespace
+
+void add_farm_merge(CLI::App& command) {
+  describe(command, "  meniscus farm merge film copy_1 copy_2        what was made in two copies of film",
+           "For machines that share no folder. Each file is checked against its record, each picture is read. What is "
+           "not\ngood, or differs from what INTO has, is named and not taken, and the exit code is 3. The same command "
+           "may be\nrepeated at any time, and goes on after any interruption.");
+  struct Merge {
+    std::string into;
+    std::vector<std::string> copies;
+  };
+  auto state = std::make_shared<Merge>();
+  command.add_option("INTO", state->into, "Folder of the bundle that gets the frames")->required()->type_name("");
+  command.add_option("FROM", state->copies, "Folders of copies of it: bundle.json, state, and what is made")
+      ->required()
+      ->type_name("");
+  command.callback([state] { merge(state->into, state->copies); });
+}
+
 void add_farm(CLI::App& command) {
   describe(command,
            "  meniscus farm bundle film -- render adk.psf --trajectory adk.dcd --frames all\n"
            "  meniscus work film            on any number of machines (meniscus work --help)\n"
            "  meniscus farm status film\n"
            "  meniscus farm log film 42\n"
+           "  meniscus farm merge film copy_1 copy_2    what machines made that share no folder\n"
            "  meniscus farm verify film");
 }
 

@@ -44,6 +44,7 @@ void add_export_vdb(CLI::App& command);
 void add_farm(CLI::App& command);
 void add_farm_bundle(CLI::App& command);
 void add_farm_log(CLI::App& command);
+void add_farm_merge(CLI::App& command);
 void add_farm_status(CLI::App& command);
 void add_farm_verify(CLI::App& command);
 void add_film(CLI::App& command);

@@ -26,6 +26,16 @@ bool is_made_path(const std::string& path) {
   return is_inner_path(path) && (path.starts_with("images/") || path.starts_with("scene/"));
 }
 
+// By "_00042" in its name.
+bool is_of_one_frame(const std::string& name) {
+  constexpr std::size_t kDigits = 5;
+  for (std::size_t at = name.find('_'); at != std::string::npos; at = name.find('_', at + 1)) {
+    const std::size_t end = name.find_first_not_of("0123456789", at + 1);
+    if ((end == std::string::npos ? name.size() : end) - at - 1 >= kDigits) return true;
+  }
+  return false;
+}
+
 Json to_json(const FrameRecord& record) {
   Json json;
   json["frame"] = record.frame;
@@ -78,7 +88,8 @@ FrameRecords::FrameRecords(fs::path folder, const Bundle& bundle)
     : folder_(std::move(folder)), fingerprint_(bundle.fingerprint()) {}
 
 fs::path FrameRecords::path_of(const std::string& step, std::uint64_t frame) const {
-  return fs::path("state") / step / fmt::format("frame_{}.json", frame_digits(frame));
+  return fs::path("state") / step /
+         (frame == kSharedFiles ? "shared.json" : fmt::format("frame_{}.json", frame_digits(frame)));
 }
 
 std::optional<FrameRecord> FrameRecords::read(const std::string& step, std::uint64_t frame) const {
@@ -108,6 +119,17 @@ void FrameRecords::write(const std::string& step, const FrameRecord& record) con
   OutputFile file(path, Existing::replace);
   file.write(json.dump(1, ' ', true, Json::error_handler_t::replace) + "\n");
   file.commit();
+}
+
+void FrameRecords::write_shared(const std::string& step) const {
+  const std::optional<FrameRecord> known = read(step, kSharedFiles);
+  if (known && fault(*known).empty()) return;
+  std::vector<std::string> paths;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / "scene"))
+    if (const std::string name = entry.path().filename().string(); !name.starts_with('.') && !is_of_one_frame(name))
+      paths.push_back("scene/" + name);
+  std::ranges::sort(paths);
+  if (!paths.empty()) write(step, measured(kSharedFiles, paths, 0.0));
 }
 
 FrameRecord FrameRecords::measured(std::uint64_t frame, const std::vector<std::string>& paths, double seconds) const {

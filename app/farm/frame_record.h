@@ -34,6 +34,10 @@ struct FrameRecord {
   bool done() const { return exit_code == 0; }
 };
 
+/// Instead of a frame: the files in scene/ that all frames of a step have in common, state/STEP/shared.json. A frame
+/// that has a record has these, too.
+inline constexpr std::uint64_t kSharedFiles = ~std::uint64_t{0};
+
 /// How closely files are compared with their record.
 enum class Look {
   sizes,    ///< quick: a look at the folder
@@ -51,6 +55,8 @@ class FrameRecords {
   /// Whole or not at all. Throws OutputError.
   void write(const std::string& step, const FrameRecord& record) const;
 
+  /// Records the files that frames have in common as they are now, unless there are none, or that is known.
+  void write_shared(const std::string& step) const;
   /// The frame as it lies in the bundle: paths (relative) with sizes and checksums. Throws InputError.
   FrameRecord measured(std::uint64_t frame, const std::vector<std::string>& paths, double seconds) const;
   /// What is wrong with the files of a frame that was made: "" or "images/frame_00042.png: is missing".

@@ -43,6 +43,8 @@ std::string picture_fault(const std::filesystem::path& path, const Bundle& bundl
 
 bool is_picture(const std::string& path) { return path.starts_with("images/"); }
 
+}  // namespace
+
 std::string fault_of(const FrameRecord& record, const FrameRecords& records, const Bundle& bundle,
                      const std::filesystem::path& folder) {
   std::string fault = records.fault(record);
@@ -53,8 +55,6 @@ std::string fault_of(const FrameRecord& record, const FrameRecords& records, con
   }
   return fault;
 }
-
-}  // namespace
 
 std::vector<FrameFault> faults_of(const Bundle& bundle, const std::filesystem::path& folder) {
   const FrameRecords records(folder, bundle);

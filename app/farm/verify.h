@@ -9,6 +9,7 @@
 
 #include "app/farm/bundle.h"
 #include "app/farm/film_note.h"
+#include "app/farm/frame_record.h"
 
 namespace meniscus::farm {
 
@@ -20,6 +21,10 @@ struct FrameFault {
   bool failed = false;  ///< when it was made, and so perhaps each time
   std::string what;
 };
+
+/// What is wrong with the files of a frame that was made, and with its picture: "" or a line.
+std::string fault_of(const FrameRecord& record, const FrameRecords& records, const Bundle& bundle,
+                     const std::filesystem::path& folder);
 
 /// Frames that are missing, failed, or not what was made; pictures that cannot be read, have the wrong size, or are
 /// blank: all pixels equal.

@@ -215,6 +215,7 @@ class Worker {
     FrameListener listener;
     listener.done = [&](std::uint64_t frame, const std::vector<std::string>& files, double seconds) {
       FrameRecord record = records_.measured(frame, files, seconds);
+      if (first_ && step == "surface") records_.write_shared(step);
       keep(step, record);
       measure(task.pace, seconds);
       task.progress.done(frame, files, 1000.0 * seconds);
