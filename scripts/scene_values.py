@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""scene_values.py [--check]: writes the types of a scene's values for Python, exporters/bindings/python/meniscus/
-_scene_values.py, from the table of properties of the library that MENISCUS_LIBRARY names. --check: writes nothing, and
-fails where the file is not what it would write."""
+"""scene_values.py [--check]: writes two files from the table of properties of the library that MENISCUS_LIBRARY names: the
+types of a scene's values for Python, exporters/bindings/python/meniscus/_scene_values.py, and the fields of the panel in
+Blender about molecules and runs, exporters/blender/addon/meniscus_import/computing/preparation_table.py. --check: writes
+nothing, and fails where a file is not what it would write."""
 import pathlib
 import sys
 import textwrap
 
-PACKAGE = pathlib.Path(__file__).resolve().parents[1] / "exporters/bindings/python"
+EXPORTERS = pathlib.Path(__file__).resolve().parents[1] / "exporters"
+PACKAGE = EXPORTERS / "bindings/python"
 sys.path.insert(0, str(PACKAGE))
 
 import meniscus
@@ -26,6 +28,31 @@ Text = Union[str, float]
 '''
 TYPES = {lib.VALUE_FLAG: "bool", lib.VALUE_NUMBER: "float", lib.VALUE_COUNT: "int", lib.VALUE_TEXT: "Text",
          lib.VALUE_FILE: "Path", lib.VALUE_NEW_FILE: "Path", lib.VALUE_CAMERA: "Path"}
+
+
+#: What the panel has, in its order.
+PANEL = ("molecule.model", "molecule.altloc", "molecule.assembly", "molecule.hydrogens", "molecule.radii", "molecule.keep_water",
+         "molecule.keep_ions", "frames.superpose", "frames.whole", "frames.smooth")
+PANEL_HEAD = '''# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the panel asks about molecules and runs, written by scripts/scene_values.py from Meniscus' table of properties."""
+
+import collections
+
+#: key: of scene files. type: flag, count, word or text. words: all of a word, some usual ones of a text. initial: the default.
+#: lowest, highest: of a count.
+Row = collections.namedtuple("Row", "key type words initial lowest highest help")
+
+ROWS = (
+'''
+PANEL_TYPES = {lib.VALUE_FLAG: "flag", lib.VALUE_COUNT: "count", lib.VALUE_WORD: "word", lib.VALUE_TEXT: "text"}
+
+
+def panel_text():
+    known = {p.key: p for p in meniscus.properties()}
+    rows = [known[key] for key in PANEL]
+    return PANEL_HEAD + "".join(
+        f"    Row({p.key!r}, {PANEL_TYPES[p.type]!r}, {tuple(p.words)!r}, {p.initial!r}, {p.lowest:g}, {p.highest:g},\n        {p.help!r}),\n"
+        for p in rows) + ")\n"
 
 
 def type_of(known):
@@ -56,8 +83,9 @@ def file_text():
 
 
 if __name__ == "__main__":
-    path = PACKAGE / "meniscus/_scene_values.py"
-    if "--check" not in sys.argv[1:]:
-        path.write_text(file_text())
-    elif not path.is_file() or path.read_text() != file_text():
-        sys.exit(f"{path.name} is not what the table of properties says: run scripts/scene_values.py")
+    for path, text in ((PACKAGE / "meniscus/_scene_values.py", file_text()),
+                       (EXPORTERS / "blender/addon/meniscus_import/computing/preparation_table.py", panel_text())):
+        if "--check" not in sys.argv[1:]:
+            path.write_text(text)
+        elif not path.is_file() or path.read_text() != text:
+            sys.exit(f"{path.name} is not what the table of properties says: run scripts/scene_values.py")

@@ -23,7 +23,7 @@ package = types.ModuleType("meniscus_import")  # without Blender's side of it
 package.__path__ = [os.path.join(ADDON, "meniscus_import")]
 sys.modules["meniscus_import"] = package
 from meniscus_import import mesh_arrays, mns_reader  # noqa: E402
-from meniscus_import.computing import atoms, engines, jobs, molecules, process, request, wording  # noqa: E402
+from meniscus_import.computing import atoms, engines, jobs, molecules, preparation, process, request, wording  # noqa: E402
 
 
 class Quiet:
@@ -167,6 +167,39 @@ class Molecules(WithFolder):
         every = molecules.read(self.library, request.Request(file=samples.UBIQUITIN, place=1))
         self.assertEqual(every.numbers, list(range(10)))
 
+    def test_prepared_molecules_are_those_of_the_program(self):
+        """Each field of the panel, by its own value, and all that they leave alone."""
+        odd = os.path.join(self.folder, "odd.pdb")
+        with open(odd, "w", encoding="ascii") as file:
+            file.write("REMARK 350 BIOMOLECULE: 1\nREMARK 350 APPLY THE FOLLOWING TO CHAINS: A\n")
+            for copy, shift in ((1, 0.0), (2, 20.0)):
+                for row in range(3):
+                    cells = [1.0 if column == row else 0.0 for column in range(3)]
+                    file.write("REMARK 350   BIOMT%d %3d %9.6f %9.6f %9.6f %14.5f\n" % (row + 1, copy, *cells, shift if row == 0 else 0.0))
+            atom = "%-6s%5d %-4s%s%3s A%4d    %8.3f   0.000   0.000%6.2f  0.00          %2s\n"
+            for values in (("ATOM", 1, " CA", "A", "ALA", 1, 0.0, 0.3, "C"), ("ATOM", 2, " CA", "B", "ALA", 1, 1.0, 0.7, "C"),
+                           ("ATOM", 3, " HA", " ", "ALA", 1, 0.5, 1.0, "H"), ("HETATM", 4, " O", " ", "HOH", 2, 5.0, 1.0, "O"),
+                           ("HETATM", 5, "ZN", " ", "ZN", 3, 9.0, 1.0, "ZN")):
+                file.write(atom % values)
+            file.write("END\n")
+        seen = set()
+        usual = molecules.read(self.library, request.Request(file=odd)).atoms
+        for name, value in (("altloc", "first"), ("altloc", "A"), ("assembly", "1"), ("hydrogens", "drop"), ("hydrogens", "keep"),
+                            ("radii", "united"), ("keep_water", True), ("keep_ions", True), ("model", "2")):
+            file = samples.UBIQUITIN if name == "model" else odd
+            pairs = preparation.asked(preparation.ROWS, lambda other, n=name, v=value: v if other == n else preparation.default_of(
+                next(row for row in preparation.ROWS if preparation.name_of(row) == other)))
+            self.assertEqual(pairs, ((name, value),))
+            found = molecules.read(self.library, request.Request(file=file, preparation=pairs)).atoms
+            wanted = self.by_program(file, *preparation.program_words(pairs, False)).atoms
+            for key in ("positions", "radii"):
+                np.testing.assert_array_equal(getattr(found, key), getattr(wanted, key), f"{name} {value}")
+            before = usual if file == odd else molecules.read(self.library, request.Request(file=file)).atoms
+            if before.positions.shape != found.positions.shape or not np.array_equal(before.positions, found.positions) or \
+                    not np.array_equal(before.radii, found.radii):
+                seen.add(name)
+        self.assertEqual(seen, {preparation.name_of(row) for row in preparation.OF_MOLECULE})
+
     def test_frames_that_cannot_be_are_refused(self):
         for asked, words in (({"frames": "8-12"}, "Frames: there is no frame 12; there are 10, 0 to 9"), ({"frames": "x"}, "Frames: 'x'"),
                              ({"selection": "within 4 of resi 1"}, "frame 1 has other atoms than the first")):
@@ -183,6 +216,31 @@ class Engines(WithFolder):
 
     def asked(self, **options):
         return request.Request(**{"file": self.molecule(), **options})
+
+    def test_prepared_frames_are_those_of_the_program(self):
+        wanted = request.Request(file=samples.UBIQUITIN, selection="resi 1-15", frames="0-4", place=3,
+                                 preparation=(("superpose", "name CA"), ("smooth", 3)))
+        found = engines.read_atoms(self.tools, wanted, self.folder, Quiet())
+        target = self.atoms(samples.UBIQUITIN, "--select", "resi 1-15", "--frames", "0-4", "--superpose", "name CA", "--smooth", "3")
+        np.testing.assert_array_equal(found.frame(3).positions, atoms.read(target).frame(3).positions)
+        plain = engines.read_atoms(self.tools, request.Request(file=samples.UBIQUITIN, selection="resi 1-15", frames="0-4", place=3),
+                                   self.folder, Quiet())
+        self.assertGreater(np.abs(found.frame(3).positions - plain.frame(3).positions).max(), 0.1)
+        self.assertNotEqual(wanted.key(), request.Request(file=samples.UBIQUITIN, selection="resi 1-15", frames="0-4", place=3).key())
+        alone = engines.Tools(self.tools.library, None, "")
+        engines.forget()
+        with self.assertRaisesRegex(engines.EngineError, "Superpose needs the program meniscus"):
+            engines.read_atoms(alone, wanted, self.folder, Quiet())
+
+    def test_faults_of_prepared_molecules_name_the_fields(self):
+        for pairs, word in (((("assembly", "7"),), "Assembly"), ((("altloc", "??"),), "Altloc"), ((("radii", "none"),), "Radii"),
+                            ((("model", "99"),), "Model")):
+            for tools in (self.tools, self.alone):
+                engines.forget()
+                with self.assertRaises(engines.EngineError, msg=pairs) as caught:
+                    engines.compute(tools, request.Request(file=samples.UBIQUITIN, preparation=pairs), None, self.folder, Quiet())
+                self.assertIn(word.lower(), str(caught.exception).lower(), pairs)
+                self.assertNotIn("--", str(caught.exception))
 
     def test_library_and_program_give_the_same_surface(self):
         for kind in request.KINDS:
@@ -292,7 +350,7 @@ class Wording(WithFolder):
 
     def test_fields_are_those_of_the_panel(self):
         with open(os.path.join(ADDON, "meniscus_import", "settings.py"), encoding="utf-8") as file:
-            labels = set(re.findall(r'name="([^"]+)"', file.read()))
+            labels = set(re.findall(r'name="([^"]+)"', file.read())) | set(map(preparation.label_of, preparation.ROWS))
         self.assertEqual(set(wording.FIELDS.values()) - labels, set())
         said = "".join(subprocess.run([PROGRAM, *command, "--help-all"], capture_output=True, text=True, check=True).stdout
                        for command in (("export", "atoms"), ("export", "blender"), ("export", "mesh")))
@@ -317,8 +375,9 @@ class Wording(WithFolder):
         cases = {"--select: a selection is missing": "Selection: a selection is missing",
                  "select them by --trajectory-atoms": "select them by Trajectory's atoms",
                  "a.pdb: add --trajectory with a file": "a.pdb: add Trajectory with a file",
-                 "--keep-water and --keep-ions use more":
-                     '"keep-water" and "keep-ions" use more (keep-water, keep-ions: options of the program meniscus that this panel does not have)',
+                 "--keep-water and --keep-ions use more": "Keep water and Keep ions use more",
+                 "--trim and --show cut more":
+                     '"trim" and "show" cut more (trim, show: options of the program meniscus that this panel does not have)',
                  "/x/my--run.pdb: has no atoms": "/x/my--run.pdb: has no atoms"}
         for text, wanted in cases.items():
             self.assertEqual(wording.for_panel(text), wanted)
@@ -336,7 +395,7 @@ class Wording(WithFolder):
             file.write("HETATM    1  O   HOH A   1       1.000   2.000   3.000  1.00  0.00           O\nEND\n")
         cases = (({"selection": "chain ("}, "Selection"), ({"file": samples.UBIQUITIN, "frames": "7-3", "place": 1}, "Frames"),
                  ({"file": samples.UBIQUITIN, "trajectory": short, "frames": "all", "place": 1}, "Trajectory's atoms"),
-                 ({"file": water}, "keep-water"), ({"color": "bfactor"}, "Colour"))
+                 ({"file": water}, "Keep water"), ({"color": "bfactor"}, "Colour"))
         for asked, word in cases:
             for each in (tools, engines.Tools(None, tools.program)):
                 with self.assertRaises(engines.EngineError) as caught:

@@ -66,9 +66,10 @@ def set_up():
     preferences = bpy.context.preferences.addons[computed.__package__].preferences
     preferences.package, preferences.program = PACKAGE, PROGRAM
     # In the tab Tool, which is open, for no script of 3.4 can open another.
-    for kind in (panel.VIEW3D_PT_meniscus_look, panel.VIEW3D_PT_meniscus_time, panel.VIEW3D_PT_meniscus):
+    kinds = [kind for kind in panel.CLASSES if issubclass(kind, bpy.types.Panel)]
+    for kind in reversed(kinds):
         bpy.utils.unregister_class(kind)
-    for kind in (panel.VIEW3D_PT_meniscus, panel.VIEW3D_PT_meniscus_time, panel.VIEW3D_PT_meniscus_look):
+    for kind in kinds:
         kind.bl_category, kind.bl_order = "Tool", -1
         kind.draw = drawn(kind)
         bpy.utils.register_class(kind)

@@ -19,6 +19,7 @@ sys.path.insert(0, HERE)
 import samples  # noqa: E402
 
 from meniscus_import import attributes, build, compat, computed, mns_reader, molecular_nodes  # noqa: E402
+from meniscus_import.computing import preparation  # noqa: E402
 
 TRIPLE = os.path.join(FOLDER, "triple.xyzr")
 CAGE = os.path.join(FOLDER, "cage.xyzr")
@@ -121,6 +122,43 @@ class Computed(unittest.TestCase):
         bpy.context.view_layer.objects.active = atoms_object()
         with self.assertRaisesRegex(RuntimeError, "libmeniscus"):
             bpy.ops.object.meniscus_from_atoms(wait=True)
+
+    def test_fields_are_rows_of_the_table(self):
+        fields = of_file().meniscus.bl_rna.properties
+        for row in preparation.ROWS:
+            field = fields[preparation.name_of(row)]
+            self.assertEqual((field.name, field.description.startswith(row.help)), (preparation.label_of(row), True), row.key)
+            self.assertEqual(field.default, preparation.default_of(row), row.key)
+            if row.type == "word":
+                self.assertEqual(tuple(each.identifier for each in field.enum_items), row.words)
+            if row.type == "count":
+                self.assertEqual((field.hard_min, field.hard_max), (row.lowest, row.highest))
+
+    def test_a_molecule_is_prepared(self):
+        item = of_file(UBIQUITIN, selection="resi 1-20")
+        self.assertEqual(measures(item), wanted(UBIQUITIN, "--select", "resi 1-20")[0])
+        item.meniscus.selection, item.meniscus.keep_water, item.meniscus.radii = "resi 1-80", True, "united"
+        update()
+        self.assertEqual(measures(item), wanted(UBIQUITIN, "--select", "resi 1-80", "--keep-water", "--radii", "united")[0])
+        item.meniscus.radii = "none"
+        with self.assertRaisesRegex(RuntimeError, "(?i)radii"):
+            update()
+
+    def test_a_run_is_superposed(self):
+        scene = bpy.context.scene
+        item = of_file(samples.UBIQUITIN, selection="resi 1-15", is_run=True, center=False)
+        found = {}
+        for atoms in ("", "name CA"):
+            item.meniscus.superpose = atoms
+            update()
+            middles = []
+            for frame in range(1, 5):
+                scene.frame_set(frame)
+                self.assertEqual(item.get("meniscus_error", ""), "")
+                middles.append(positions(item.data).mean(axis=0) / item.meniscus.scale)
+            found[atoms] = float(np.linalg.norm(np.diff(middles, axis=0), axis=1).max())
+        print(f"middle of the surface moves by {found} Å")
+        self.assertLess(found["name CA"], 0.5 * found[""])
 
     def test_what_is_wrong_is_said_and_the_surface_stays(self):
         item = of_file()

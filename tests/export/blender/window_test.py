@@ -118,7 +118,7 @@ class Window(unittest.TestCase):
         self.assertEqual(self.found["undone"], self.found["first"])
         self.assertGreater(self.found["shown_while_dragging"], 0)
         self.assertEqual(self.found["threads"], 1)  # of Python: Blender crashes at times while others run
-        self.assertEqual(self.found["drawn"], ["VIEW3D_PT_meniscus", "VIEW3D_PT_meniscus_look", "VIEW3D_PT_meniscus_time"])
+        self.assertEqual(self.found["drawn"], ["VIEW3D_PT_meniscus", "VIEW3D_PT_meniscus_look", "VIEW3D_PT_meniscus_molecule", "VIEW3D_PT_meniscus_time"])
         self.assertGreater(self.share_that_differs("computed", "dragged"), 0.1)
         self.assertEqual(self.share_that_differs("computed", "undone"), 0.0)
 

@@ -7,6 +7,7 @@ import bpy
 from bpy_extras.io_utils import ImportHelper
 
 from . import build, computed, looks, mns_reader, molecular_nodes
+from .computing import preparation
 from .settings import DETAILS
 
 
@@ -231,6 +232,28 @@ class VIEW3D_PT_meniscus(bpy.types.Panel):
         layout.prop(settings, "live")
 
 
+class VIEW3D_PT_meniscus_molecule(bpy.types.Panel):
+    bl_idname = "VIEW3D_PT_meniscus_molecule"
+    bl_label = "Molecule"
+    bl_category = "Meniscus"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_parent_id = "VIEW3D_PT_meniscus"
+
+    @classmethod
+    def poll(cls, context):
+        return computed.is_computed(context.active_object) and context.active_object.meniscus.source == "FILE"
+
+    def draw(self, context):
+        draw_fields(self.layout, context.active_object.meniscus, preparation.OF_MOLECULE)
+
+
+def draw_fields(layout, settings, rows):
+    layout.use_property_split, layout.use_property_decorate = True, False
+    for row in rows:
+        layout.prop(settings, preparation.name_of(row))
+
+
 class VIEW3D_PT_meniscus_time(bpy.types.Panel):
     bl_idname = "VIEW3D_PT_meniscus_time"
     bl_label = "Time"
@@ -254,6 +277,7 @@ class VIEW3D_PT_meniscus_time(bpy.types.Panel):
                 if settings.trajectory:
                     layout.prop(settings, "trajectory_atoms")
                 layout.prop(settings, "frames")
+                draw_fields(layout.column(), settings, preparation.OF_RUN)
         count = computed.frame_count(item)
         if not count:
             return
@@ -296,7 +320,7 @@ def wrapped(text, width):
 
 
 CLASSES = (OBJECT_OT_meniscus_from_file, OBJECT_OT_meniscus_from_atoms, OBJECT_OT_meniscus_update, OBJECT_OT_meniscus_cancel,
-           OBJECT_OT_meniscus_look, VIEW3D_PT_meniscus, VIEW3D_PT_meniscus_time, VIEW3D_PT_meniscus_look)
+           OBJECT_OT_meniscus_look, VIEW3D_PT_meniscus, VIEW3D_PT_meniscus_molecule, VIEW3D_PT_meniscus_time, VIEW3D_PT_meniscus_look)
 
 
 def register():

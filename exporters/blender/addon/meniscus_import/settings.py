@@ -4,7 +4,7 @@
 import bpy
 
 from . import sequence_reader
-from .computing import request
+from .computing import preparation, request
 
 #: Of what the program colours by; more on its command line.
 COLORS = (
@@ -27,6 +27,22 @@ def on_change(settings, _context):
 
 def _is_atoms(settings, item):
     return item.type == "MESH" and item != settings.id_data and "vdw_radii" in item.data.attributes
+
+
+def _field(row):
+    """The property of a row of preparation_table.py."""
+    common = {"name": preparation.label_of(row), "description": preparation.help_of(row), "update": on_change,
+              "default": preparation.default_of(row)}
+    if row.type == "flag":
+        return bpy.props.BoolProperty(**common)
+    if row.type == "count":
+        return bpy.props.IntProperty(min=int(row.lowest), max=int(row.highest), **common)
+    if row.type == "word":
+        return bpy.props.EnumProperty(items=[(word, word.capitalize(), "") for word in row.words], **common)
+    if row.words:
+        common["search"] = lambda _settings, _context, typed: [word for word in row.words if typed in word]
+        common["search_options"] = {"SUGGESTION"}
+    return bpy.props.StringProperty(**common)
 
 
 class MeniscusSettings(bpy.types.PropertyGroup):
@@ -89,6 +105,15 @@ class MeniscusSettings(bpy.types.PropertyGroup):
     by_hand: bpy.props.BoolProperty(name="By hand", description="Show the frame below, which can be keyed", default=False)
     frame: bpy.props.FloatProperty(name="Frame", description="Place in the run, from 1", default=1.0)
 
+    def preparation(self):
+        """What differs from how the program reads a file by itself."""
+        if self.source != "FILE":
+            return ()
+        rows = [*preparation.OF_MOLECULE, *(preparation.OF_RUN if self.is_run else ())]
+        if self.is_run and not self.trajectory:  # whose frames are the models
+            rows = [row for row in rows if preparation.name_of(row) != "model"]
+        return preparation.asked(rows, lambda name: getattr(self, name))
+
     def timing(self):
         return sequence_reader.Timing(self.start, self.speed, self.outside)
 
@@ -98,9 +123,12 @@ class MeniscusSettings(bpy.types.PropertyGroup):
         return request.Request(
             file=bpy.path.abspath(self.file) if of_file else "", trajectory=bpy.path.abspath(self.trajectory) if of_file and self.is_run else "",
             frames=self.frames if of_file and self.is_run else "",
-            trajectory_atoms=self.trajectory_atoms if of_file and self.is_run else "", selection=self.selection,
+            trajectory_atoms=self.trajectory_atoms if of_file and self.is_run else "", preparation=self.preparation(), selection=self.selection,
             color=self.color if of_file else "", place=place, kind=self.kind, probe=short(self.probe),
             tolerance=short(self.tolerance), density=short(self.density) if self.detail == "PROXY" else 0.0, cavities=self.cavities)
+
+
+MeniscusSettings.__annotations__.update({preparation.name_of(row): _field(row) for row in preparation.ROWS})
 
 
 def short(value):

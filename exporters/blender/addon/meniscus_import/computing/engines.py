@@ -14,7 +14,7 @@ import numpy as np
 
 from .. import joined, mns_reader
 from . import atoms as atom_files
-from . import measures, molecules, wording
+from . import measures, molecules, preparation, wording
 
 #: Options of the program, by what a request has.
 SURFACES = {"SES": "ses", "SAS": "sas", "VDW": "vdw"}
@@ -177,11 +177,14 @@ def read_atoms(tools, request, folder, task):
 
 
 def _fresh_atoms(tools, request, folder, task):
-    """The library reads all but trajectories."""
-    if tools.library is not None and not request.trajectory:
+    """The library reads all but trajectories and frames that are prepared."""
+    prepared = preparation.run_names(request.preparation)
+    if tools.library is not None and not request.trajectory and not prepared:
         return _said_by(tools.library, molecules.read, tools.library, request)
     if request.trajectory:
         program = tools.needed_program("a trajectory", ", or read it by Molecular Nodes and take its atoms")
+    elif prepared:
+        program = tools.needed_program(f"--{prepared[0]}")
     else:
         program = tools.program_for_files()
     descriptor, path = tempfile.mkstemp(dir=folder, prefix="atoms_")
@@ -218,7 +221,7 @@ def _about_atoms(request):
     words = [f"--color={request.color}"]
     if request.selection:
         words.append(f"--select={request.selection}")
-    return words
+    return words + preparation.program_words(request.preparation, False)
 
 
 def _about_run(request, frames):
@@ -227,7 +230,7 @@ def _about_run(request, frames):
         words.append(f"--trajectory={request.trajectory}")
         if request.trajectory_atoms:
             words.append(f"--trajectory-atoms={request.trajectory_atoms}")
-    return words
+    return words + preparation.program_words(request.preparation, True)
 
 
 def _run(words, task):

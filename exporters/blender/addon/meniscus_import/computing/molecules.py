@@ -6,6 +6,7 @@ import os
 import numpy as np
 
 from .. import mns_reader, sequence_reader
+from . import preparation
 from .atoms import AtomFile, Atoms
 
 #: sRGB of convex, toroidal and concave patches, which atoms do not have.
@@ -37,9 +38,12 @@ class Models:
         return structure.positions
 
 
-def _structure(library, request, number=0):
-    """number: of the frame, from 0."""
-    return library.read(request.file, select=request.selection or None, model=number + 1)
+def _structure(library, request, number=None):
+    """number: of the frame, from 0; None: no run."""
+    prepared = preparation.library_arguments(request.preparation)
+    if number is not None:
+        prepared["model"] = number + 1
+    return library.read(request.file, select=request.selection or None, **prepared)
 
 
 def _frames(library, request):

@@ -15,7 +15,7 @@ CAVITIES = ("KEEP", "DROP", "ONLY")
 
 @dataclasses.dataclass(frozen=True)
 class Request:
-    """file: of a molecule, an absolute path; "": atoms come from Blender. trajectory, frames, trajectory_atoms: of a run, as the
+    """file: of a molecule, an absolute path; "": atoms come from Blender. preparation: what preparation.asked gives. trajectory, frames, trajectory_atoms: of a run, as the
     program takes them; "" for none. selection, color: likewise. place: in the run, from 1; 0: none. probe, tolerance: Å. density: vertices
     per Å² of a proxy, an even mesh however far from the surface; 0: a mesh within the tolerance. cavities: one of CAVITIES."""
 
@@ -23,6 +23,7 @@ class Request:
     trajectory: str = ""
     frames: str = ""
     trajectory_atoms: str = ""
+    preparation: tuple = ()
     selection: str = ""
     color: str = "element"
     place: int = 0
@@ -34,7 +35,7 @@ class Request:
 
     def atoms_key(self):
         """Text that two requests share if they are about the same atoms of the same files."""
-        return json.dumps([self.selection, self.color, self.frames, self.trajectory_atoms, *(stamp(path) for path in (self.file, self.trajectory))])
+        return json.dumps([self.selection, self.color, self.frames, self.trajectory_atoms, self.preparation, *(stamp(path) for path in (self.file, self.trajectory))])
 
     def key(self, atoms=None, others=()):
         """Text that two requests share if their surfaces are the same. atoms: those that come from Blender; others: more arrays

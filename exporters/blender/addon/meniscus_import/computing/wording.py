@@ -4,14 +4,17 @@ options."""
 
 import re
 
+from . import preparation
+
 #: Option of the program -> the label of the panel's field, or of the value of a field.
 FIELDS = {
     "--select": "Selection", "--color": "Colour", "--surface": "Surface", "--probe": "Probe", "--tolerance": "Tolerance",
     "--density": "Density", "--trajectory": "Trajectory", "--trajectory-atoms": "Trajectory's atoms", "--frames": "Frames",
-    "--cavities": "Cavities",
+    "--cavities": "Cavities", **{preparation.option_of(row): preparation.label_of(row) for row in preparation.ROWS},
 }
 #: Options as libmeniscus spells them.
-OF_LIBRARY = re.compile(r"\Aselect(?=: )|\b(?:keep_water|keep_ions|unknown_element)\b")
+OF_LIBRARY = re.compile(r"\A(?:select|%s)(?=: )|\b(?:keep_water|keep_ions|unknown_element)\b" %
+                        "|".join(map(preparation.name_of, preparation.OF_MOLECULE)))
 OPTION = re.compile(r"(?<![\w/-])--([a-z][a-z0-9]*(?:-[a-z0-9]+)*)")
 
 

@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the panel asks about molecules and runs, written by scripts/scene_values.py from Meniscus' table of properties."""
+
+import collections
+
+#: key: of scene files. type: flag, count, word or text. words: all of a word, some usual ones of a text. initial: the default.
+#: lowest, highest: of a count.
+Row = collections.namedtuple("Row", "key type words initial lowest highest help")
+
+ROWS = (
+    Row('molecule.model', 'text', (), '1', 0, 0,
+        'Model to read, from 1; all: all models as one molecule'),
+    Row('molecule.altloc', 'text', ('best', 'first', 'all'), 'best', 0, 0,
+        'Alternate location to keep: best, first, a letter, or all. best: that of the highest occupancy in each residue'),
+    Row('molecule.assembly', 'text', (), '', 0, 0,
+        'Build this biological assembly; list: print all of FILE and stop. Assemblies come from REMARK 350 or mmCIF'),
+    Row('molecule.hydrogens', 'word', ('keep', 'drop', 'auto'), 'auto', 0, 0,
+        'Hydrogens: keep, drop or auto. auto: drop them if the radii of heavy atoms include them'),
+    Row('molecule.radii', 'text', (), "file if it has radii, else bondi; of Martini's beads those of its version", 0, 0,
+        'Van der Waals radii: bondi, united, protor, martini2, martini3 or file. bondi: by element; united (Chothia 1976) and protor (Tsai et al. 1999) include hydrogens; martini2 and martini3: of beads; file: those of FILE'),
+    Row('molecule.keep_water', 'flag', (), '', 0, 0,
+        'Use water molecules, too'),
+    Row('molecule.keep_ions', 'flag', (), '', 0, 0,
+        'Use free ions, too: lone metal and halogen atoms'),
+    Row('frames.superpose', 'text', (), '', 0, 0,
+        'Superpose each frame on the reference frame by these atoms'),
+    Row('frames.whole', 'text', ('bonds', 'guess'), 'bonds', 0, 0,
+        'Make molecules whole that the periodic box cuts, and gather them. bonds: by those of FILE and of standard residues; guess: by distance'),
+    Row('frames.smooth', 'count', (), '1', 1, 9999,
+        'Average positions over N frames around each frame; N is odd'),
+)
