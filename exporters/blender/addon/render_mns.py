@@ -54,7 +54,9 @@ GLASS_BOUNCES = 32
 LIGHTS = {"studio": STUDIO, "film": FILM, "flat": ()}
 #: What surrounds glass, from behind the molecule to behind the camera, by half the cosine: a bright wall in a dark room draws its
 #: edges, as photographers light glass.
-BRIGHT_FIELD = ((0.0, 1.0), (0.15, 0.95), (0.4, 0.5), (0.6, 0.3), (0.85, 0.35), (1.0, 0.8))
+BRIGHT_FIELD = ((0.0, 1.0), (0.02, 1.0), (0.06, 0.45), (0.15, 0.12), (0.5, 0.05), (0.8, 0.3), (1.0, 0.8))
+#: Degrees that the lamp is wide which lights glass: each bump of an atom mirrors a smaller one as a white dot.
+GLASS_LAMP = 60.0
 
 
 class Parser(argparse.ArgumentParser):
@@ -127,7 +129,9 @@ def empty_scene():
 
 def lamps_of(camera, style, look):
     """Those of a style; the key light of the studio casts the shadows that the file asks for, as dark and as soft: a share of it."""
-    lamps = LIGHTS[style][:1] if look == "glass" else LIGHTS[style]
+    lamps = LIGHTS[style]
+    if look == "glass":
+        lamps = ((*lamps[0][:2], GLASS_LAMP),)
     share, angle = camera.get("meniscus_shadows", 0.0), 2.0 * camera.get("meniscus_shadow_softness", 0.0)
     if style != "studio" or share == 0.0:
         return lamps
@@ -155,7 +159,8 @@ def add_lights(scene, camera, style, look):
     background.inputs["Strength"].default_value = 0.35 if style == "film" else 0.0
     if look == "glass":
         background.inputs["Strength"].default_value = 1.0
-        tree.links.new(bright_field(tree, camera), background.inputs["Color"])
+        seen = tree.nodes.new("ShaderNodeLightPath").outputs["Is Camera Ray"]
+        tree.links.new(compat.mix_colors(tree, seen, bright_field(tree, camera), (1.0, 1.0, 1.0, 1.0)), background.inputs["Color"])
     elif look == "flat":  # emits, and needs no light
         background.inputs["Color"].default_value, background.inputs["Strength"].default_value = (1.0, 1.0, 1.0, 1.0), 1.0
     scene.world = world

@@ -18,6 +18,8 @@ from meniscus_import import attributes, compat, looks  # noqa: E402
 
 SIZE = 48
 WAX_GRAIN = 0.14  # standard deviation of a channel, of the mean
+#: Shares of the pixels that show glass.
+GLASS_EDGES, GLASS_DOTS = 0.01, 0.002
 
 
 def pixel_of(_item):
@@ -183,6 +185,26 @@ class Looks(unittest.TestCase):
         likeness = float(np.corrcoef(alone[:, :, 1].ravel(), through[:, :, 1].ravel())[0, 1])
         print(f"likeness through glass: {likeness:.3f}")
         self.assertGreater(likeness, 0.8)
+
+    def test_glass_is_drawn_by_dark_edges_on_white(self):
+        """As the driver lights it: the background is white, edges are dark, and no bump of an atom has a lamp in it as a white dot."""
+        target = os.path.join(FOLDER, "glass.png")
+        file = next(os.path.join(FOLDER, "run", name) for name in sorted(os.listdir(os.path.join(FOLDER, "run"))) if name.endswith(".mns"))
+        command = [BLENDER, "-b", "--factory-startup", "--python-exit-code", "3", "--python", os.path.join(ADDON, "render_mns.py"), "--",
+                   file, "--look", "glass", "--samples", "16", "--size", "160x120", "--output", target]
+        self.assertEqual(subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False).returncode, 0)
+        image = bpy.data.images.load(target, check_existing=False)
+        image.colorspace_settings.name = "Non-Color"
+        values = np.array(image.pixels[:]).reshape(120, 160, 4)[:, :, :3]
+        self.assertEqual([values[row, column].min() for row in (0, -1) for column in (0, -1)], [1.0] * 4)
+        light = values.mean(axis=2)
+        around = np.max([np.roll(light, step, axis) for axis in (0, 1) for step in (1, -1)], axis=0)
+        glass = light < 0.96
+        dark, dots = float((light[glass] < 0.45).mean()), float(((light > 0.9) & (around < 0.8)).sum() / glass.sum())
+        print(f"glass: {dark:.4f} of its pixels are dark, {dots:.4f} are white dots")
+        self.assertGreater(glass.mean(), 0.2)
+        self.assertGreater(dark, GLASS_EDGES)
+        self.assertLess(dots, GLASS_DOTS)
 
     def test_glass_mirrors_as_glass_does(self):
         """A lamp seen only as its mirror image in the glass, 3.4 % of it at a right angle."""

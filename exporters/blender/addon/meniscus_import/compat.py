@@ -211,12 +211,16 @@ def hsv_node(tree, saturation, value):
 
 
 def mix_colors(tree, share, color, other):
-    """The output of a node that mixes a socket with a colour, `share` of it."""
+    """The output of a node that mixes a socket with a colour, `share` of it: a number or a socket."""
     node = tree.nodes.new("ShaderNodeMix")
     node.data_type = "RGBA"
     factor, first, second = (next(socket for socket in node.inputs if socket.identifier == name)
                              for name in ("Factor_Float", "A_Color", "B_Color"))
-    factor.default_value, second.default_value = share, other
+    second.default_value = other
+    if isinstance(share, bpy.types.NodeSocket):
+        tree.links.new(share, factor)
+    else:
+        factor.default_value = share
     tree.links.new(color, first)
     return next(socket for socket in node.outputs if socket.identifier == "Result_Color")
 
