@@ -13,6 +13,7 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/figure_run.h"
+#include "app/commands/povray_figures.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
 #include "app/process/program_error.h"
@@ -26,19 +27,6 @@
 
 namespace meniscus {
 namespace {
-
-povray::SceneOptions scene_options(const SceneCommand& command, povray::Material material) {
-  povray::SceneOptions options;
-  options.width = command.scene.picture.width;
-  options.height = command.scene.picture.height;
-  options.material = material;
-  options.shadows = command.scene.look.shadows.value_or(0.0f);
-  options.shadow_softness = command.scene.look.shadow_softness.value_or(0.0f);
-  options.existing = command.existing();
-  options.cut.style = command.scene.figure.cap;
-  options.film = command.scene.figure.thickens;
-  return options;
-}
 
 // One table of colours for all frames: those that any rule can give to any atom. Nothing where each frame needs a table
 // of its own: where colours change from frame to frame, or objects have colours of their own.
@@ -65,54 +53,6 @@ std::optional<std::vector<povray::SceneColor>> colors_of_run(const Scene& asked,
     if (caps && asked.figure.cap.color) add({*asked.figure.cap.color, opacity});
   }
   return all.colors();
-}
-
-// Of all atoms that are shown, if comments should tell them.
-std::vector<std::string> comment_names(const Scene& scene, const Structure& structure) {
-  std::vector<std::string> names;
-  if (!scene.renderer.comments) return names;
-  for (const Atom& atom : shown_atoms(structure)) {
-    if (atom.residue_name.empty()) {  // as --csv and selections number it
-      names.push_back(fmt::format("{} index {}", atom.name, atom.index));
-      names.back().erase(0, names.back().find_first_not_of(' '));
-      continue;
-    }
-    const std::string code = atom.insertion_code == ' ' ? std::string() : std::string(1, atom.insertion_code);
-    names.push_back(fmt::format("{} {} {}{} {}", atom.chain, atom.residue_name, atom.residue_number, code, atom.name));
-    names.back().erase(0, names.back().find_first_not_of(' '));
-  }
-  return names;
-}
-
-// What is drawn beside the surface with looks of its own. keeps_empty: those that show nothing have a place, too.
-std::vector<povray::SceneObject> more_objects(const Figure& figure, const FigureRequest& request, const Camera& camera,
-                                              std::span<const Ball> balls, bool keeps_empty) {
-  std::vector<povray::SceneObject> more;
-  for (std::size_t n = 0; n < figure.beside.objects.size(); ++n) {
-    const FigureObject& object = figure.beside.objects[n];
-    if (!keeps_empty && !object.surface && object.shapes.empty()) continue;
-    const PictureObject shown = picture_object(object, request.objects[n], camera, balls);
-    povray::SceneObject& made = more.emplace_back();
-    if (object.surface)
-      made.surface = &*object.surface;
-    else
-      made.shapes = &object.shapes;
-    made.cut = {shown.clip, shown.cap};
-    made.film = shown.thickens;
-    made.material = shown.material;
-  }
-  return more;
-}
-
-// Before anything is computed.
-void check_povray(const SceneCommand& command) {
-  if (command.scene.figure.thickens && command.scene.molecule.volume_offset != 0.0)
-    throw UsageError("--map-offset: scenes for POV-Ray cannot combine it with --film-opacity; leave one of them out");
-  if (command.scene.molecule.color.by == ColorScheme::By::lipophilicity && command.scene.frames.asked())
-    throw UsageError(
-        "--color lipophilicity: scenes of a run share one map, but each frame has a potential of its own; use render "
-        "or export blender");
-  check_saved_camera(command);
 }
 
 // What all frames of a run share: one scene, the same from every chunk.
@@ -144,11 +84,10 @@ povray::SceneReport write_figure(const Scene& asked, povray::SceneOptions option
                                  const povray::SequenceScene* sequence) {
   const Figure& figure = frame.figure;
   const std::vector<SurfaceObject>& objects = figure.molecule.objects;
-  const std::vector<povray::SceneObject> more =
-      more_objects(figure, asked.figure, frame.camera, placed_balls(objects), sequence != nullptr);
+  const std::vector<povray::SceneObject> more = povray_objects(figure, asked.figure, frame.camera, sequence != nullptr);
   const std::span<const SurfaceObject> surface =
       asked.figure.hides_surface ? std::span<const SurfaceObject>{} : objects;
-  options.cut.planes = surface_planes(asked.figure, frame.figure.beside.cut_atoms, frame.camera, objects);
+  options.cut = povray_cut(figure, asked.figure, frame.camera);
   options.atom_names = comment_names(asked, figure.molecule.structure);
   if (sequence)
     return sequence->write_frame(frame.place, {surface, options.cut, &figure.beside.shapes, more, options.atom_names});
@@ -160,14 +99,12 @@ povray::SceneReport write_figure(const Scene& asked, povray::SceneOptions option
 }
 
 void export_to_povray(const SceneCommand& command) {
-  using enum povray::Material;
-  const povray::Material material =
-      meaning_of(command.scene.renderer.material, "povray.material", {opaque, ghost, glass, wax, flat});
-  check_povray(command);
+  check_povray(command.scene);
+  check_saved_camera(command);
+  povray::SceneOptions options = povray_options(command.scene, command.existing());
   FigureRun run(command);
   run.aim(command.scene.picture, true);
   const Scene& asked = run.scene();
-  povray::SceneOptions options = scene_options(command, material);
   options.colors = run.key();
   std::optional<povray::SequenceScene> sequence;
   std::string render_command;

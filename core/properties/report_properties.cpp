@@ -101,6 +101,13 @@ constexpr auto kTable = std::to_array<Property>({
         .initially("2")
         .in(kStoryboard)
         .in_short_help(),
+    word("storyboard.to", "--to", "WORD",
+         "What is made. pictures: a film, or numbered pictures; povray: a folder with a scene for POV-Ray whose frames "
+         "are the film's")
+        .one_of("pictures|povray")
+        .initially("pictures")
+        .in(kStoryboard)
+        .in_short_help(),
     word("storyboard.ease", "--ease", "WORD", "Pace of transitions. smooth: starts and ends slowly; even: steady")
         .one_of("smooth|even")
         .initially("smooth")

@@ -120,6 +120,8 @@ std::vector<Cut> cuts_at(std::span<const ClipPlane> planes) {
 
 }  // namespace
 
+double eased(double time, Pace pace) { return pace == Pace::even ? time : time * time * (3.0 - 2.0 * time); }
+
 RenderSettings settings_of(const Shot& shot) {
   RenderSettings settings = render_settings(shot.scene, *shot.layout);
   settings.aovs = false;
@@ -230,7 +232,7 @@ Transition::Place Transition::place(double share) const {
           {pixels(from.strips.top, to.strips.top), pixels(from.strips.bottom, to.strips.bottom)}};
 }
 
-Framebuffer Transition::drawn(const Side& side, const Side& other, double share, SurfaceRenderer& renderer) const {
+MoleculeShot Transition::shot(const Side& side, const Side& other, double share) const {
   const double way = &side == &from_ ? share : 1.0 - share;
   Scene scene = side.shot.scene;
   const Radii radii = between(radii_of(scene), radii_of(other.shot.scene), way);
@@ -245,10 +247,17 @@ Framebuffer Transition::drawn(const Side& side, const Side& other, double share,
   RenderSettings settings = settings_of(side.shot);
   settings.size = place(share).size;
   settings.look = look_between(side.look, other.look, way);
-  return draw(renderer, std::move(figure), scene.figure, camera_of(side, share), settings);
+  return {std::move(scene), std::move(figure), camera_of(side, share), settings};
 }
 
-Framebuffer Transition::finished(Framebuffer drawn, const Side& side, double share) const {
+std::vector<MoleculeShot> Transition::shots(double share) const {
+  std::vector<MoleculeShot> shots;
+  shots.push_back(shot(from_, to_, share));
+  if (!is_steady_) shots.push_back(shot(to_, from_, share));
+  return shots;
+}
+
+Framebuffer Transition::finished(const Framebuffer& drawn, const Side& side, double share) const {
   const std::optional<glm::vec3>& background = side.shot.scene.image.background;
   const Strips strips = place(share).strips;
   Framebuffer picture = with_margin(drawn, drawn.size + glm::ivec2(0, strips.top + strips.bottom), strips.top, false);
@@ -269,10 +278,13 @@ Framebuffer Transition::finished(Framebuffer drawn, const Side& side, double sha
 }
 
 Framebuffer Transition::picture(double share, SurfaceRenderer& renderer) {
-  Framebuffer first = drawn(from_, to_, share, renderer);
-  Framebuffer second = is_steady_ ? first : drawn(to_, from_, share, renderer);
-  first = finished(std::move(first), from_, share);
-  blend(first, finished(std::move(second), to_, share), share);
+  const auto drawn = [&](MoleculeShot shot) {
+    return draw(renderer, std::move(shot.figure), shot.scene.figure, shot.camera, shot.settings);
+  };
+  Framebuffer first = drawn(shot(from_, to_, share));
+  Framebuffer second = is_steady_ ? first : drawn(shot(to_, from_, share));
+  first = finished(first, from_, share);
+  blend(first, finished(second, to_, share), share);
   return first;
 }
 

@@ -29,6 +29,20 @@ struct Shot {
   Annotations annotations;
 };
 
+/// What is drawn of the molecule of a scene.
+struct MoleculeShot {
+  Scene scene;  ///< its cuts are planes where there is a transition
+  Figure figure;
+  Camera camera;
+  RenderSettings settings;
+};
+
+/// The pace of a transition. smooth: it starts and ends slowly.
+enum class Pace { smooth, even };
+
+/// The share of the way after that share of the time.
+double eased(double time, Pace pace);
+
 /// How the molecule of a shot is drawn.
 RenderSettings settings_of(const Shot& shot);
 
@@ -63,6 +77,10 @@ class Transition {
   /// and drawing do.
   Framebuffer picture(double share, SurfaceRenderer& renderer);
 
+  /// What is drawn of the molecule there: of the first scene and, if something dissolves, of the second. Their pictures
+  /// have the weights 1 - share and share. Throws as computing does.
+  std::vector<MoleculeShot> shots(double share) const;
+
   /// The colour behind that picture, sRGB; nothing: transparent, or a film's own.
   std::optional<glm::vec3> background(double share) const;
 
@@ -80,8 +98,8 @@ class Transition {
   };
   Place place(double share) const;
   Camera camera_of(const Side& side, double share) const;
-  Framebuffer drawn(const Side& side, const Side& other, double share, SurfaceRenderer& renderer) const;
-  Framebuffer finished(Framebuffer drawn, const Side& side, double share) const;
+  MoleculeShot shot(const Side& side, const Side& other, double share) const;
+  Framebuffer finished(const Framebuffer& drawn, const Side& side, double share) const;
 
   Side from_, to_;
   std::vector<Ball> balls_;  ///< of both, as far as a surface may reach

@@ -209,8 +209,8 @@ void Geometry::write(OutputFile& file, std::string_view head) const {
   SceneText out;
   out.literal("// The patches of molecular surfaces, one primitive each; nothing here but geometry.\n");
   out.literal("// Position in the molecule's file = position here + ").full_vector(origin_).literal(" (Å).\n");
-  out.literal("// Probe radius ").length(objects_[0].surface.probe_radius).literal(" Å, ");
-  out.count(primitive_count()).literal(" primitives.\n").literal(head);
+  if (!objects_.empty()) out.literal("// Probe radius ").length(objects_[0].surface.probe_radius).literal(" Å.\n");
+  out.literal("// ").count(primitive_count()).literal(" primitives.\n").literal(head);
   for (std::size_t n = 0; n < objects_.size(); ++n) {
     if (palettes_[n].pieces.empty()) continue;
     const bool several = item_count(n) > 1;

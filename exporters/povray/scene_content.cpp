@@ -21,7 +21,7 @@ SceneContent::SceneContent(const Shown& shown, const Camera& camera, const Scene
       origin_(origin),
       table_(table),
       cut_(shown.surface, shown_.cut, camera, options),
-      geometry_(cut_.objects(), origin, table, {options.film, 0}, shown_.cut.planes, shown.names) {
+      geometry_(cut_.objects(), origin, table, {shown.film.value_or(options.film), 0}, shown_.cut.planes, shown.names) {
   if (has_shapes()) add_colors(*shown.shapes, table);
   if (cut_.has_caps()) geometry_.add_caps(cut_.caps(), cut_.objects(), shown_.cut, table);
   for (const SceneObject& object : shown.objects) add(object, camera, options);

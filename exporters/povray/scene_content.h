@@ -32,6 +32,7 @@ struct Shown {
   const ColoredShapes* shapes = nullptr;   ///< beside it
   std::span<const SceneObject> objects;    ///< likewise
   std::span<const std::string> names;      ///< of atoms (SceneOptions::atom_names)
+  std::optional<bool> film = {};           ///< of the surface; nothing: as SceneOptions::film
 };
 
 /// The materials of objects, in the order of SceneColor::finish.

@@ -24,6 +24,7 @@ std::string_view scene_template(std::string_view path) { return template_text(po
 struct CameraNumbers {
   std::array<glm::dvec3, 4> vectors;
   std::array<double, 2> sizes;
+  bool orthographic;
 };
 constexpr std::array<std::string_view, 4> kVectorNames{"Meniscus_Right", "Meniscus_Up", "Meniscus_Forward",
                                                        "Meniscus_Eye"};
@@ -33,7 +34,9 @@ constexpr std::array<std::string_view, 2> kSizeNames{"Meniscus_Picture_Width", "
 CameraNumbers camera_numbers(const Camera& camera, double aspect, const glm::dvec3& origin) {
   const ViewBasis basis = view_basis(camera);
   const glm::dvec2 half = half_extent(camera, aspect);
-  return {{basis.right, basis.up, basis.forward, camera.position - origin}, {2.0 * half.x, 2.0 * half.y}};
+  return {{basis.right, basis.up, basis.forward, camera.position - origin},
+          {2.0 * half.x, 2.0 * half.y},
+          camera.projection == Projection::orthographic};
 }
 
 void append_one_camera(SceneText& out, const CameraNumbers& camera) {
@@ -43,22 +46,42 @@ void append_one_camera(SceneText& out, const CameraNumbers& camera) {
   for (std::size_t n = 0; n < kVectorNames.size(); ++n)
     declare(kVectorNames[n]).full_vector(camera.vectors[n]).literal(";\n");
   for (std::size_t n = 0; n < kSizeNames.size(); ++n) declare(kSizeNames[n]).full(camera.sizes[n]).literal(";\n");
+  declare("Meniscus_Orthographic").count(camera.orthographic ? 1 : 0).literal(";\n");
 }
 
-// A list of each name, of which the scene's frame takes one.
+// A list of a name, of which the scene's frame takes one.
+void append_list(SceneText& out, std::string_view name, const auto& of_frames, const auto& append) {
+  out.literal("#declare ").literal(name).literal("_List = array[").count(of_frames.size()).literal("] {\n");
+  for (std::size_t n = 0; n < of_frames.size(); ++n) {
+    append(of_frames[n]);
+    out.literal(n + 1 < of_frames.size() ? ",\n" : "\n}\n");
+  }
+  out.literal("#declare ").literal(name).literal(" = ").literal(name).literal("_List[Meniscus_Place];\n");
+}
+
 void append_camera_lists(SceneText& out, const std::vector<CameraNumbers>& cameras) {
-  const auto list = [&](std::string_view name, const auto& append) {
-    out.literal("#declare ").literal(name).literal("_List = array[").count(cameras.size()).literal("] {\n");
-    for (std::size_t n = 0; n < cameras.size(); ++n) {
-      append(cameras[n]);
-      out.literal(n + 1 < cameras.size() ? ",\n" : "\n}\n");
-    }
-    out.literal("#declare ").literal(name).literal(" = ").literal(name).literal("_List[Meniscus_Place];\n");
-  };
+  const auto list = [&](std::string_view name, const auto& append) { append_list(out, name, cameras, append); };
   for (std::size_t k = 0; k < kVectorNames.size(); ++k)
     list(kVectorNames[k], [&](const CameraNumbers& camera) { out.full_vector(camera.vectors[k]); });
   for (std::size_t k = 0; k < kSizeNames.size(); ++k)
     list(kSizeNames[k], [&](const CameraNumbers& camera) { out.full(camera.sizes[k]); });
+  list("Meniscus_Orthographic", [&](const CameraNumbers& camera) { out.count(camera.orthographic ? 1 : 0); });
+}
+
+void append_color(SceneText& out, const glm::vec3& c) { out.literal("srgb ").direction(glm::dvec3(c)); }
+
+void append_looks(SceneText& out, std::span<const FrameLook> looks) {
+  if (looks.empty()) return;
+  const auto list = [&](std::string_view name, const auto& append) {
+    out.literal("#ifndef (").literal(name).literal(")\n");
+    append_list(out, name, looks, append);
+    out.literal("#end\n");
+  };
+  out.literal("\n// The look of each frame.\n");
+  list("Meniscus_Background", [&](const FrameLook& look) { append_color(out, look.background); });
+  list("Meniscus_Shadows", [&](const FrameLook& look) { out.ratio(static_cast<double>(look.shadows)); });
+  list("Meniscus_Shadow_Softness",
+       [&](const FrameLook& look) { out.ratio(static_cast<double>(look.shadow_softness)); });
 }
 
 void append_camera(SceneText& out, std::span<const Camera> cameras, const SceneOptions& options,
@@ -75,10 +98,8 @@ void append_camera(SceneText& out, std::span<const Camera> cameras, const SceneO
   out.literal("#ifndef (Meniscus_Fit_Aspect) #declare Meniscus_Fit_Aspect = 0; #end\n");
   out.literal("#if (Meniscus_Fit_Aspect = 1)\n  #declare Meniscus_Picture_Width = ");
   out.literal("Meniscus_Picture_Height*image_width/image_height;\n#end\n");
-  out.literal("#declare Meniscus_Orthographic = ");
-  out.count(cameras[0].projection == Projection::orthographic ? 1 : 0).literal(";\n");
-  out.literal("#ifndef (Meniscus_Custom_Camera)\n  camera {\n    ");
-  out.literal(cameras[0].projection == Projection::perspective ? "perspective" : "orthographic");
+  out.literal("#ifndef (Meniscus_Custom_Camera)\n  camera {\n");
+  out.literal("    #if (Meniscus_Orthographic = 1) orthographic #else perspective #end");
   out.literal("\n    location Meniscus_Eye\n    direction Meniscus_Forward\n");
   out.literal(
       "    right Meniscus_Right*Meniscus_Picture_Width\n    up Meniscus_Up*Meniscus_Picture_Height\n  }\n#end\n");
@@ -99,8 +120,6 @@ void append_frames(SceneText& out, const SceneOptions& options, const SceneFrame
                                                    {"PART", has_surface ? "geometry" : "colors"},
                                                    {"NAMED", has_surface ? "Geometry" : "Colors"}}));
 }
-
-void append_color(SceneText& out, const glm::vec3& c) { out.literal("srgb ").direction(glm::dvec3(c)); }
 
 std::string colors_of_frame(const SceneOptions& options) {
   return "#include concat(\"" + options.name + "_colors_\", Meniscus_Frame_Name, \".inc\")\n";
@@ -172,6 +191,7 @@ std::string main_text(std::span<const Camera> cameras, const SceneOptions& optio
   out.literal("  #if (Meniscus_Subsurface = 1) mm_per_unit 1 subsurface { samples 50, 20 } #end\n}\n#end\n");
   if (frames) append_frames(out, options, *frames, parts.surface);
   append_camera(out, cameras, options, origin);
+  if (frames) append_looks(out, frames->looks);
   const auto include_of = [&](const std::string& part) {
     const std::string name = options.name + "_" + part;
     return frames ? "#include concat(\"" + name + "_\", Meniscus_Frame_Name, \".inc\")"

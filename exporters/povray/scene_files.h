@@ -19,10 +19,18 @@
 
 namespace meniscus::povray {
 
+/// What a frame has of its own, beside its camera.
+struct FrameLook {
+  glm::vec3 background{1.0f};  ///< these three as in SceneOptions
+  float shadows = 0.0f;
+  float shadow_softness = 0.0f;
+};
+
 /// What a scene of several frames knows of them.
 struct SceneFrames {
   std::vector<std::uint64_t> numbers;  ///< of the trajectory, in the order of the scene
   std::uint32_t palette = 0;           ///< tells colours and origin from those of other runs
+  std::span<const FrameLook> looks;    ///< one a frame; none: all are as the options say
 };
 
 /// What the main file has to know of the file of one more object.

@@ -14,7 +14,7 @@ namespace meniscus {
 /// run, from the scene's frame to the file to include, after the list of frames; mark: NAME. style.inc: behind the
 /// colours. buffers.inc: all but the extent of the molecule, which comes before. settings.ini: after the sizes; marks:
 /// NAME, and PICTURE, what pictures of frames have between name and number. film.ini: of a run, behind that; marks:
-/// NAME, COUNT of frames.
+/// NAME, COUNT of frames. story.pov, story.ini: of a film (story.h); marks: NAME, WIDTH, HEIGHT, COUNT, RATE.
 std::span<const TemplateFile> povray_templates();
 
 }  // namespace meniscus

@@ -29,9 +29,6 @@ void check(const Run& run) {
   if (run.frames.empty()) throw Error("POV-Ray export: a run has at least one frame");
   if (run.cameras.size() != 1 && run.cameras.size() != run.frames.size())
     throw Error("POV-Ray export: a run has one camera, or one for each frame");
-  for (const Camera& camera : run.cameras)
-    if (camera.projection != run.cameras[0].projection)
-      throw Error("POV-Ray export: the cameras of a run have one projection");
 }
 
 std::uint32_t palette_number(const std::vector<SceneColor>& colors, const glm::dvec3& origin) {
@@ -76,19 +73,30 @@ std::string objects_text(const Run& run, const std::optional<ColorKey>& colors) 
 }  // namespace
 
 SequenceScene::SequenceScene(Run run, SceneOptions options, std::filesystem::path folder)
-    : run_(std::move(run)), options_(std::move(options)), folder_(std::move(folder)) {
+    : SequenceScene(Film{}, std::move(run), std::move(options), std::move(folder)) {
   check(run_);
+}
+
+SequenceScene::SequenceScene(Film, Run run, SceneOptions options, std::filesystem::path folder)
+    : run_(std::move(run)), options_(std::move(options)), folder_(std::move(folder)) {
   check({}, options_);
   origin_ = options_.origin ? *options_.origin : middle(run_.extent);
   palette_ = palette_number(run_.colors.value_or(std::vector<SceneColor>{}), origin_);
+}
+
+std::size_t SequenceScene::add_frame(const Camera& camera, const FrameLook& look) {
+  run_.cameras.push_back(camera);
+  run_.looks.push_back(look);
+  run_.frames.push_back(run_.frames.size() + 1);
+  return run_.frames.size() - 1;
 }
 
 SceneParts SequenceScene::parts() const {
   return {run_.surface, false, run_.caps, run_.shapes, run_.translucent, run_.objects};
 }
 
-SceneReport SequenceScene::write_shared() const {
-  const SceneFrames frames{run_.frames, palette_};
+SceneReport SequenceScene::write_shared(const Story* film) const {
+  const SceneFrames frames{run_.frames, palette_, run_.looks};
   const std::string& name = options_.name;
   const std::vector<SceneColor>* const colors = run_.colors ? &*run_.colors : nullptr;
   std::vector<SharedFile> files;
@@ -108,11 +116,16 @@ SceneReport SequenceScene::write_shared() const {
       {name + ".inc", own_scene_text(name, std::array<std::string_view, 3>{main, style, buffers})},
       {name + ".ini", ini_text(options_, run_.frames)}};
   files.insert(files.end(), std::begin(texts), std::end(texts));
+  if (film) {
+    files.push_back({name + "_story.pov", story_text(options_, *film)});
+    files.push_back({name + "_story.ini", story_ini_text(options_, *film)});
+  }
   write_shared_files(folder_, options_.existing, files);
   SceneReport report;
   for (const SharedFile& file : files) report.files.push_back(folder_ / file.name);
   report.origin = origin_;
   report.command = fmt::format("cd {} && {}", shell_word(folder_.string()), render_command(options_, run_.frames));
+  if (film) report.command += fmt::format(" && povray {}_story.ini", name);
   return report;
 }
 

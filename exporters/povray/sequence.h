@@ -18,6 +18,7 @@
 #include "exporters/povray/scene.h"
 #include "exporters/povray/scene_content.h"
 #include "exporters/povray/scene_files.h"
+#include "exporters/povray/story.h"
 
 namespace meniscus::povray {
 
@@ -35,18 +36,25 @@ struct Run {
   std::vector<ObjectPart> objects = {};         ///< further ones, of every frame: what each is
   std::vector<MaterialRequest> materials = {};  ///< theirs (SceneStyle::materials)
   std::shared_ptr<const VolumePaint> map = {};  ///< of the colours that are by one
+  std::vector<FrameLook> looks = {};            ///< one a frame; none: all are as the options say
 };
 
 class SequenceScene {
  public:
-  /// options.origin: nothing: the middle of the run's box. Throws Error (no frame, bad name or size, cameras of two
-  /// projections or of another number).
+  /// options.origin: nothing: the middle of the run's box. Throws Error (no frame, bad name or size, cameras of another
+  /// number).
   SequenceScene(Run run, SceneOptions options, std::filesystem::path folder);
+  /// The same of a film, whose frames are added one by one, numbered from 1. run: without frames and cameras.
+  struct Film {};
+  SequenceScene(Film, Run run, SceneOptions options, std::filesystem::path folder);
+  /// The place of the new frame.
+  std::size_t add_frame(const Camera& camera, const FrameLook& look);
 
   /// Writes <name>.ini, <name>.pov, <name>.inc, <name>_style.inc, <name>_aov.inc, <name>_objects.json (the frames, and
   /// what the colours mean), and of a volume map <name>_map.df3. Files that are there with just this content stay; the
   /// others are written, all or none. Throws OutputError.
-  SceneReport write_shared() const;
+  /// film: nullptr: none; else <name>_story.pov and <name>_story.ini are written, too.
+  SceneReport write_shared(const Story* film = nullptr) const;
 
   /// Writes <name>_geometry_#####.inc, numbered by the frame of the trajectory, and where the surface is several
   /// objects <name>_objects_#####.json; with shapes <name>_shapes_#####.inc, with caps <name>_caps_#####.inc, with

@@ -244,7 +244,7 @@ OWN_ROWS = {
         ("--legend-place", "below", "panels legend"), ("--legend-name", "A=Alpha", "panels chains"),
         ("--letter-size", "7", "panels"), ("--letter-color", "red", "panels"))},
     **{("film", option): (value, context) for option, value, context in (
-        ("--hold", "0.08", "story"), ("--transition", "0.12", "story"), ("--ease", "even", "story"), ("--draft", None, "story"), ("--size", "40x20", "story"),
+        ("--hold", "0.08", "story"), ("--transition", "0.12", "story"), ("--ease", "even", "story"), ("--to", "povray", "story"), ("--draft", None, "story"), ("--size", "40x20", "story"),
         ("--samples", "3", "story"), ("--background", "white", "story"), ("--legend", None, "story"),
         ("--legend-title", "Heat", "story legend"), ("--legend-size", "7", "story legend"), ("--legend-place", "below", "story legend"),
         ("--legend-name", "A=Alpha", "story chains"), ("--letter-size", "7", "story legend"), ("--letter-color", "red", "story legend"),
