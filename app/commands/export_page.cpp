@@ -24,6 +24,7 @@
 #include "core/image/image_codec.h"
 #include "core/queries/copies.h"
 #include "core/render/surface_renderer.h"
+#include "core/scene/annotations.h"
 #include "core/scene/cut.h"
 #include "core/scene/figure.h"
 #include "core/scene/representations.h"
@@ -166,6 +167,8 @@ void write_page(const SceneCommand& command, FigureFrame frame) {
     shown.cap = object.cap;
     shown.thickens = object.thickens;
   }
+  const Annotations annotations = annotations_of(scene.annotations, figure.molecule.structure);
+  shown.labels = annotations.labels;
   shown.atoms = atoms;
   shown.scheme = scheme_word(figure.molecule.color);
   shown.more_schemes = more_schemes(figure.molecule.structure, shown.surface, scene.figure, figure.molecule.color);

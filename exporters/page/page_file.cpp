@@ -380,6 +380,9 @@ json description_of(const PageFigure& figure, const Tables& tables) {
   const Look& look = figure.look;
   json samples = json::array();
   for (int n = 0; n < kMostSamples; ++n) samples.push_back({sample_offset(n).x, sample_offset(n).y});
+  json labels = json::array();
+  for (const PlaceLabel& label : figure.labels)
+    labels.push_back({{"text", label.text}, {"point", numbers(label.position - tables.frame().pivot)}});
   const glm::vec3 background = look.background;
   return {{"title", figure.title},
           {"size", {figure.size.x, figure.size.y}},
@@ -395,6 +398,7 @@ json description_of(const PageFigure& figure, const Tables& tables) {
           {"some_hidden", tables.some_hidden()},
           {"layers", layers_of(figure, tables.frame().pivot)},
           {"samples", samples},
+          {"labels", labels},
           {"schemes", schemes_of(figure, tables.color_by_kind())},
           {"names", names_of(figure.atoms)},
           {"shaders", shaders()}};

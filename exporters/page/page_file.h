@@ -18,6 +18,7 @@
 #include "core/color/color_key.h"
 #include "core/queries/colored_shapes.h"
 #include "core/queries/surface_object.h"
+#include "core/render/annotation.h"
 #include "core/render/look.h"
 #include "core/render/picture_object.h"
 #include "core/structure/structure.h"
@@ -44,6 +45,7 @@ struct PageFigure {
   const ColoredShapes* shapes = nullptr;                     ///< of atoms; nullptr: none
   std::span<const Atom> atoms{};  ///< SurfaceObject::atom and those of shapes are places here
   Camera camera;                  ///< at first
+  std::span<const PlaceLabel> labels{};
   glm::ivec2 size{0};             ///< of the picture that the look was made for, pixels
   Look look;
   std::string scheme;  ///< the name of its colours

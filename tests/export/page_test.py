@@ -149,8 +149,14 @@ class PageTest(unittest.IsolatedAsyncioTestCase):
 
     async def test_turns_and_picks(self):
         async with self.browser() as page:
-            await self.open(page, self.export(UBIQUITIN, "--color", "residue"))
+            await self.open(page, self.export(UBIQUITIN, "--color", "residue", "--label", "resid 48=Lys <48>"))
             await page.at_rest(100)
+            text, x, y = await page.evaluate("(() => { const t = document.querySelector('#labels text');"
+                                             " return [t.textContent, +t.getAttribute('x'), +t.getAttribute('y')]; })()")
+            self.assertEqual(text, "Lys <48>")
+            seen = await page.evaluate("(() => { const v = meniscus, atom = v.figure.tables.shown.findIndex((_, a) =>"
+                                       " v.atom_name(a) === 'A LYS 48 CB'); return v.places([v.caster.center_of(atom)])[0]; })()")
+            self.assertLess(max(abs(x - seen[0]), abs(y - seen[1])), 25)
             before = await page.evaluate("window.meniscus.camera.position")
             box = await page.evaluate("(() => { const b = meniscus.canvas.getBoundingClientRect();"
                                       " return [b.left + b.width / 2, b.top + b.height / 2]; })()")
@@ -160,11 +166,21 @@ class PageTest(unittest.IsolatedAsyncioTestCase):
             await page.drag([box])
             self.assertRegex(await page.evaluate("document.getElementById('picked').textContent"),
                              r"^A [A-Z]{3} \d+ \w+ – (convex|toroidal|concave) patch")
+            await page.drag([[box[0] - 20, box[1] - 5]])
+            self.assertRegex(await page.evaluate("document.getElementById('picked').textContent"), r"; \d+\.\d\d Å from A [A-Z]{3} \d+ ")
             await page.evaluate("meniscus.canvas.focus()")
             for key in ("ArrowLeft", "+", ".", "p", "r"):
                 await page.send("Input.dispatchKeyEvent", type="keyDown", key=key)
                 await page.send("Input.dispatchKeyEvent", type="keyUp", key=key)
             self.assertEqual(before, await page.evaluate("window.meniscus.camera.position"))
+            await page.evaluate("(() => { const cut = document.getElementById('cut'); cut.value = 50; cut.dispatchEvent(new Event('input')); })()")
+            await page.at_rest(200)
+            self.assertEqual(1, await page.evaluate("meniscus.caster.layers.planes.length"))
+            on_caps = await page.evaluate("(() => { const c = meniscus.caster, words = c.read(0, 0, ...c.size, 2); let count = 0;"
+                                          " for (let n = 1; n < words.length; n += 4) count += words[n] === kOnPlane; return count; })()")
+            self.assertGreater(on_caps, 100)
+            await page.evaluate("document.getElementById('reset').click()")
+            self.assertFalse(await page.evaluate("meniscus.caster.has_layers()"))
             bytes_of_png = await page.evaluate("meniscus.png().then((png) => png.size)")
             self.assertGreater(bytes_of_png, 5000)
             self.assertEqual(page.complaints, [])

@@ -20,6 +20,12 @@ class Viewer {
     this.draft_scale = 1;
     this.sample = -1;  // the last one cast of the picture at rest
     this.moving = false;
+    this.texts = figure.labels.map(({ text }) => {
+      const made = document.createElementNS("http://www.w3.org/2000/svg", "text");
+      made.textContent = text;
+      element("labels").append(made);
+      return made;
+    });
     this.start();
     this.canvas.addEventListener("webglcontextlost", (event) => { event.preventDefault(); this.fail("The graphics device was reset; a still picture is shown until it is back."); });
     this.canvas.addEventListener("webglcontextrestored", () => { this.start(); show_picture(true); say(""); this.change(); });
@@ -113,10 +119,34 @@ class Viewer {
     try {
       if (this.moving) this.draw_draft(width, height);
       else this.draw_sample(width, height);
+      this.draw_labels();
     } catch (error) {
       if (!(error instanceof NoWebGl)) throw error;
       this.fail(error.message);
     }
+  }
+
+  /// Where points are seen, CSS pixels from the top left; nothing for those behind the camera.
+  places(points) {
+    const { right, up, forward, eye_distance, pixel_size, orthographic, pivot } = this.caster.frame;
+    const scale = this.canvas.clientHeight / this.caster.size[1], { clientWidth, clientHeight } = this.canvas;
+    return points.map((point) => {
+      const from = minus(point, pivot), depth = eye_distance + dot(from, forward);
+      if (!orthographic && depth <= 0) return null;
+      const unit_size = pixel_size * (orthographic ? 1 : depth / eye_distance) / scale;
+      return [clientWidth / 2 + dot(from, right) / unit_size, clientHeight / 2 - dot(from, up) / unit_size];
+    });
+  }
+
+  /// Labels stand at their atoms, in front of all.
+  draw_labels() {
+    const { labels } = this.figure, dark = this.background.reduce((sum, c) => sum + c, 0) < 1.5;
+    element("labels").classList.toggle("on-dark", dark);
+    this.places(labels.map(({ point }) => point)).forEach((place, n) => {
+      const text = this.texts[n];
+      text.setAttribute("visibility", place ? "visible" : "hidden");
+      if (place) { text.setAttribute("x", place[0].toFixed(1)); text.setAttribute("y", place[1].toFixed(1)); }
+    });
   }
 
   draw_draft(width, height) {
@@ -181,6 +211,23 @@ class Viewer {
     return `${this.atom_name(picked.atom)} – concave patch of ${contacts.join(", ")}`;
   }
 
+  /// The picture with its labels.
+  with_labels() {
+    const { width, height } = this.canvas, page = Object.assign(document.createElement("canvas"), { width, height });
+    const context = page.getContext("2d"), style = getComputedStyle(element("labels")), scale = width / this.canvas.clientWidth;
+    context.drawImage(this.canvas, 0, 0);
+    context.scale(scale, scale);
+    Object.assign(context, { font: `600 ${style.fontSize} ${style.fontFamily}`, textAlign: "center", textBaseline: "middle", lineWidth: 3, lineJoin: "round" });
+    this.places(this.figure.labels.map(({ point }) => point)).forEach((place, n) => {
+      if (!place) return;
+      const { fill, stroke } = getComputedStyle(this.texts[n]);
+      Object.assign(context, { fillStyle: fill, strokeStyle: stroke });
+      context.strokeText(this.figure.labels[n].text, ...place);
+      context.fillText(this.figure.labels[n].text, ...place);
+    });
+    return page;
+  }
+
   /// A PNG of the view as it is at rest.
   async png() {
     const [width, height] = this.pixels();
@@ -189,7 +236,7 @@ class Viewer {
     do this.draw_sample(width, height); while (this.sample + 1 < this.figure.samples.length);
     cancelAnimationFrame(this.waiting);
     this.waiting = 0;
-    return new Promise((done) => this.canvas.toBlob(done, "image/png"));
+    return new Promise((done) => this.with_labels().toBlob(done, "image/png"));
   }
 }
 
@@ -201,6 +248,7 @@ function say(sentence) {
 /// The live picture, or the still one.
 function show_picture(live) {
   element("picture").hidden = !live;
+  element("labels").toggleAttribute("hidden", !live);
   element("controls").hidden = !live;
   if (element("still")) element("still").hidden = live;
 }
