@@ -16,6 +16,12 @@ declare -A molecular_nodes=([4.2]="4.2.12 databpy==0.0.14" [4.5]=4.5.11 [5.0]=4.
 tests=$PWD/tests/export/blender
 addon=$PWD/exporters/blender/addon
 export MENISCUS_LIBRARY=${program%/*}/exporters/bindings/c/libmeniscus.so MENISCUS_PACKAGE=$PWD/exporters/bindings/python/meniscus
+# The libraries of USD and Alembic, which read what Blender writes.
+export MENISCUS_READERS=$PWD/build/blenders/readers/bin/python
+if [[ ! -x $MENISCUS_READERS ]]; then
+  /usr/bin/python3 -m venv build/blenders/readers
+  "$MENISCUS_READERS" -m pip install -q --disable-pip-version-check numpy usd-core==26.11 alembic3d==1.8.12.1
+fi
 cases=0
 failures=0
 count() {  # SENTENCE CASES FAILURES

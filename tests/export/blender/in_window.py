@@ -79,7 +79,6 @@ def set_up():
     area = view()["area"]
     space = area.spaces.active
     space.show_region_ui = True
-    space.shading.color_type = "VERTEX"
     space.overlay.show_overlays = space.show_gizmo = False
 
 
@@ -92,7 +91,7 @@ def bare_view():
 
 def compute_drag_and_undo():
     with bpy.context.temp_override(**view()):
-        bpy.ops.object.meniscus_from_file("EXEC_DEFAULT", True, filepath=MOLECULE, selection="resi 1-20")
+        bpy.ops.object.meniscus_from_file("EXEC_DEFAULT", True, filepath=MOLECULE, selection="resi 1-20", detail="PROXY")
     item = bpy.context.view_layer.objects.active
     name = item.name
     while not at_rest(item):
@@ -124,6 +123,25 @@ def compute_drag_and_undo():
     return bpy.data.objects[name]
 
 
+def rest(item):
+    """A fine mesh follows the proxy, a proxy the slider."""
+    item.meniscus.detail = "AUTO"
+    counts = [len(item.data.polygons)]
+
+    def settle():
+        while computed.motion.any_moves() or not at_rest(item):
+            yield
+            if len(item.data.polygons) != counts[-1]:
+                counts.append(len(item.data.polygons))
+
+    yield from settle()
+    item.meniscus.probe = 1.8
+    yield from settle()
+    found["triangles"] = counts
+    item.meniscus.detail, item.meniscus.probe = "PROXY", 1.4
+    yield from settle()
+
+
 def recolour(item):
     item.meniscus.color = "residue"
     yield
@@ -138,7 +156,7 @@ def play(before):
     before.hide_set(True)
     scene = bpy.context.scene
     with bpy.context.temp_override(**view()):
-        bpy.ops.object.meniscus_from_file("EXEC_DEFAULT", True, filepath=MODELS, selection="resi 1-20", is_run=True)
+        bpy.ops.object.meniscus_from_file("EXEC_DEFAULT", True, filepath=MODELS, selection="resi 1-20", is_run=True, detail="PROXY")
     item = bpy.context.view_layer.objects.active
     while not at_rest(item):
         yield
@@ -171,6 +189,7 @@ def steps():
     yield
     found["view"] = bare_view()
     item = yield from compute_drag_and_undo()
+    yield from rest(item)
     yield from recolour(item)
     yield from play(item)
 

@@ -18,7 +18,7 @@ PACKAGE = os.environ["MENISCUS_PACKAGE"]
 sys.path.insert(0, HERE)
 import samples  # noqa: E402
 
-from meniscus_import import attributes, build, compat, computed, mns_reader, molecular_nodes  # noqa: E402
+from meniscus_import import attributes, build, compat, computed, mns_reader, molecular_nodes, motion  # noqa: E402
 from meniscus_import.computing import preparation  # noqa: E402
 
 TRIPLE = os.path.join(FOLDER, "triple.xyzr")
@@ -205,6 +205,70 @@ class Computed(unittest.TestCase):
         np.testing.assert_array_equal(positions(item.data), shape)
         self.assertEqual(item["meniscus_area"], area)
 
+    def test_a_fine_mesh_follows_a_proxy_when_nothing_moves(self):
+        item = of_file(TRIPLE, detail="AUTO")
+        fine = len(item.data.polygons)
+        self.assertEqual(fine, len(of_file(TRIPLE, detail="FINE").data.polygons))
+        item.meniscus.probe = 2.0
+        with unittest.mock.patch.object(motion, "REST", 1e6):
+            computed.ask(item, in_motion=True)
+        computed.wait()
+        proxy = len(item.data.polygons)
+        self.assertEqual(measures(item), wanted(TRIPLE, "--probe", "2")[0])
+        self.assertLess(2 * proxy, fine)
+        computed._come_to_rest()  # too early
+        self.assertFalse(computed.working().is_busy())
+        with unittest.mock.patch.object(motion, "REST", 0.0):
+            motion.moves(item.name)
+        with unittest.mock.patch.object(motion, "is_playing", return_value=True):
+            computed._come_to_rest()
+        self.assertFalse(computed.working().is_busy())
+        computed._come_to_rest()
+        computed.wait()
+        self.assertGreater(len(item.data.polygons), 2 * proxy)
+        self.assertFalse(motion.any_moves())
+        item.meniscus.probe = 1.4  # whose fine mesh is kept
+        computed.ask(item, in_motion=True)
+        self.assertEqual(len(item.data.polygons), fine)
+        item.meniscus.probe = 1.7
+        computed.ask(item, in_motion=True)
+        computed.wait()
+        self.assertLess(2 * len(item.data.polygons), fine)
+        scene = bpy.context.scene
+        scene.camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
+        scene.collection.objects.link(scene.camera)
+        scene.render.engine, scene.cycles.samples, scene.cycles.use_denoising = "CYCLES", 1, False
+        scene.render.resolution_x = scene.render.resolution_y = 8
+        bpy.ops.render.render()
+        self.assertGreater(len(item.data.polygons), 2 * proxy)
+        item.meniscus.detail, item.meniscus.probe = "FINE", 1.9
+        computed.ask(item, in_motion=True)
+        self.assertFalse(motion.is_moving(item.name))
+
+    def test_frames_that_play_are_proxies_and_pictures_are_not(self):
+        item = of_file(samples.UBIQUITIN, detail="AUTO", selection="resi 1-15", is_run=True)
+        counts = []
+        for frame, plays in ((2, False), (3, True), (4, False)):
+            with unittest.mock.patch.object(motion, "is_playing", return_value=plays):
+                bpy.context.scene.frame_set(frame)
+            self.assertEqual(item["meniscus_error"], "")
+            counts.append(len(item.data.polygons))
+        self.assertLess(2 * counts[1], min(counts[0], counts[2]))
+        self.assertFalse(motion.is_moving(item.name))
+
+    def test_solid_views_show_the_colours(self):
+        """But where somebody chose others."""
+        views = [area.spaces.active.shading for window in bpy.context.window_manager.windows for area in window.screen.areas
+                 if area.type == "VIEW_3D"]
+        if not views:
+            self.skipTest("there is no view")
+        for before, after in (("MATERIAL", "VERTEX"), ("RANDOM", "RANDOM")):
+            for make in (of_file, lambda: bpy.ops.import_scene.meniscus(filepath=os.path.join(FOLDER, "pair.mns"))):
+                for shading in views:
+                    shading.color_type = before
+                make()
+                self.assertEqual({shading.color_type for shading in views}, {after})
+
     def test_undo_brings_back_the_surface_of_before(self):
         item = of_file()
         bpy.ops.ed.undo_push(message="before")
@@ -230,6 +294,9 @@ class Computed(unittest.TestCase):
 
     def test_proxies(self):
         item = of_file(UBIQUITIN, selection="resi 1-20", detail="PROXY")
+        area, volume = measures(item)
+        self.assertAlmostEqual(sum(polygon.area for polygon in item.data.polygons) / item.meniscus.scale**2 / area, 1.0, delta=0.06)
+        self.assertAlmostEqual(signed_volume(item) / volume, 1.0, delta=0.03)  # atoms can be told
         counts = []
         for density in (0.5, 1.0):
             item.meniscus.density = density

@@ -100,7 +100,7 @@ class Window(unittest.TestCase):
         done = subprocess.run([BLENDER, "--factory-startup", "--window-geometry", "0", "0", *SIZE, *words],
                               env={**os.environ, "DISPLAY": display, "LIBGL_ALWAYS_SOFTWARE": "1", "BLENDER_USER_SCRIPTS": scripts,
                                    "MESA_SHADER_CACHE_DISABLE": "true", "PYTHONDONTWRITEBYTECODE": "1"},
-                              timeout=280, check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+                              timeout=420, check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         if done.returncode < 0:
             raise AssertionError(f"Blender ended by signal {-done.returncode}\n{done.stdout[-3000:]}")
         return done.stdout[-3000:]
@@ -121,6 +121,10 @@ class Window(unittest.TestCase):
         self.assertEqual(self.found["drawn"], ["VIEW3D_PT_meniscus", "VIEW3D_PT_meniscus_look", "VIEW3D_PT_meniscus_molecule", "VIEW3D_PT_meniscus_time"])
         self.assertGreater(self.share_that_differs("computed", "dragged"), 0.1)
         self.assertEqual(self.share_that_differs("computed", "undone"), 0.0)
+
+    def test_a_fine_mesh_follows_when_the_slider_rests(self):
+        proxy, fine, moved, fine_again = self.found["triangles"]
+        self.assertLess(2 * max(proxy, moved), min(fine, fine_again))
 
     def test_other_colours_on_the_same_surface(self):
         self.assertEqual(self.found["recoloured"], self.found["first"])

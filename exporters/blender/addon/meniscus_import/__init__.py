@@ -38,7 +38,8 @@ class Looks:
         name="Standard view transform", description="Show colours as they are; Filmic and AgX make them paler", default=False)
 
     def tell(self, context):
-        """Says what makes colours look different."""
+        """Shows colours in solid views, and says what makes them look different."""
+        compat.color_solid_views(context)
         view = context.scene.view_settings
         if self.standard_view:
             view.view_transform = "Standard"

@@ -299,3 +299,12 @@ def show_message(title, text):
     if bpy.app.background or not getattr(bpy.context, "window", None):
         return
     bpy.context.window_manager.popup_menu(lambda menu, _context: menu.layout.label(text=text), title=title, icon="ERROR")
+
+
+def color_solid_views(context):
+    """Solid views that show the colours of materials, as they do at first, show those of surfaces: their attribute "Color"."""
+    for window in getattr(context.window_manager, "windows", ()):
+        for area in window.screen.areas:
+            shading = area.spaces.active.shading if area.type == "VIEW_3D" else None
+            if shading is not None and shading.color_type == "MATERIAL":
+                shading.color_type = "VERTEX"

@@ -10,7 +10,7 @@ import mathutils
 import numpy as np
 from bpy.app.handlers import persistent
 
-from . import attributes, build, compat, mesh_arrays, mns_reader, molecular_nodes
+from . import attributes, build, compat, mesh_arrays, mns_reader, molecular_nodes, motion
 from .computing import process
 
 #: Of a mesh: the key of the request that it shows; of an object: what the last computation said.
@@ -35,9 +35,9 @@ class Wanted:
     """One look at an object: the request, the atoms if they come from Blender, with their other attributes, and how they come
     into a mesh."""
 
-    def __init__(self, item, place):
+    def __init__(self, item, place, in_motion=False):
         settings = item.meniscus
-        self.request = settings.request(place if settings.source == "FILE" else 0)
+        self.request = settings.request(place if settings.source == "FILE" else 0, in_motion)
         self.scale, self.crisp = settings.scale, settings.crisp
         self.atoms, self.others = None, []
         if settings.source == "OBJECT":
@@ -134,11 +134,13 @@ def frame_count(item):
 def changed(item):
     """A property changed: the surface follows in the background, if that is switched on."""
     if is_computed(item) and item.meniscus.live and not bpy.app.background:
-        ask(item)
+        ask(item, in_motion=True)
 
 
-def ask(item):
-    """Has the surface computed in the background; what waits for the same object falls away."""
+def ask(item, in_motion=False):
+    """Has the surface computed in the background; what waits for the same object falls away. in_motion: a proxy, where the object
+    wants that, which a fine mesh follows."""
+    _wait_for_rest(item, in_motion)
     try:
         if needs_frames(item):
             _ask_for_frames(item)
@@ -148,6 +150,8 @@ def ask(item):
                 empty(item)
                 return
             wanted = Wanted(item, place)
+            if in_motion and item.data.get(SHOWN) != wanted.key and wanted.key not in _kept:
+                wanted = Wanted(item, place, True)
             if item.data.get(SHOWN) == wanted.key:
                 return
             if wanted.key in _kept:
@@ -158,8 +162,38 @@ def ask(item):
     except (mns_reader.MnsError, OSError) as error:
         fail(item, error)
         return
+    _go_on_ticking()
+
+
+def _go_on_ticking():
     if not bpy.app.timers.is_registered(_tick):
         bpy.app.timers.register(_tick, first_interval=TICK)
+
+
+def _wait_for_rest(item, in_motion):
+    if in_motion and item.meniscus.detail == "AUTO":
+        motion.moves(item.name)
+        _go_on_ticking()
+    else:
+        motion.rests(item.name)
+
+
+def _come_to_rest():
+    """Asks for the fine meshes that are due, behind their proxies."""
+    for name in motion.at_rest():
+        item = bpy.data.objects.get(name)
+        if not is_computed(item):
+            motion.rests(name)
+        elif working().job_of(name) is None:
+            ask(item)
+
+
+def come_to_rest(item):
+    """Shows its fine mesh now, or says what went wrong."""
+    try:
+        compute_now(item)
+    except (mns_reader.MnsError, OSError) as error:
+        fail(item, error)
 
 
 def needs_frames(item):
@@ -180,7 +214,7 @@ def _take_frames(item, job):
     item["meniscus_frames"], item["meniscus_frames_of"] = job.result, job.key
 
 
-def compute_now(item, time=None):
+def compute_now(item, time=None, in_motion=False):
     """The same, and waits for it. Raises MnsError or OSError, and leaves the mesh as it was."""
     working().drop(item.name)
     if needs_frames(item):
@@ -189,7 +223,7 @@ def compute_now(item, time=None):
     if place is None:
         empty(item)
         return
-    wanted = Wanted(item, place)
+    wanted = Wanted(item, place, in_motion)
     if item.data.get(SHOWN) == wanted.key:
         return
     if wanted.key not in _kept:
@@ -311,7 +345,8 @@ def _tick():
     if done or clock.monotonic() - _told > TELL:
         _told = clock.monotonic()
         redraw()
-    return TICK if working().is_busy() else None
+    _come_to_rest()
+    return TICK if working().is_busy() or motion.any_moves() else None
 
 
 def _deliver(done):
@@ -329,7 +364,7 @@ def _deliver(done):
             fail(item, job.error)
         elif job.make is None:
             _take_frames(item, job)
-            ask(item)
+            ask(item, motion.is_moving(item.name))
         else:
             try:
                 show(item, job.key, _kept[job.key])
@@ -367,14 +402,14 @@ def wait():
 
 # ---- time
 
-def _compute_ahead(item, time):
+def _compute_ahead(item, time, in_motion):
     """Has the next frames computed. Only for its own frames: where atoms that come from Blender will be is not known."""
     wanted_keys = set()
     for step in range(1, AHEAD + 1):
         place = place_at(item, time + step)
         if not place:
             continue
-        wanted = Wanted(item, place)
+        wanted = Wanted(item, place, in_motion)
         wanted_keys.add(wanted.key)
         if wanted.key not in _awaited and wanted.key not in _kept:
             _awaited[wanted.key] = wanted.ask((item.name, wanted.key), process.NEXT)
@@ -386,7 +421,7 @@ def _compute_ahead(item, time):
 
 def follow(scene):
     """Every computed object shows what its atoms and its request are at the scene's time."""
-    time = scene.frame_current_final
+    time, in_motion = scene.frame_current_final, motion.is_playing()
     for item in list(scene.objects):
         if not is_computed(item) or item.data.is_editmode:
             continue
@@ -394,9 +429,10 @@ def follow(scene):
             place = place_at(item, time)
             if place == 0 and item.meniscus.source == "FILE":
                 continue  # nothing moves
-            compute_now(item, time)
+            _wait_for_rest(item, in_motion)
+            compute_now(item, time, in_motion)
             if frame_count(item) > 1:
-                _compute_ahead(item, time)
+                _compute_ahead(item, time, in_motion)
         except Exception as error:  # a handler that raises changes nothing: Blender goes on and renders
             empty(item)
             fail(item, error)
@@ -427,6 +463,7 @@ def catch_up():
 def on_load(*_arguments):
     for memory in (_kept, _awaited, _of_user):
         memory.clear()
+    motion.forget()
     if _process is not None:
         _process.drop_all()
     come_last()
@@ -440,7 +477,7 @@ def come_last():
     handlers.append(on_frame_change)
 
 
-HANDLERS = (("undo_post", on_undo), ("redo_post", on_undo), ("load_post", on_load))
+HANDLERS = (("undo_post", on_undo), ("redo_post", on_undo), ("load_post", on_load), *motion.HANDLERS)
 
 
 def register():
@@ -460,3 +497,4 @@ def unregister():
     end()
     _kept.clear()
     _of_user.clear()
+    motion.forget()

@@ -6,7 +6,7 @@ import os
 import bpy
 from bpy_extras.io_utils import ImportHelper
 
-from . import build, computed, looks, mns_reader, molecular_nodes
+from . import build, compat, computed, looks, mns_reader, molecular_nodes
 from .computing import preparation
 from .settings import DETAILS
 
@@ -23,6 +23,7 @@ def new_object(context, name, source, **values):
     if item.name not in context.view_layer.objects:
         context.collection.objects.unlink(item)
         context.scene.collection.objects.link(item)
+    compat.color_solid_views(context)
     for other in context.view_layer.objects:
         other.select_set(False)
     item.select_set(True)
@@ -33,7 +34,7 @@ def new_object(context, name, source, **values):
 def start(operator, item):
     """In the background where there is a window, else at once."""
     if not bpy.app.background and not operator.wait:
-        computed.ask(item)
+        computed.ask(item, in_motion=True)  # a proxy comes first
         return {"FINISHED"}
     try:
         computed.compute_now(item)
@@ -51,7 +52,7 @@ class Waiting:
 class Making(Waiting):
     """What operators that make a surface share."""
 
-    detail: bpy.props.EnumProperty(name="Detail", default="PROXY", items=DETAILS)
+    detail: bpy.props.EnumProperty(name="Detail", default="AUTO", items=DETAILS)
 
 
 class OBJECT_OT_meniscus_from_file(Making, bpy.types.Operator, ImportHelper):
@@ -225,7 +226,10 @@ class VIEW3D_PT_meniscus(bpy.types.Panel):
         row.active = settings.kind != "VDW"
         row.prop(settings, "probe", slider=True)
         layout.prop(settings, "detail")
-        layout.prop(settings, "density" if settings.detail == "PROXY" else "tolerance")
+        if settings.detail != "FINE":
+            layout.prop(settings, "density")
+        if settings.detail != "PROXY":
+            layout.prop(settings, "tolerance")
         layout.prop(settings, "cavities")
         layout.prop(settings, "crisp")
         layout.prop(settings, "scale")

@@ -14,8 +14,10 @@ COLORS = (
     ("hydrophobicity", "Hydrophobicity", "Hydropathy of the amino acid"), ("charge", "Charge", "Partial charge, of PQR files"),
     ("radial", "Radial", "Distance from the middle"), ("kind", "Patch", "Kind of patch: convex, toroidal, concave"))
 
-DETAILS = (("PROXY", "Proxy", "Even triangles, as few as one an atom, for looking while sliders move"),
-           ("FINE", "Fine", "Within a tolerance of the exact surface, for pictures"))
+#: Their numbers are in files of 0.2.0.
+DETAILS = (("AUTO", "Fine at rest", "A proxy while sliders move and while the timeline plays, else a fine mesh", "", 2),
+           ("PROXY", "Proxy", "Even triangles, by vertices per Å²", "", 0),
+           ("FINE", "Fine", "Within a tolerance of the exact surface, for pictures", "", 1))
 
 
 def on_change(settings, _context):
@@ -77,9 +79,9 @@ class MeniscusSettings(bpy.types.PropertyGroup):
         name="Probe", description="Radius of the probe in Å; 1.4 is water", default=1.4, min=0.0, max=100.0, soft_min=0.5, soft_max=5.0,
         step=5, precision=2, update=on_change)
     color: bpy.props.EnumProperty(name="Colour", default="element", items=COLORS, update=on_change)
-    detail: bpy.props.EnumProperty(name="Detail", default="PROXY", items=DETAILS, update=on_change)
+    detail: bpy.props.EnumProperty(name="Detail", default="AUTO", items=DETAILS, update=on_change)
     density: bpy.props.FloatProperty(
-        name="Density", description="Vertices per Å² of a proxy; 0.1 makes about a triangle an atom", default=0.2, min=0.005, max=1000.0,
+        name="Density", description="Vertices per Å² of a proxy; 1 shows atoms, 0.1 makes about a triangle an atom", default=1.0, min=0.005, max=1000.0,
         soft_min=0.05, soft_max=5.0, precision=3, update=on_change)
     tolerance: bpy.props.FloatProperty(
         name="Tolerance", description="Å that the mesh is from the surface at most", default=0.05, min=1e-5, max=1.0, precision=3,
@@ -117,7 +119,11 @@ class MeniscusSettings(bpy.types.PropertyGroup):
     def timing(self):
         return sequence_reader.Timing(self.start, self.speed, self.outside)
 
-    def request(self, place=0):
+    def has_proxy(self, in_motion):
+        """Whether a proxy shows. in_motion: a slider moves, or the timeline plays."""
+        return self.detail == "PROXY" or (self.detail == "AUTO" and in_motion)
+
+    def request(self, place=0, in_motion=False):
         """A request.Request; place: in the run, from 1, or 0."""
         of_file = self.source == "FILE"
         return request.Request(
@@ -125,7 +131,7 @@ class MeniscusSettings(bpy.types.PropertyGroup):
             frames=self.frames if of_file and self.is_run else "",
             trajectory_atoms=self.trajectory_atoms if of_file and self.is_run else "", preparation=self.preparation(), selection=self.selection,
             color=self.color if of_file else "", place=place, kind=self.kind, probe=short(self.probe),
-            tolerance=short(self.tolerance), density=short(self.density) if self.detail == "PROXY" else 0.0, cavities=self.cavities)
+            tolerance=short(self.tolerance), density=short(self.density) if self.has_proxy(in_motion) else 0.0, cavities=self.cavities)
 
 
 MeniscusSettings.__annotations__.update({preparation.name_of(row): _field(row) for row in preparation.ROWS})
