@@ -46,7 +46,7 @@ struct PageFigure {
   std::span<const Atom> atoms{};  ///< SurfaceObject::atom and those of shapes are places here
   Camera camera;                  ///< at first
   std::span<const PlaceLabel> labels{};
-  glm::ivec2 size{0};             ///< of the picture that the look was made for, pixels
+  glm::ivec2 size{0};  ///< of the picture that the look was made for, pixels
   Look look;
   std::string scheme;  ///< the name of its colours
   std::vector<PageScheme> more_schemes{};
