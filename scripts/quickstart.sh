@@ -51,7 +51,7 @@ step "4/5 the same surface here, in POV-Ray and in Blender"
   exit 1
 }
 
-"$meniscus" export blender "$molecule" -o "$out/1tii.mns" --size "$size" --camera "$out/camera.json" --force
+"$meniscus" export blender "$molecule" -o "$out/1tii.mns" --size "$size" --camera "$out/camera.json" --tolerance 0.01 --force
 blender -b --factory-startup --python-exit-code 3 --python "$here/exporters/blender/addon/render_mns.py" -- \
   "$out/1tii.mns" --output "$out/1tii_blender.png" --passes "$out/1tii_blender.exr" --size "$size" --samples 16 --transparent \
   >"$out/blender.log" 2>&1 || {

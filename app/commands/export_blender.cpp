@@ -12,6 +12,7 @@
 #include "app/commands/buried_attribute.h"
 #include "app/commands/commands.h"
 #include "app/commands/figure_run.h"
+#include "app/commands/mesh_notes.h"
 #include "app/options/scene_options.h"
 #include "app/reports/notes.h"
 #include "core/base/error.h"
@@ -51,7 +52,8 @@ blender::SequenceManifest manifest_of(FigureRun& run) {
   manifest.origin = run.framing().origin();
   manifest.fps = scene.film.frames_per_second;
   manifest.probe_radius = scene.molecule.surface.probe_radius;
-  manifest.tolerance = tolerance_of(scene.mesh, scene.picture.size(), run.camera(0), standing_balls(run.structure()));
+  if (scene.mesh.density == 0.0)
+    manifest.tolerance = tolerance_of(scene.mesh, scene.picture.size(), run.camera(0), standing_balls(run.structure()));
   manifest.atom_count = frames.structure().atoms.size();
   return manifest;
 }
@@ -62,15 +64,13 @@ blender::CutFile cut_file(const SceneCommand& command, const FigureFrame& frame)
           command.scene.figure.cap};
 }
 
-// Cut, with caps. Throws RequestError if nothing is left, unless it may be.
+// Cut, with caps.
 std::vector<blender::MeshedObject> cut_objects(const SceneCommand& command, Molecule& molecule,
-                                               const blender::CutFile& cut, double tolerance, bool may_be_empty) {
+                                               const blender::CutFile& cut, double tolerance) {
   settle_copies(molecule.objects);
   std::vector<blender::MeshedObject> objects;
-  bool any = may_be_empty;
   for (const SurfaceObject& object : molecule.objects) {
     CappedMesh made = capped_mesh(object, cut.planes, cut.style.color.has_value(), tolerance);
-    any = any || !made.mesh.triangles.empty();
     objects.push_back({object,
                        std::move(made.mesh),
                        blender::atom_attributes(molecule.structure, object.atom),
@@ -78,7 +78,6 @@ std::vector<blender::MeshedObject> cut_objects(const SceneCommand& command, Mole
                        command.scene.figure.thickens,
                        std::move(made.cap_plane)});
   }
-  if (!any) throw RequestError("no part of the surface is shown, so there is no mesh to write");
   return objects;
 }
 
@@ -92,15 +91,16 @@ std::vector<glm::dvec3> velocities_of(const SurfaceObject& object, const Triangl
 
 // Whole; with velocities if there are some.
 std::vector<blender::MeshedObject> whole_objects(const SceneCommand& command, const Molecule& molecule,
-                                                 std::vector<TriangleMesh> meshes,
-                                                 std::span<const glm::dvec3> velocities) {
+                                                 const MeshFineness& fineness, std::span<const glm::dvec3> velocities) {
   std::vector<blender::MeshedObject> objects;
-  for (std::size_t n = 0; n < meshes.size(); ++n) {
-    const SurfaceObject& object = molecule.objects[n];
+  for (const SurfaceObject& object : molecule.objects) {
+    FineMesh made = fine_mesh(object.surface, fineness);
+    if (object.coloring.hides_some()) made = {shown_part(std::move(made.mesh), object.coloring), {}, {}};
     std::vector<glm::dvec3> moving;
-    if (!velocities.empty()) moving = velocities_of(object, meshes[n], velocities);
-    objects.push_back({object, std::move(meshes[n]), blender::atom_attributes(molecule.structure, object.atom),
+    if (!velocities.empty()) moving = velocities_of(object, made.mesh, velocities);
+    objects.push_back({object, std::move(made.mesh), blender::atom_attributes(molecule.structure, object.atom),
                        std::move(moving), command.scene.figure.thickens});
+    objects.back().vertex_face = std::move(made.vertex_face);
   }
   return objects;
 }
@@ -181,28 +181,46 @@ struct FigureMeshes {
   std::vector<blender::MeshedObject> objects;
 };
 
-// moving: velocities of atoms, if vertices should have some. tell: says how many triangles came out.
-void mesh_figure(const SceneCommand& command, FigureFrame& frame, const blender::CutFile& cut, double tolerance,
-                 bool tell, FigureMeshes& made) {
+bool is_empty(const std::vector<blender::MeshedObject>& objects) {
+  return std::ranges::all_of(objects, [](const blender::MeshedObject& each) { return each.mesh.triangles.empty(); });
+}
+
+// Shapes and objects with looks of their own keep to patches, within fineness.tolerance.
+void mesh_figure(const SceneCommand& command, FigureFrame& frame, const blender::CutFile& cut,
+                 const MeshFineness& fineness, FigureMeshes& made) {
   Molecule& molecule = frame.figure.molecule;
   const BesideSurface& beside = frame.figure.beside;
-  const bool may_be_empty = !beside.empty();
   // Where planes cut, vertices have no velocities: caps stay where they are.
   const std::span<const glm::dvec3> velocities =
       cut.planes.empty() ? std::span<const glm::dvec3>(frame.velocities) : std::span<const glm::dvec3>{};
   if (!command.scene.figure.hides_surface) {
-    if (cut.planes.empty())
-      made.objects = whole_objects(command, molecule,
-                                   tell ? mesh_and_tell(command, molecule.objects, tolerance, may_be_empty)
-                                        : mesh_objects(molecule.objects, tolerance, may_be_empty),
-                                   velocities);
-    else
-      made.objects = cut_objects(command, molecule, cut, tolerance, may_be_empty);
+    const bool hides =
+        std::ranges::any_of(molecule.objects, [](const SurfaceObject& o) { return o.coloring.hides_some(); });
+    refuse_even_parts(fineness, hides, !cut.planes.empty());
+    made.objects = cut.planes.empty() ? whole_objects(command, molecule, fineness, velocities)
+                                      : cut_objects(command, molecule, cut, fineness.tolerance);
+    if (beside.empty() && is_empty(made.objects))
+      throw RequestError("no part of the surface is shown, so there is no mesh to write");
   }
-  add_beside(molecule.structure, beside.shapes, tolerance, velocities, made.beside, made.objects);
-  add_more(command, frame.figure, frame.camera, tolerance, made.more, made.objects);
-  if (std::ranges::all_of(made.objects, [](const blender::MeshedObject& each) { return each.mesh.triangles.empty(); }))
-    throw RequestError("the surface is not shown, and there is nothing beside it");
+  add_beside(molecule.structure, beside.shapes, fineness.tolerance, velocities, made.beside, made.objects);
+  add_more(command, frame.figure, frame.camera, fineness.tolerance, made.more, made.objects);
+  if (is_empty(made.objects)) throw RequestError("the surface is not shown, and there is nothing beside it");
+}
+
+std::string megabytes(double bytes) {
+  return bytes < 1e6 ? fmt::format("{:.2g} MB", bytes / 1e6) : fmt::format("{:.3g} MB", bytes / 1e6);
+}
+
+// How large a file will be, and those of a run (frames > 0) if all are like it.
+void tell_size(const SceneCommand& command, const FigureMeshes& meshes, const MeshFineness& fineness, double bytes,
+               std::size_t frames) {
+  std::size_t triangles = 0;
+  for (const blender::MeshedObject& object : meshes.objects) triangles += object.mesh.triangles.size();
+  say(command, fmt::format("{} triangles {}, {}{}", with_thousands(triangles),
+                           fineness_words(command.scene.mesh, fineness), megabytes(bytes),
+                           frames == 0 ? ""
+                                       : fmt::format(" a frame; about {} for {} frames",
+                                                     megabytes(bytes * static_cast<double>(frames)), frames)));
 }
 
 // A file of one molecule, or one for each frame of the chunk beside a manifest for all of the run, the same from every
@@ -221,16 +239,18 @@ void export_to_blender(const SceneCommand& asked) {
     sequence->name = run_name(sequence->manifest);
     sequence->written = write_manifest(scene.output, command.existing(), sequence->manifest);
   }
-  std::once_flag told;
+  const std::size_t frames = sequence ? run.frames().chunk().size() : 0;
+  if (sequence) save_camera(command, run.camera(0));
+  std::once_flag told, warned, told_size;
   const auto make = [&](FigureFrame frame) -> FinishFrame {
     Molecule& molecule = frame.figure.molecule;
     blender::Provenance provenance{file_name(molecule.structure.file), molecule.structure.radii_set, molecule.device,
                                    key_of(molecule)};
-    double tolerance = 0.0;
+    MeshFineness fineness{blender::kTolerance, {}, scene.mesh.density, scene.mesh.even};
     std::string path = scene.output;
     std::optional<blender::PlaceInRun> place;
     if (sequence) {
-      tolerance = sequence->manifest.tolerance;
+      if (fineness.density == 0.0) fineness.tolerance = sequence->manifest.tolerance;
       path = (std::filesystem::path(scene.output) / blender::frame_file(frame.number)).string();
       place = {sequence->name, frame.number, frame.place + 1};
       provenance.source = sequence->manifest.provenance.source;
@@ -239,17 +259,25 @@ void export_to_blender(const SceneCommand& asked) {
       std::vector<Ball> balls = placed_balls(molecule.objects);
       const std::vector<Ball> beside = balls_around(frame.figure.beside.shapes.shapes);
       balls.insert(balls.end(), beside.begin(), beside.end());
-      tolerance = tolerance_of(scene.mesh, scene.picture.size(), frame.camera, balls);
+      if (fineness.density == 0.0)
+        fineness = fineness_of(scene.mesh, scene.mesh.even, 0.0, scene.picture.size(), frame.camera, balls);
     }
     const blender::CutFile cut = cut_file(command, frame);
     FigureMeshes meshes;
-    mesh_figure(command, frame, cut, tolerance, !sequence, meshes);
+    std::call_once(
+        warned, [&] { warn_of_many(command, expected_triangles(molecule.objects, fineness, CopiesOfMesh::shared)); });
+    mesh_figure(command, frame, cut, fineness, meshes);
     const std::string left_out = add_numbers(command, numbers, molecule.structure, meshes.objects);
     if (!left_out.empty()) std::call_once(told, [&] { say(command, left_out); });
-    write_objects(path, command.existing(), meshes.objects, shot_of(scene, frame.camera), provenance, place, cut);
+    write_objects(path, command.existing(), meshes.objects, shot_of(scene, frame.camera), provenance, place, cut,
+                  [&](std::uint64_t bytes) {
+                    std::call_once(told_size,
+                                   [&] { tell_size(command, meshes, fineness, static_cast<double>(bytes), frames); });
+                  });
     return [path] { return MadeFrame{{path}}; };
   };
   run.make({kMeshBytesPerAtom}, [&]() -> FigureRun::Sink { return make; });
+  if (!sequence) save_camera(command, run.camera(0));
   std::cout << escaped(sequence ? sequence->written.string() : scene.output) << "\n";
 }
 
@@ -261,16 +289,27 @@ void add_export_blender(CLI::App& command) {
            "  meniscus export blender 1tii.pdb -o 1tii.mns --camera camera.json --tolerance-pixels 0.25 "
            "--size 1920x1080\n"
            "  meniscus export blender adk.psf --trajectory adk.dcd --frames all -o adk   one file per frame, and a "
-           "manifest");
+           "manifest\n"
+           "  meniscus export blender 1tii.pdb -o 1tii.mns --density 1   even triangles, for modifiers and sculpting",
+           "The default tolerance is half a pixel of --camera; without a camera it is 0.05 Å.");
   auto declared = std::make_shared<DeclaredCommand<>>(command, for_blender);
   declared->options.describe_output(".mns file to write; for frames, a folder");
   declared->options.option("mesh.attributes")
       ->description(
           "Numbers of the surface, separated by commas: usual (exact curvature, areas of atoms and patches), all, "
           "none, or the names of export mesh [usual]");
+  const Property& tolerance = property_of("mesh.tolerance");
+  declared->options.option(tolerance.key)->description(fmt::format("{} [{:g}]", tolerance.help, blender::kTolerance));
   declared->options.option("frames.fps")->description("Frames per second of a run [25]");
   command.callback([declared] {
     declared->options.take();
+    Scene& scene = declared->state.scene;
+    if (!has_fineness(declared->options)) {
+      if (scene.picture.camera_file.empty())
+        scene.mesh.tolerance = blender::kTolerance;
+      else
+        scene.mesh.tolerance_pixels = kPixelsOfACamera;
+    }
     run_and_save_scene(declared->state, [&] { export_to_blender(declared->state); });
   });
 }

@@ -11,6 +11,7 @@
 #include "app/commands/buried_attribute.h"
 #include "app/commands/commands.h"
 #include "app/commands/figure_run.h"
+#include "app/commands/mesh_notes.h"
 #include "app/options/scene_options.h"
 #include "app/options/numbered_path.h"
 #include "app/reports/notes.h"
@@ -22,8 +23,6 @@
 
 namespace meniscus {
 namespace {
-
-constexpr double kManyTriangles = 2e7;
 
 /// Of the file to write. Throws UsageError where nothing says which it is.
 const MeshFormat& format_of(const Scene& scene) {
@@ -41,24 +40,10 @@ std::string scale_sentence(const MeshFormat& format, double scale) {
   return fmt::format("1 Å is {:g} {}", scale, format.unit.empty() ? "in the file" : format.unit);
 }
 
-void warn_of_many(const SceneCommand& command, const Molecule& molecule, const MeshFineness& fineness) {
-  double triangles = 0.0;
-  for (const SurfaceObject& object : molecule.objects)
-    triangles += static_cast<double>(object.copies.size()) * estimated_triangles(object.surface, fineness);
-  if (triangles > kManyTriangles)
-    say(command, fmt::format("warning: about {:.0f} million triangles; a larger --tolerance or a smaller "
-                             "--density makes fewer",
-                             triangles / 1e6));
-}
-
 void refuse_what_does_not_fit(const MeshFormat& format, const Figure& figure, const MeshFineness& fineness) {
   const Molecule& molecule = figure.molecule;
-  const bool even = fineness.even || fineness.density > 0.0;
   const bool hides = std::ranges::any_of(molecule.objects, [](const auto& o) { return o.coloring.hides_some(); });
-  if (even && hides)
-    throw RequestError(
-        "triangles of an even mesh cross the borders of atoms, so --show cannot cut it; leave --even and --density "
-        "out, or choose atoms by --select");
+  refuse_even_parts(fineness, hides, false);
   if (!format.solid) return;
   const bool whole = std::ranges::all_of(molecule.objects, &SurfaceObject::whole);
   if (molecule.objects.size() > 1 || !whole || hides || !figure.beside.shapes.empty())
@@ -68,12 +53,9 @@ void refuse_what_does_not_fit(const MeshFormat& format, const Figure& figure, co
 
 void tell(const SceneCommand& command, const MeshFormat& format, const MeshFileMaker& maker,
           const MeshFineness& fineness) {
-  const std::string how = fineness.density > 0.0  ? fmt::format("{:g} vertices per Å²", fineness.density)
-                          : fineness.tolerance_at ? fmt::format("within {:g} pixels of the surface, {:.4g} Å or more",
-                                                                command.scene.mesh.tolerance_pixels, fineness.tolerance)
-                                                  : fmt::format("within {:.4g} Å of the surface", fineness.tolerance);
-  say(command, fmt::format("{} triangles {}; {}", with_thousands(maker.triangle_count()), how,
-                           scale_sentence(format, command.scene.mesh.scale)));
+  say(command,
+      fmt::format("{} triangles {}; {}", with_thousands(maker.triangle_count()),
+                  fineness_words(command.scene.mesh, fineness), scale_sentence(format, command.scene.mesh.scale)));
   if (maker.joined_edges() + maker.flipped_edges() > 0)
     say(command, fmt::format("welded: {} edges shorter than {} Å, {}{} triangles without area",
                              with_thousands(maker.joined_edges()), kFileStep,
@@ -111,7 +93,7 @@ MeshFile mesh_of(const SceneCommand& command, const MeshFormat& format, FigureFr
   const MeshFineness fineness = fineness_of(scene.mesh, scene.mesh.even, scene.mesh.density, scene.picture.size(),
                                             frame.camera, frame.figure.balls());
   refuse_what_does_not_fit(format, frame.figure, fineness);
-  if (is_told) warn_of_many(command, molecule, fineness);
+  if (is_told) warn_of_many(command, expected_triangles(molecule.objects, fineness, CopiesOfMesh::own));
   const std::vector<Atom> atoms = shown_atoms(molecule.structure);
   const std::vector<double> buried =
       buried_by_chains(scene.molecule, molecule.structure, names, scene.mesh.attributes == "all");
@@ -189,9 +171,7 @@ void declare(CLI::App& command, const std::string& format) {
     Scene& scene = declared->state.scene;
     options.take();
     if (scene.mesh.format.empty()) scene.mesh.format = format;
-    const bool is_fine = options.is_given("mesh.tolerance") || options.is_given("mesh.tolerance_pixels") ||
-                         options.is_given("mesh.density");
-    if (!is_fine && !scene.picture.camera_file.empty()) scene.mesh.tolerance_pixels = kPixelsOfACamera;
+    if (!has_fineness(options) && !scene.picture.camera_file.empty()) scene.mesh.tolerance_pixels = kPixelsOfACamera;
     run_and_save_scene(declared->state, [&] { export_to_mesh(declared->state); });
   });
 }

@@ -237,7 +237,7 @@ void export_blender(const ExportedView& view, const ExportTarget& target, const 
   check_output(target.path, target.existing);
   const auto [surfaces, device] = complete_surfaces(view, watch);
   watch("mesh", 0.0);
-  std::vector<TriangleMesh> meshes = mesh_objects(surfaces, MeshRequest{}.tolerance);
+  std::vector<TriangleMesh> meshes = mesh_objects(surfaces, blender::kTolerance);
   std::vector<blender::MeshedObject> objects;
   for (std::size_t n = 0; n < surfaces.size(); ++n)
     objects.push_back(

@@ -25,13 +25,13 @@ constexpr auto kTable = std::to_array<Property>({
     number("mesh.density", "--density", "NUMBER",
            "Vertices per Å², instead of a tolerance. 0.02 gives about one triangle per atom; triangles are even")
         .from(0.005, 1000)
-        .in(kMesh, in_scene)
+        .in(kMesh, in_scene | in_bundle)
         .in_short_help()
-        .of(for_mesh)
+        .of(for_mesh | for_blender)
         .excludes("mesh.tolerance|mesh.tolerance_pixels"),
     flag("mesh.even", "--even", "Make nearly equilateral triangles. They cross the borders of patches")
-        .in(kMesh, in_scene)
-        .of(for_mesh),
+        .in(kMesh, in_scene | in_bundle)
+        .of(for_mesh | for_blender),
     text("mesh.format", "--format", "WORD", "Format of the file, if its ending does not tell")
         .in(kMesh, in_scene)
         .in_short_help()

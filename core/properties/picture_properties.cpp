@@ -62,7 +62,7 @@ constexpr auto kTable = of_commands(
             .of(kForFigures & ~(for_preview | for_page)),
         new_file("camera.save", "--save-camera", "FILE", "Save the camera as JSON, for --camera")
             .in(kCamera)
-            .of(for_render | for_povray | for_path_tracers | for_page),
+            .of(for_render | kForExports | for_page),
 
         text("image.size", "--size", "WxH", "Size of the picture in pixels")
             .initially("1280x960")

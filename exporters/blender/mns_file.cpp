@@ -63,7 +63,8 @@ void MnsWriter::add(const std::string& name, std::span<const std::uint8_t> value
   add_bytes(name, "|u1", std::as_bytes(values), values.size() / columns, columns);
 }
 
-void MnsWriter::write(const std::string& path, Existing existing, nlohmann::json header) const {
+void MnsWriter::write(const std::string& path, Existing existing, nlohmann::json header,
+                      const std::function<void(std::uint64_t)>& tell) const {
   // Offsets count from the end of the header, so that the header's own length does not matter for them.
   std::size_t offset = 0;
   nlohmann::json table = nlohmann::json::array();
@@ -79,6 +80,8 @@ void MnsWriter::write(const std::string& path, Existing existing, nlohmann::json
   std::string text = header.dump(1, ' ', true, nlohmann::json::error_handler_t::replace);
   text.resize(aligned(text.size() + 1), ' ');
   text.back() = '\n';
+  const std::uint64_t size = kPrologue + text.size() + offset;
+  if (tell) tell(size);
 
   // The prologue holds the checksum of all that follows; zeros keep its place.
   std::vector<std::byte> prologue(kPrologue);
@@ -110,7 +113,7 @@ void MnsWriter::write(const std::string& path, Existing existing, nlohmann::json
   put(prologue, 8, version_);
   put(prologue, 12, crc);
   put(prologue, 16, static_cast<std::uint64_t>(text.size()));
-  put(prologue, 24, static_cast<std::uint64_t>(kPrologue + text.size() + offset));
+  put(prologue, 24, size);
   file.rewrite_beginning(prologue);
   file.commit();
 }

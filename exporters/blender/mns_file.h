@@ -67,8 +67,9 @@ class MnsWriter {
   }
 
   /// Writes the whole file under `path`, or throws OutputError and leaves none. `header` must be an object; the key
-  /// "arrays" is added to it.
-  void write(const std::string& path, Existing existing, nlohmann::json header) const;
+  /// "arrays" is added to it. tell: called with the size in bytes before anything is written.
+  void write(const std::string& path, Existing existing, nlohmann::json header,
+             const std::function<void(std::uint64_t)>& tell = {}) const;
 
  private:
   struct Array {

@@ -296,7 +296,8 @@ json object_header(const MeshedObject& meshed, const std::string& prefix, const 
 
 void write_objects(const std::string& path, Existing existing, std::span<const MeshedObject> objects,
                    const std::optional<Shot>& shot, const Provenance& provenance,
-                   const std::optional<PlaceInRun>& place, const CutFile& cut) {
+                   const std::optional<PlaceInRun>& place, const CutFile& cut,
+                   const std::function<void(std::uint64_t)>& tell) {
   MnsWriter file;
   json list = json::array();
   for (const MeshedObject& meshed : objects) {
@@ -330,7 +331,7 @@ void write_objects(const std::string& path, Existing existing, std::span<const M
   }
   if (shot) header["camera"] = shot_object(*shot);
   if (place) header["sequence"] = {{"run", place->run}, {"frame", place->frame}, {"scene_frame", place->scene_frame}};
-  file.write(path, existing, std::move(header));
+  file.write(path, existing, std::move(header), tell);
 }
 
 }  // namespace meniscus::blender

@@ -2,6 +2,7 @@
 // Surfaces, their meshes, their atoms and a camera as one .mns file, which the Blender add-on beside this file reads.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,6 +19,9 @@
 #include "exporters/mesh_files/mesh_formats.h"
 
 namespace meniscus::blender {
+
+/// Of a mesh for Blender, Å, unless another is asked for.
+inline constexpr double kTolerance = 0.05;
 
 /// Where the surface came from; kept in the file and in Blender as custom properties.
 struct Provenance {
@@ -43,8 +47,10 @@ struct MeshedObject {
   std::vector<std::uint32_t> cap_plane = {};  ///< of the last triangles, which are caps (CappedMesh)
   CutFile cut = {};                           ///< that made them; without planes: that of the file
   MaterialRequest material = {};              ///< what differs from the usual one
-  std::vector<VertexNumbers> numbers = {};    ///< finite, per vertex (add_surface_numbers)
-  std::vector<float> patch_area = {};         ///< per triangle, Å²; empty: left out
+  /// Per vertex, into Surface::faces: one that it lies on; empty: that of the first of its triangles.
+  std::vector<std::uint32_t> vertex_face = {};
+  std::vector<VertexNumbers> numbers = {};  ///< finite, per vertex (add_surface_numbers)
+  std::vector<float> patch_area = {};       ///< per triangle, Å²; empty: left out
 };
 
 /// Which frame of a run a file is: it must say so, since files of several runs may get into one folder.
@@ -55,9 +61,10 @@ struct PlaceInRun {
 };
 
 /// Writes the file as FORMAT.md describes. At least one mesh has triangles. cut: of all objects that have none of their
-/// own. Throws OutputError.
+/// own. tell: called with the size of the file in bytes before it is written. Throws OutputError.
 void write_objects(const std::string& path, Existing existing, std::span<const MeshedObject> objects,
                    const std::optional<Shot>& shot, const Provenance& provenance,
-                   const std::optional<PlaceInRun>& place = {}, const CutFile& cut = {});
+                   const std::optional<PlaceInRun>& place = {}, const CutFile& cut = {},
+                   const std::function<void(std::uint64_t)>& tell = {});
 
 }  // namespace meniscus::blender

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/mesh/mesh_objects.h"
 #include "core/mesh/open_sky.h"
 #include "core/mesh/smoothed_curvature.h"
 #include "core/queries/surface_point.h"
@@ -30,8 +29,9 @@ std::string with_usual(std::string_view text) {
 }
 
 /// Of each vertex, 0 where it lies on no patch.
-std::vector<Curvature> exact_curvatures(const Surface& surface, const TriangleMesh& mesh) {
-  const std::vector<std::uint32_t> face = vertex_faces(mesh);
+std::vector<Curvature> exact_curvatures(const Surface& surface, const MeshedObject& object) {
+  const TriangleMesh& mesh = object.mesh;
+  const std::vector<std::uint32_t> face = object.vertex_face.empty() ? vertex_faces(mesh) : object.vertex_face;
   std::vector<Curvature> curvatures(mesh.positions.size());
   for (std::size_t v = 0; v < face.size(); ++v)
     if (face[v] != kNone) curvatures[v] = curvature(surface, face[v], mesh.positions[v]);
@@ -113,7 +113,7 @@ std::string add_surface_numbers(MeshedObject& object, const SurfaceNumbers& want
   const Surface& surface = object.object.surface;
   if (surface.faces.empty()) return {};
   Adding adding(object, wanted);
-  adding.add_curvatures("", [&] { return exact_curvatures(surface, object.mesh); });
+  adding.add_curvatures("", [&] { return exact_curvatures(surface, object); });
   const std::string without_smoothed = add_smoothed(object, adding, wanted.by_name);
   const std::string without_areas = add_areas_of_atoms(object, adding, wanted.by_name);
   if (adding.wants("open_sky")) object.numbers.push_back({"open_sky", vertex_open_sky(surface, object.mesh)});

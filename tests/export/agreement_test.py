@@ -30,7 +30,7 @@ class Agreement(unittest.TestCase):
 
         run(PROGRAM, "render", *MOLECULE, "--samples", "1", "--aovs", "-o", path("ray_#####.exr"))
         run(PROGRAM, "export", "povray", *MOLECULE, "-o", path("povray"))
-        run(PROGRAM, "export", "blender", *MOLECULE, "-o", path("blender"))
+        run(PROGRAM, "export", "blender", *MOLECULE, "--tolerance", "0.01", "-o", path("blender"))
         for frame in FRAMES:
             run(POVRAY, "surface.ini[normal]", f"+SF{frame}", f"+EF{frame}", "-D", "-V", cwd=path("povray"))
         run(BLENDER, "-b", "--factory-startup", "--python-exit-code", "3", "--python", os.path.join(ADDON, "render_mns.py"), "--",

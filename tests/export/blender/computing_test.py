@@ -266,6 +266,12 @@ class Engines(WithFolder):
             np.testing.assert_array_equal(one[name], other[name], name)
         self.assertEqual(mesh_arrays.names_of(one)["res_name_id"], ["GLN", "ILE", "MET", "PHE"])
 
+    def test_proxies_by_program_and_library_are_the_same(self):
+        one, other = (engines.compute(tools, self.asked(density=1.0), None, self.folder, Quiet()) for tools in (self.tools, self.alone))
+        for name in ("mesh.triangle", "mesh.atom", "mesh.kind"):
+            np.testing.assert_array_equal(one[name], other[name], name)
+        np.testing.assert_allclose(one["mesh.mean_curvature"], other["mesh.mean_curvature"], atol=1e-5)
+
     def test_curvatures_of_a_proxy_are_those_of_patches(self):
         """Its triangles reach over borders, its vertices lie on the surface."""
         found = engines.compute(self.tools, self.asked(density=4.0), None, self.folder, Quiet())
@@ -307,8 +313,6 @@ class Engines(WithFolder):
         trajectory = self.asked(trajectory=samples.UBIQUITIN, frames="all", place=1)
         with self.assertRaisesRegex(engines.EngineError, "a trajectory needs the program meniscus.*Molecular Nodes"):
             engines.compute(engines.Tools(self.tools.library, None), trajectory, None, self.folder, Quiet())
-        with self.assertRaisesRegex(engines.EngineError, "proxy needs"):
-            engines.compute(self.alone, self.asked(density=0.5), None, self.folder, Quiet())
         for tools in (self.tools, self.alone):
             with self.assertRaisesRegex(engines.EngineError, "chain Q"):
                 engines.compute(tools, self.asked(selection="chain Q"), None, self.folder, Quiet())

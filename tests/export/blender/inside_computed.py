@@ -257,7 +257,7 @@ class Computed(unittest.TestCase):
         self.assertFalse(motion.is_moving(item.name))
 
     def test_solid_views_show_the_colours(self):
-        """But where somebody chose others."""
+        """But where a user chose others."""
         views = [area.spaces.active.shading for window in bpy.context.window_manager.windows for area in window.screen.areas
                  if area.type == "VIEW_3D"]
         if not views:

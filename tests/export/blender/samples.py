@@ -29,12 +29,14 @@ MOLECULES["cage"] = icosahedron(4.2)
 
 
 def export(program, folder, name, *options):
-    """The path of a fresh .mns file of one of the molecules."""
+    """The path of a fresh .mns file of one of the molecules, within 0.01 Å unless options say otherwise."""
     source = os.path.join(folder, name + ".xyzr")
     with open(source, "w", encoding="ascii") as file:
         for atom in MOLECULES[name]:
             file.write("%.12f %.12f %.12f %.4f\n" % atom)
     target = os.path.join(folder, name + ".mns")
+    if "--tolerance" not in options:
+        options = ("--tolerance", "0.01", *options)
     subprocess.run([program, "export", "blender", source, "-o", target, "--device", "cpu", "--color", "atom", "--force", *options],
                    check=True, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     return target

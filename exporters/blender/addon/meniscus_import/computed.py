@@ -179,7 +179,7 @@ def _wait_for_rest(item, in_motion):
 
 
 def _come_to_rest():
-    """Asks for the fine meshes that are due, behind their proxies."""
+    """Asks for the fine meshes that are due, once their proxies are there."""
     for name in motion.at_rest():
         item = bpy.data.objects.get(name)
         if not is_computed(item):

@@ -37,7 +37,7 @@ def at_rest():
 
 
 def is_playing():
-    """Whether somebody looks at the timeline as it runs; pictures and files are made of fine meshes."""
+    """Whether a user watches the timeline as it runs; pictures and files are made of fine meshes."""
     windows = () if bpy.app.background or _rendering else getattr(bpy.context.window_manager, "windows", ())
     return any(window.screen.is_animation_playing for window in windows)
 

@@ -142,13 +142,12 @@ def _painted(shape, atoms):
 def surface_by_program(tools, request, folder, task):
     """The same of a request about a file. folder: for files that go again."""
     program = tools.program_for_files()
-    if request.density:
-        raise EngineError("a proxy needs libmeniscus; set Detail to Fine")
     task.say("Program")
     with tempfile.TemporaryDirectory(dir=folder, prefix="surface_") as inner:
         target = os.path.join(inner, "run" if request.place else "surface.mns")
         words = [program, "export", "blender", request.file, *_about_atoms(request), "--surface", SURFACES[request.kind],
-                 f"--probe={request.probe!r}", f"--tolerance={request.tolerance!r}", "--force", "-q", "-o", target]
+                 f"--probe={request.probe!r}",
+                 f"--density={request.density!r}" if request.density else f"--tolerance={request.tolerance!r}", "--force", "-q", "-o", target]
         if request.kind == "VDW":
             words.remove(f"--probe={request.probe!r}")
         if request.place:

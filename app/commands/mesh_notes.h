@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What commands that write meshes say of their size and fineness, and refuse.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "app/options/scene_options.h"
+#include "core/mesh/mesh_objects.h"
+#include "core/queries/surface_object.h"
+
+namespace meniscus {
+
+/// Whether the command line or the scene says how fine a mesh is.
+bool has_fineness(const SceneOptions& options);
+
+/// Whether each copy of an object gets triangles of its own.
+enum class CopiesOfMesh { own, shared };
+
+/// About how many the meshes of some objects will have.
+double expected_triangles(std::span<const SurfaceObject> objects, const MeshFineness& fineness, CopiesOfMesh copies);
+
+/// Before a mesh is made: a warning on stderr if it is expected to be very large, unless quiet.
+void warn_of_many(const SceneCommand& command, double expected_triangles);
+
+/// "within 0.05 Å of the surface", or what else was asked for.
+std::string fineness_words(const MeshRequest& request, const MeshFineness& fineness);
+
+/// Throws RequestError where an even mesh would have to end at atoms that --show leaves out, or at planes.
+void refuse_even_parts(const MeshFineness& fineness, bool has_hidden_atoms, bool is_cut);
+
+}  // namespace meniscus
