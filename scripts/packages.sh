@@ -20,6 +20,7 @@ test_packages=(python3-venv python3-pip libgtest-dev libbenchmark-dev glslang-to
   python3-openimageio xvfb xdotool x11-utils chromium python3-websockets
   python3-mdanalysis python3-mdtraj python3-parmed r-cran-bio3d python3-h5py python3-pymol python3-pil
   slurmctld slurmd slurm-client munge snakemake python3-yaml python3-jsonschema python3-prometheus-client libxml2-utils nodejs make git
+  nginx-light libnginx-mod-http-dav-ext rclone
   apbs pdb2pqr poppler-utils librsvg2-bin
   python3-biopython python3-ost jmol
   python3-rdkit rdkit-data python3-openbabel openbabel

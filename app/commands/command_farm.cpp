@@ -13,6 +13,7 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/parse_bundled_command.h"
+#include "app/farm/check_bundle.h"
 #include "app/farm/child_process.h"
 #include "app/farm/claims.h"
 #include "app/farm/frame_log.h"
@@ -21,6 +22,7 @@
 #include "app/farm/make_bundle.h"
 #include "app/farm/makers.h"
 #include "app/farm/merge.h"
+#include "app/farm/pause.h"
 #include "app/farm/quote.h"
 #include "app/farm/read_bundle.h"
 #include "app/farm/status_report.h"
@@ -45,7 +47,7 @@ struct BundleCommand {
   std::string folder, engines = "make,slurm,openjd,flamenco", film, addon = addon_folder();
   double frames_per_second = 25.0;
   FilmFormat film_format;
-  bool link = false;
+  bool link = false, reference = false;
 };
 
 std::vector<farm::Engine> engines_of(const BundleCommand& command) {
@@ -82,6 +84,7 @@ void bundle(BundleCommand command) {
   options.addon = command.addon;
   options.engines = engines_of(command);
   if (command.link) options.transfer = farm::InputTransfer::link;
+  if (command.reference) options.transfer = farm::InputTransfer::reference;
   if (!command.film.empty()) {
     check_film_name(command.film);
     options.film = farm::Film{command.film, command.frames_per_second, command.film_format};
@@ -130,8 +133,11 @@ void add_farm_bundle(CLI::App& command) {
   options.add("frames.crf", state->film_format.rate_factor);
   options.add("frames.bits", state->film_format.bits)->check(CLI::IsMember({8, 10}).description(""));
   options.add("frames.chroma", state->film_format.chroma)->check(CLI::IsMember({420, 422, 444}).description(""));
+  CLI::Option* const tries = options.add("bundle.tries", state->options.tries.most);
+  options.add("bundle.retry_wait", state->options.tries.wait_seconds)->needs(tries);
   options.add("bundle.farm_path", state->options.farm_path);
-  options.add("bundle.link", state->link);
+  CLI::Option* const link = options.add("bundle.link", state->link);
+  options.add("bundle.by_reference", state->reference)->excludes(link);
   options.add("bundle.addon", state->addon);
   options.add("bundle.force", state->options.force);
   command.callback([state, &command] {
@@ -180,7 +186,9 @@ std::string outcome(const std::optional<farm::FrameRecord>& record) {
   const std::string who = record->worker.empty() ? "" : " by " + escaped(record->worker);
   const std::string when = record->ended > 0.0 ? " at " + utc_time(record->ended) : "";
   if (!record->done())
-    return fmt::format("failed{}{}, exit code {}: {}", who, when, record->exit_code, escaped(record->error));
+    return fmt::format("failed{}{}{}, exit code {}: {}", who, when,
+                       record->tries > 1 ? fmt::format(", {} times", record->tries) : "", record->exit_code,
+                       escaped(record->error));
   const std::string again = record->first_try.empty() ? "" : "; second try: " + escaped(record->first_try);
   return fmt::format("made{}{} in {:.2f} s{}", who, when, record->seconds, again);
 }
@@ -247,7 +255,12 @@ void verify(const std::filesystem::path& folder, const std::optional<farm::InPla
   const farm::Bundle bundle = farm::read_bundle(folder);
   const StopHandler handler([] { farm::stop_children(); }, std::nullopt);
   farm::check_places(folder);
-  farm::check_inputs(bundle, folder, true);
+  // What is not in the folder is not needed any more.
+  farm::Bundle here = bundle;
+  std::erase_if(here.inputs, [&](const farm::Input& input) {
+    return !input.source.empty() && farm::input_path(input, folder) == input.source;
+  });
+  farm::check_inputs(here, folder, true);
   const std::vector<farm::FrameFault> faults = farm::faults_of(bundle, folder);
   for (std::size_t n = 0; n < std::min(faults.size(), kFaultsShown); ++n)
     std::cerr << fmt::format("meniscus: {} frame {}: {}\n", faults[n].step, faults[n].frame, escaped(faults[n].what));
@@ -364,6 +377,32 @@ void add_farm_merge(CLI::App& command) {
       ->required()
       ->type_name("");
   command.callback([state] { merge(state->into, state->copies); });
+}
+
+namespace {
+
+void add_pause(CLI::App& command, bool paused) {
+  auto folder = std::make_shared<std::string>();
+  command.add_option("BUNDLE", *folder, "Folder of the bundle")->required()->type_name("");
+  command.callback([folder, paused] {
+    farm::read_bundle(*folder);
+    farm::check_places(*folder);
+    farm::set_paused(*folder, paused);
+  });
+}
+
+}  // namespace
+
+void add_farm_pause(CLI::App& command) {
+  describe(
+      command, "  meniscus farm pause film",
+      "Each worker ends the frame that it is at, gives back its others, and waits. It keeps its place in a queue.");
+  add_pause(command, true);
+}
+
+void add_farm_resume(CLI::App& command) {
+  describe(command, "  meniscus farm resume film");
+  add_pause(command, false);
 }
 
 void add_farm(CLI::App& command) {

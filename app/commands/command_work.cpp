@@ -31,6 +31,7 @@ struct WorkCommand {
   std::string folder, step, frames, chunk;
   bool force = false, require_gpu = false;
   double lease = farm::kDefaultLease;
+  std::optional<std::uint64_t> tries;
   std::string device;
   int threads = 0;
   ProgressStyle progress = ProgressStyle::automatic;
@@ -70,6 +71,8 @@ farm::Assignment assignment_of(const WorkCommand& command, const farm::Bundle& b
   assignment.force = command.force;
   assignment.alone = !command.chunk.empty();
   assignment.lease_seconds = command.lease;
+  assignment.tries = bundle.tries;
+  if (command.tries) assignment.tries.most = *command.tries;
   std::string names;
   for (const farm::Step& step : bundle.steps) {
     names += (names.empty() ? "" : ", ") + step.name;
@@ -129,6 +132,7 @@ void add_work(CLI::App& command) {
   CLI::Option* const frames = options.add("work.frames", state->frames);
   options.add("work.chunk", state->chunk)->excludes(frames);
   options.add("work.force", state->force);
+  options.add("work.tries", state->tries);
   options.add("work.lease", state->lease);
   using enum ProgressStyle;
   options.add_word("frames.progress", state->progress, {automatic, bar, plain, json, openjd, none});

@@ -27,6 +27,8 @@ constexpr Command kFarmCommands[] = {
     {"bundle", "Make a folder of frames to render that any machine can work on", add_farm_bundle},
     {"status", "Show the progress of a bundle, the time left and the last failure", add_farm_status},
     {"log", "Show what happened to a frame, which machine made it, and the output of its programs", add_farm_log},
+    {"pause", "Let the workers of a bundle wait", add_farm_pause},
+    {"resume", "Let the workers of a bundle go on", add_farm_resume},
     {"merge", "Take over what was made in copies of a bundle, on machines that share no folder", add_farm_merge},
     {"verify", "Check that every frame is complete, of the right size and not blank; then make the film",
      add_farm_verify},

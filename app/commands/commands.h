@@ -45,6 +45,8 @@ void add_farm(CLI::App& command);
 void add_farm_bundle(CLI::App& command);
 void add_farm_log(CLI::App& command);
 void add_farm_merge(CLI::App& command);
+void add_farm_pause(CLI::App& command);
+void add_farm_resume(CLI::App& command);
 void add_farm_status(CLI::App& command);
 void add_farm_verify(CLI::App& command);
 void add_film(CLI::App& command);

@@ -22,6 +22,8 @@ using Json = nlohmann::ordered_json;
 constexpr int kSchemaVersion = 1;
 constexpr std::uint64_t kMostChunks = 1000;         // Slurm's MaxArraySize is 1001 unless a site says otherwise
 constexpr std::uint64_t kMostFrames = 100'000'000;  // a manifest that asks for more is damaged
+constexpr std::uint64_t kMostTries = 100;
+constexpr double kLongestWait = 3600.0;  // seconds before a frame is tried again
 constexpr std::uint64_t kAnyNumber = ~std::uint64_t{0};
 constexpr std::size_t kLongestShown = 200;  // bytes of a value in a message
 constexpr const char* kMakers[] = {"meniscus", "povray", "blender"};
@@ -86,11 +88,29 @@ Json film_json(const Film& film) {
   return json;
 }
 
+// Where inputs are does not decide how frames look: copies of a bundle may have them in different places.
+Json references_json(const Bundle& bundle) {
+  Json json = Json::object();
+  for (const Input& input : bundle.inputs)
+    if (!input.source.empty()) json[input.path] = input.source;
+  return json;
+}
+
 Json whole_json(const Bundle& bundle, bool measured) {
   Json json = work_json(bundle);
   if (bundle.film) json["film"] = film_json(*bundle.film);
   json["chunks"] = chunking_json(bundle.chunking, measured);
+  if (Json references = references_json(bundle); !references.empty()) json["references"] = std::move(references);
+  if (bundle.tries.most > 1) json["tries"] = {{"most", bundle.tries.most}, {"wait_seconds", bundle.tries.wait_seconds}};
   return json;
+}
+
+void read_references(const Json& json, Bundle& bundle) {
+  for (const auto& [path, source] : json.items()) {
+    const auto input = std::ranges::find(bundle.inputs, path, &Input::path);
+    if (input == bundle.inputs.end()) throw RequestError(fmt::format("{} is no input of it", in_quotes(path)));
+    input->source = source.get<std::string>();
+  }
 }
 
 Chunking read_chunking(const Json& json) {
@@ -135,10 +155,16 @@ Bundle bundle_from_json(const Json& json) {
     bundle.steps.push_back({step.at("name").get<std::string>(), maker_of(step.at("maker").get<std::string>()),
                             step.at("arguments").get<std::vector<std::string>>()});
   for (const Json& input : json.at("inputs"))
-    bundle.inputs.push_back({input.at("path").get<std::string>(), whole_number(input.at("bytes"), kAnyNumber),
-                             input.at("sha256").get<std::string>()});
+    bundle.inputs.push_back({input.at("path").get<std::string>(),
+                             whole_number(input.at("bytes"), kAnyNumber),
+                             input.at("sha256").get<std::string>(),
+                             {}});
+  if (json.contains("references")) read_references(json.at("references"), bundle);
   if (json.contains("film")) bundle.film = read_film(json.at("film"));
   bundle.chunking = read_chunking(json.at("chunks"));
+  if (json.contains("tries"))
+    bundle.tries = {whole_number(json.at("tries").at("most"), kMostTries),
+                    json.at("tries").at("wait_seconds").get<double>()};
   return bundle;
 }
 
@@ -159,6 +185,11 @@ std::optional<std::uint64_t> Chunking::memory() const {
   if (asked_memory || !peak_memory) return asked_memory;
   const std::uint64_t needed = *peak_memory + *peak_memory / 2 + kWorker;
   return (needed + kStep - 1) / kStep * kStep;
+}
+
+std::optional<double> Tries::wait_after(std::uint64_t failed) const {
+  if (failed >= most) return {};
+  return std::min(std::ldexp(wait_seconds, static_cast<int>(std::min(failed, kMostTries)) - 1), kLongestWait);
 }
 
 std::string Bundle::fingerprint() const { return sha256(work_json(*this).dump()); }

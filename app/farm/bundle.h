@@ -29,11 +29,12 @@ struct Step {
   std::vector<std::string> arguments;  ///< more of them: devices of this program, POV-Ray's, those of Blender's driver
 };
 
-/// A file the command reads, copied into the bundle.
+/// A file the command reads: in the bundle, or elsewhere.
 struct Input {
   std::string path;  ///< relative to the bundle
   std::uint64_t bytes = 0;
   std::string sha256;
+  std::string source = {};  ///< by reference: where it is if it is not in the bundle; an absolute path of plain names
 };
 
 /// The film that `farm verify` makes of the pictures.
@@ -63,6 +64,15 @@ struct Chunking {
   std::optional<std::uint64_t> memory() const;
 };
 
+/// How often a frame is tried that fails.
+struct Tries {
+  std::uint64_t most = 1;      ///< then it has failed
+  double wait_seconds = 10.0;  ///< before the second; twice as long before each one after it, an hour at most
+
+  /// Seconds before the next, after so many failed ones; nothing if it was the last.
+  std::optional<double> wait_after(std::uint64_t failed) const;
+};
+
 /// Everything a worker needs to know. Nothing in it depends on time, machine or user, but what was measured
 /// and follows of it.
 struct Bundle {
@@ -74,6 +84,7 @@ struct Bundle {
   int width = 0, height = 0;  ///< of the pictures, in pixels
   std::optional<Film> film;
   Chunking chunking;
+  Tries tries;  ///< unless the worker is told otherwise
 
   /// Of what decides how a frame looks. Work done for another bundle never counts for this one.
   std::string fingerprint() const;

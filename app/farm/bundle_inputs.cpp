@@ -7,8 +7,10 @@
 #include <fmt/format.h>
 
 #include "app/farm/checksum.h"
+#include "app/farm/inner_path.h"
 #include "core/base/error.h"
 #include "core/base/output_file.h"
+#include "core/base/text.h"
 
 namespace meniscus::farm {
 namespace {
@@ -37,7 +39,7 @@ std::string BundleInputs::add_file(const fs::path& source) {
   if (!fs::is_regular_file(path)) throw InputError(source.string(), 0, "is not a regular file and cannot be bundled");
   for (const Item& item : items_)
     if (item.source == path) return item.inside;
-  items_.push_back({"inputs/" + unique(plain(source.filename().string())), path, {}});
+  items_.push_back({"inputs/" + unique(plain(source.filename().string())), path, {}, true});
   return items_.back().inside;
 }
 
@@ -58,14 +60,21 @@ std::string BundleInputs::add_text(const std::string& name, std::string text) {
   return items_.back().inside;
 }
 
-std::vector<Input> BundleInputs::measured() const {
+std::vector<Input> BundleInputs::measured(InputTransfer how) const {
   std::vector<Input> inputs;
   for (const Item& item : items_) {
     if (item.source.empty()) {
-      inputs.push_back({item.inside, item.text.size(), sha256(item.text)});
+      inputs.push_back({item.inside, item.text.size(), sha256(item.text), {}});
     } else {
       const std::string sum = sha256_of_file(item.source);
-      inputs.push_back({item.inside, fs::file_size(item.source), sum});
+      inputs.push_back({item.inside, fs::file_size(item.source), sum, {}});
+      if (how != InputTransfer::reference || !item.is_users) continue;
+      inputs.back().source = item.source.string();
+      if (!is_plain_absolute_path(inputs.back().source))
+        throw RequestError(
+            fmt::format("--by-reference: {} has other characters than letters, digits, '.', '_' and '-', or a hidden "
+                        "folder; leave the option out to copy the file",
+                        in_quotes(inputs.back().source)));
     }
   }
   return inputs;
@@ -80,6 +89,8 @@ void BundleInputs::transfer(const fs::path& folder, InputTransfer how) const {
       OutputFile file(target, Existing::refuse);
       file.write(item.text);
       file.commit();
+    } else if (how == InputTransfer::reference && item.is_users) {
+      continue;
     } else if (how == InputTransfer::link) {
       fs::create_hard_link(item.source, target, error);
       if (error)

@@ -11,8 +11,12 @@
 
 namespace meniscus::farm {
 
-/// How a file comes into the bundle.
-enum class InputTransfer { copy, link };
+/// How a file of the user's comes into the bundle.
+enum class InputTransfer {
+  copy,
+  link,      ///< a hard link
+  reference  ///< not at all: the bundle says where it is
+};
 
 /// Collects the inputs of a bundle. Names inside are plain: letters, digits, "._-" and nothing else, so that no engine
 /// has to quote them.
@@ -25,8 +29,9 @@ class BundleInputs {
   /// A text made here, under a name of ours.
   std::string add_text(const std::string& name, std::string text);
 
-  /// Sizes and checksums, in the order they were added. Reads every file. Throws InputError.
-  std::vector<Input> measured() const;
+  /// Sizes and checksums, in the order they were added. Reads every file. Throws InputError, and RequestError for a
+  /// path that a bundle cannot name.
+  std::vector<Input> measured(InputTransfer how) const;
   /// Puts them into the bundle. Throws OutputError, InputError.
   void transfer(const std::filesystem::path& folder, InputTransfer how) const;
 
@@ -35,6 +40,7 @@ class BundleInputs {
     std::string inside;
     std::filesystem::path source;  ///< empty: the text
     std::string text;
+    bool is_users = false;  ///< else ours
   };
   std::string unique(const std::string& name);
 

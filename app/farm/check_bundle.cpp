@@ -34,6 +34,10 @@ void check_inputs(const Bundle& bundle) {
   for (const Input& input : bundle.inputs) {
     if (!input.path.starts_with("inputs/") || !is_inner_path(input.path))
       throw RequestError(fmt::format("input {} is not a plain path below inputs/", in_quotes(input.path)));
+    if (!input.source.empty() && !is_plain_absolute_path(input.source))
+      throw RequestError(
+          fmt::format("input {} is elsewhere: {} is not an absolute path of letters, digits, '.', '_' and '-'",
+                      input.path, in_quotes(input.source)));
     if (!paths.insert(input.path).second) throw RequestError(fmt::format("input {} appears twice", input.path));
   }
 }
@@ -62,6 +66,8 @@ void check_numbers(const Bundle& bundle) {
       std::max(bundle.chunking.asked_memory.value_or(1), bundle.chunking.peak_memory.value_or(1));
   if (bundle.chunking.cores < 1 || bundle.chunking.cores > kMostCores || memory < 1 || memory > kMostMemory)
     throw RequestError("cores or memory of its tasks are not valid");
+  if (bundle.tries.most < 1 || !(bundle.tries.wait_seconds >= 0.1 && bundle.tries.wait_seconds <= 3600.0))
+    throw RequestError("its number of tries, or the time between them, is not valid");
   if (!bundle.film) return;
   if (!bundle.makes_pictures()) throw RequestError("has a film, and no pictures to make it of");
   const double rate = bundle.film->frames_per_second;
@@ -80,18 +86,24 @@ void check_numbers(const Bundle& bundle) {
 
 std::size_t command_word_count(const Words& command) { return !command.empty() && command.front() == "export" ? 2 : 1; }
 
-Words checked_command(const Bundle& bundle) {
+std::filesystem::path input_path(const Input& input, const std::filesystem::path& folder) {
+  const bool is_elsewhere = !input.source.empty() && inner_entry(folder, input.path) == Entry::nothing;
+  return is_elsewhere ? std::filesystem::path(input.source) : folder / input.path;
+}
+
+Words checked_command(const Bundle& bundle, const std::filesystem::path& folder) {
   Words result = command_words(bundle.command);
   const auto file = bundle.command.begin() + static_cast<std::ptrdiff_t>(result.size());
-  const auto check_file = [&](const std::string& path) {
-    if (std::ranges::find(bundle.inputs, path, &Input::path) == bundle.inputs.end())
+  const auto place_of = [&](const std::string& path) {
+    const auto input = std::ranges::find(bundle.inputs, path, &Input::path);
+    if (input == bundle.inputs.end())
       throw RequestError(fmt::format("{} is not an input of the bundle", in_quotes(path)));
+    return !folder.empty() && input_path(*input, folder) == input->source ? input->source : path;
   };
-  check_file(*file);
-  result.push_back(*file);
-  const std::vector<CommandOption> options = read_command_options({file + 1, bundle.command.end()});
-  for (const CommandOption& option : options)
-    if (option.reads_file) check_file(*option.value);
+  result.push_back(place_of(*file));
+  std::vector<CommandOption> options = read_command_options({file + 1, bundle.command.end()});
+  for (CommandOption& option : options)
+    if (option.reads_file) option.value = place_of(*option.value);
   const Words words = as_words(options);
   result.insert(result.end(), words.begin(), words.end());
   return result;

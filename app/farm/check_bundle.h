@@ -2,6 +2,7 @@
 // Checks that everything a bundle asks for stays in its folder: it may come from anywhere.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,12 @@ namespace meniscus::farm {
 void check_bundle(const Bundle& bundle);
 
 /// The command as it is run, by words that cannot be understood in two ways: {"render", "inputs/a.pdb",
-/// "--probe=1.2", ...}. Throws RequestError as check_bundle does.
-std::vector<std::string> checked_command(const Bundle& bundle);
+/// "--probe=1.2", ...}. Inputs by reference have their real paths if the bundle's folder is given. Throws RequestError
+/// as check_bundle does.
+std::vector<std::string> checked_command(const Bundle& bundle, const std::filesystem::path& folder = {});
+
+/// Where an input is read: in the bundle's folder, or where it is by reference if it is not in there.
+std::filesystem::path input_path(const Input& input, const std::filesystem::path& folder);
 
 /// Of {"render", "FILE", ...} 1, of {"export", "povray", "FILE", ...} 2: words before FILE.
 std::size_t command_word_count(const std::vector<std::string>& command);

@@ -49,6 +49,8 @@ class Claims {
   std::size_t others();
   /// Of this worker: in its claims, and in records of frames it made.
   const std::string& name() const { return name_; }
+  /// The file system's time.
+  FileTime now() { return touch(); }
   /// When this worker began, by the file system.
   FileTime begin() const { return begin_; }
 

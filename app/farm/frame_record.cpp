@@ -20,6 +20,7 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLargestRecord = std::size_t{1} << 20;
+constexpr double kLongestRest = 3600.0;  // seconds
 
 // Frames are made of files in these two folders.
 bool is_made_path(const std::string& path) {
@@ -43,6 +44,8 @@ Json to_json(const FrameRecord& record) {
   if (!record.done()) {
     json["exit"] = record.exit_code;
     json["error"] = record.error;
+    if (record.tries > 1) json["tries"] = record.tries;
+    if (record.again) json["again"] = *record.again;
   }
   json["files"] = Json::array();
   for (const MadeFile& file : record.files)
@@ -66,6 +69,8 @@ FrameRecord record_from_json(const Json& json) {
   if (json.at("state") != "done") {
     record.exit_code = static_cast<int>(std::min<std::uint64_t>(whole_number(json.at("exit")), 255));
     record.error = json.at("error").get<std::string>();
+    if (json.contains("tries")) record.tries = whole_number(json.at("tries"));
+    if (json.contains("again")) record.again = json.at("again").get<double>();
   }
   for (const Json& file : json.at("files"))
     record.files.push_back(
@@ -78,7 +83,7 @@ FrameRecord record_from_json(const Json& json) {
 }
 
 bool is_sound(const FrameRecord& record) {
-  return record.exit_code >= 0 && record.exit_code < 256 &&
+  return record.exit_code >= 0 && record.exit_code < 256 && record.again.value_or(0.0) <= kLongestRest &&
          std::ranges::all_of(record.files, [](const MadeFile& file) { return is_made_path(file.path); });
 }
 

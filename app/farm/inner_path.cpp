@@ -44,6 +44,8 @@ bool is_inner_path(const std::string& text) {
          std::ranges::all_of(path, [](const fs::path& part) { return is_plain_name(part.string()); });
 }
 
+bool is_plain_absolute_path(const std::string& text) { return text.starts_with('/') && is_inner_path(text.substr(1)); }
+
 Entry inner_entry(const fs::path& folder, const fs::path& inner) {
   fs::path path = folder;
   Entry found = Entry::folder;

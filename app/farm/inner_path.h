@@ -13,6 +13,9 @@ namespace meniscus::farm {
 /// Whether the text is a relative path of plain names: letters, digits, "._-", none of them "." or ".." or hidden.
 bool is_inner_path(const std::string& text);
 
+/// Whether it is an absolute path of such names.
+bool is_plain_absolute_path(const std::string& text);
+
 /// What lies at a path, no link followed.
 enum class Entry { nothing, file, folder };
 

@@ -259,8 +259,9 @@ Bundle described(const BundleOptions& options, const BundledCommand& asked, Bund
   legend = legend_of(scene, frames);
   bundle.command = bundled_words(asked, default_camera(scene, cameras, shown), range, inputs);
   if (bundle.steps.back().maker == Maker::blender) add_addon(options.addon, inputs);
-  bundle.inputs = inputs.measured();
+  bundle.inputs = inputs.measured(options.transfer);
   bundle.chunking = options.chunking;
+  bundle.tries = options.tries;
   if (!options.cores_asked) bundle.chunking.cores = threads_of(asked.device).value_or(bundle.chunking.cores);
   check_bundle(bundle);
   return bundle;

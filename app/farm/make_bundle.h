@@ -19,6 +19,7 @@ struct BundleOptions {
   std::string farm_path;
   std::optional<Film> film;
   Chunking chunking;
+  Tries tries;
   bool cores_asked = false;  ///< else as many as --threads after -- says, if it does
   InputTransfer transfer = InputTransfer::copy;
   std::filesystem::path addon;  ///< folder of render_mns.py

@@ -39,7 +39,7 @@ Arguments meniscus_command(const Bundle& bundle, const Step& step, const Workpla
                            const std::vector<std::uint64_t>& frames, bool alone) {
   // This very program, whatever PATH says: the frames of a run must come from one version.
   Arguments command{system_file::program().string()};
-  const Arguments checked = checked_command(bundle);
+  const Arguments checked = checked_command(bundle, place.folder);
   command.insert(command.end(), checked.begin(), checked.end());
   const Arguments device = device_words(step, place, alone);
   command.insert(command.end(), device.begin(), device.end());

@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "app/farm/pause.h"
 #include "app/farm/sign_of_life.h"
 
 namespace meniscus::farm {
@@ -87,6 +88,7 @@ BundleStatus status_of(const Bundle& bundle, const std::filesystem::path& folder
   const FrameRecords records(folder, bundle);
   BundleStatus status;
   status.workers = live_workers(folder, [&] { return file_system_now(folder); });
+  status.paused = is_paused(folder);
   if (bundle.film) status.film = read_film_note(bundle, folder);
   status.seconds_to_go = 0.0;
   for (const Step& step : bundle.steps) {

@@ -37,6 +37,7 @@ struct BundleStatus {
   std::vector<std::string> workers;     ///< that live now, by name
   std::optional<double> seconds_to_go;  ///< of all steps, one after another; nothing if one is not known
   std::optional<FilmNote> film;         ///< if it was made without some frames
+  bool paused = false;
 };
 
 /// Of files their sizes are looked at; `farm verify` looks at what is in them.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <iterator>
 #include <span>
 #include <utility>
@@ -36,8 +37,23 @@ std::span<const Frame> last(const std::vector<Frame>& frames) {
   return std::span(frames).last(std::min(frames.size(), kFaultsShown));
 }
 
+/// Of a frame that failed: ", 2 tries, the next in 5 s", by this machine's clock. Nothing if it failed for good at
+/// once.
+std::string tries_text(const FrameRecord& failed) {
+  const std::string tries = failed.tries > 1 || failed.again
+                                ? fmt::format(", {} {}", failed.tries, failed.tries == 1 ? "try" : "tries")
+                                : std::string();
+  if (!failed.again) return tries;
+  const double now = std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+  return tries + fmt::format(", the next in {}", duration(std::max(0.0, failed.ended + *failed.again - now)));
+}
+
 /// "2 workers are running (a-1-2, b-3-4): about 5:00 min to go"
-std::string workers_line(const BundleStatus& status) {
+std::string workers_line(const BundleStatus& status, const std::filesystem::path& folder) {
+  if (status.paused)
+    return fmt::format("\npaused, {} {} {}; meniscus farm resume {} ends that\n", status.workers.size(),
+                       status.workers.size() == 1 ? "worker" : "workers", status.workers.size() == 1 ? "waits" : "wait",
+                       escaped(shell_word(folder.string())));
   if (status.seconds_to_go == 0.0) return {};
   if (status.workers.empty()) return "\nno worker is running\n";
   const std::size_t shown = std::min(status.workers.size(), kWorkersShown);
@@ -92,12 +108,12 @@ std::string status_table(const Bundle& bundle, const BundleStatus& status, const
                    step.seconds_per_frame ? fmt::format("{:.2f}", *step.seconds_per_frame) : "?",
                    duration(step.seconds_left), duration(step.seconds_to_go));
   }
-  text += workers_line(status);
+  text += workers_line(status, folder);
   std::optional<std::uint64_t> failed;
   for (const StepStatus& step : status.steps) {
     for (const FrameRecord& frame : last(step.failed))
-      fmt::format_to(out, "\n{} frame {}, exit code {}: {}", step.step, frame.frame, frame.exit_code,
-                     escaped(frame.error));
+      fmt::format_to(out, "\n{} frame {}, exit code {}{}: {}", step.step, frame.frame, frame.exit_code,
+                     tries_text(frame), escaped(frame.error));
     for (const DamagedFrame& frame : last(step.damaged))
       fmt::format_to(out, "\n{} frame {}: {}", step.step, frame.frame, escaped(frame.what));
     if (!step.failed.empty() || !step.damaged.empty()) text += "\n";
@@ -117,6 +133,7 @@ std::string status_json(const Bundle& bundle, const BundleStatus& status) {
   json["schema_version"] = 1;
   json["frames"] = bundle.frames.size();
   json["tasks"] = bundle.chunking.count;
+  json["paused"] = status.paused;
   json["workers"] = status.workers;
   json["seconds_to_go"] = number(status.seconds_to_go);
   if (status.film)
@@ -125,7 +142,11 @@ std::string status_json(const Bundle& bundle, const BundleStatus& status) {
   for (const StepStatus& step : status.steps) {
     Json failed = Json::array();
     for (const FrameRecord& record : step.failed)
-      failed.push_back({{"frame", record.frame}, {"exit", record.exit_code}, {"error", record.error}});
+      failed.push_back({{"frame", record.frame},
+                        {"exit", record.exit_code},
+                        {"error", record.error},
+                        {"tries", record.tries},
+                        {"again_after_seconds", number(record.again)}});
     Json damaged = Json::array();
     for (const DamagedFrame& frame : step.damaged) damaged.push_back({{"frame", frame.frame}, {"what", frame.what}});
     json["steps"].push_back({{"name", step.step},

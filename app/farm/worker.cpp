@@ -13,11 +13,14 @@
 
 #include <fmt/format.h>
 
+#include "app/farm/check_bundle.h"
 #include "app/farm/checksum.h"
 #include "app/farm/claims.h"
 #include "app/farm/frame_log.h"
 #include "app/farm/frame_record.h"
 #include "app/farm/inner_path.h"
+#include "app/farm/pause.h"
+#include "app/farm/quote.h"
 #include "app/process/program_error.h"
 #include "app/process/this_program.h"
 #include "core/base/text.h"
@@ -63,6 +66,9 @@ struct Task {
   RunProgress progress;
   Pace pace;
 };
+
+/// Thrown out of the middle of a batch when the bundle is paused.
+struct Paused {};
 
 class Worker {
  public:
@@ -115,13 +121,25 @@ class Worker {
   /// Makes what nobody else makes, until all of the step is made or claimed.
   void make(Task& task) {
     while (true) {
-      const std::vector<std::uint64_t> batch = next_batch(task);
-      if (batch.empty()) return;
+      wait_while_paused(task);
+      batch_ = next_batch(task);
+      if (batch_.empty()) return;
       begin_ = std::chrono::steady_clock::now();
       first_ = true;
       log_.take();  // what was said after the last frame of a batch before
-      make_frames(bundle_, task.step, place_, batch, listener(task));
+      try {
+        make_frames(bundle_, task.step, place_, std::vector(batch_), listener(task));
+      } catch (const Paused&) {
+        for (const std::uint64_t frame : batch_) claims_.give_back(task.step.name, frame);
+        task.open.insert(task.open.begin(), batch_.begin(), batch_.end());
+      }
     }
+  }
+
+  void wait_while_paused(Task& task) {
+    if (!is_paused(place_.folder)) return;
+    task.progress.tell(fmt::format("paused; `meniscus farm resume {}` ends that", shell_word(place_.folder.string())));
+    while (is_paused(place_.folder)) std::this_thread::sleep_for(kLongestWait);
   }
 
   /// The chunk of an engine is one worker's alone. Of the whole run each worker takes half of what would be fair, so
@@ -155,11 +173,28 @@ class Worker {
       fail(task, frame, code, why);
       return Way::settled;
     }
-    if (!claims_.take(task.step.name, frame)) return Way::waits;
-    // Another may have made it between the looks above.
-    if (!is_settled(task, frame)) return Way::free;
+    if (rests(task.step.name, frame) || !claims_.take(task.step.name, frame)) return Way::waits;
+    // Another may have made it, or failed in it, between the looks above.
+    const bool settled = is_settled(task, frame);
+    if (!settled && !rests(task.step.name, frame)) return Way::free;
     claims_.give_back(task.step.name, frame);
-    return Way::settled;
+    return settled ? Way::settled : Way::waits;
+  }
+
+  /// Whether a frame that failed will be tried again, by this worker or one like it.
+  bool has_another_try(const FrameRecord& record) const {
+    return !record.done() && record.again && record.tries < assignment_.tries.most;
+  }
+
+  /// Whether it is too early for that.
+  bool rests(const std::string& step, std::uint64_t frame) {
+    const std::optional<FrameRecord> record = records_.read(step, frame);
+    return record && has_another_try(*record) && age(step, frame) < *record->again;
+  }
+
+  /// Of a record, in seconds.
+  double age(const std::string& step, std::uint64_t frame) {
+    return seconds_between(records_.written(step, frame).value_or(0), claims_.now());
   }
 
   /// Whether another has made the frame, or failed in it, since this worker began.
@@ -167,7 +202,7 @@ class Worker {
     const std::optional<FrameRecord> record = records_.read(task.step.name, frame);
     if (!record) return false;
     if (record->done()) return (!assignment_.force || is_recent(task.step, frame)) && is_good(record);
-    if (!is_recent(task.step, frame)) return false;
+    if (has_another_try(*record) || !is_recent(task.step, frame)) return false;
     fail(task, frame, record->exit_code, record->error);
     return true;
   }
@@ -192,6 +227,9 @@ class Worker {
     const Step& before = *(&step - 1);
     for (const Task& task : tasks_)
       if (&task.step == &before && std::ranges::find(task.open, frame) != task.open.end()) return true;
+    const std::optional<FrameRecord> record = records_.read(before.name, frame);
+    if (record && !record->done() && record->again && age(before.name, frame) < *record->again + kDefaultLease)
+      return true;
     return claims_.is_taken(before.name, frame);
   }
 
@@ -219,14 +257,25 @@ class Worker {
       keep(step, record);
       measure(task.pace, seconds);
       task.progress.done(frame, files, 1000.0 * seconds);
+      stop_if_paused();
     };
     listener.failed = [&](std::uint64_t frame, int code, const std::string& error) {
+      const std::optional<FrameRecord> before = records_.read(step, frame);
       FrameRecord record;
       record.frame = frame;
       record.exit_code = code;
       record.error = error;
+      if (before && has_another_try(*before)) record.tries = before->tries + 1;
+      record.again = assignment_.tries.wait_after(record.tries);
       keep(step, record);
-      fail(task, frame, code, error);
+      if (record.again) {
+        task.open.push_back(frame);
+        task.progress.tell(fmt::format("frame {} failed, try {} of {}, the next in {:.3g} s: {}", frame, record.tries,
+                                       assignment_.tries.most, *record.again, escaped(error)));
+      } else {
+        fail(task, frame, code, error);
+      }
+      stop_if_paused();
     };
     listener.tried_again = [&](std::uint64_t, const std::string& error) {
       first_try_ = error;
@@ -244,6 +293,11 @@ class Worker {
     write_frame_log(place_.folder, step, record.frame, log_.take());
     records_.write(step, record);
     claims_.give_back(step, record.frame);
+    std::erase(batch_, record.frame);
+  }
+
+  void stop_if_paused() const {
+    if (!batch_.empty() && is_paused(place_.folder)) throw Paused{};
   }
 
   void measure(Pace& pace, double seconds) {
@@ -262,8 +316,9 @@ class Worker {
   Claims claims_;
   Failures failures_;
   std::list<Task> tasks_;
-  std::string first_try_;  ///< of the frame at work
-  FrameLog log_;           ///< likewise
+  std::vector<std::uint64_t> batch_;  ///< frames at work
+  std::string first_try_;             ///< of the frame at work
+  FrameLog log_;                      ///< likewise
   std::chrono::steady_clock::time_point begin_;
   bool first_ = true;  ///< no frame of this batch is made yet
 };
@@ -271,13 +326,20 @@ class Worker {
 }  // namespace
 
 void check_inputs(const Bundle& bundle, const std::filesystem::path& folder, bool thorough) {
+  std::error_code none_there;
   for (const Input& input : bundle.inputs) {
-    const std::string path = (folder / input.path).string();
-    if (inner_entry(folder, input.path) != Entry::file) throw InputError(path, 0, "is missing; make the bundle again");
+    const std::string path = input_path(input, folder).string();
+    const bool elsewhere = path == input.source;
+    if (elsewhere ? !std::filesystem::is_regular_file(path, none_there)
+                  : inner_entry(folder, input.path) != Entry::file)
+      throw InputError(path, 0,
+                       elsewhere ? fmt::format("is missing; bring it there, or to {}", (folder / input.path).string())
+                                 : "is missing; make the bundle again");
     const std::uintmax_t bytes = std::filesystem::file_size(path);
-    const bool same =
-        bytes == input.bytes && ((!thorough && bytes > kQuickToCheck) || sha256_of_file(path) == input.sha256);
-    if (!same) throw InputError(path, 0, "is not what was bundled (size or SHA-256); make the bundle again");
+    // Who knows the checksum of a file knows the file: a bundle of others learns of no other file by naming it.
+    const bool quick = !thorough && !elsewhere && bytes > kQuickToCheck;
+    if (bytes != input.bytes || (!quick && sha256_of_file(path) != input.sha256))
+      throw InputError(path, 0, "is not what was bundled (size or SHA-256); make the bundle again");
   }
 }
 

@@ -58,6 +58,12 @@ void RunProgress::failed(std::uint64_t frame, int exit_code, const std::string& 
   advance();
 }
 
+void RunProgress::tell(const std::string& line) const {
+  if (style_ == ProgressStyle::json) return write_line({{"event", "note"}, {"text", line}});
+  if (style_ == ProgressStyle::bar) std::cerr << "\r\033[K";
+  std::cerr << "meniscus: " << line << std::endl;
+}
+
 void RunProgress::advance() {
   ++done_;
   const double share = static_cast<double>(done_) / static_cast<double>(total_);

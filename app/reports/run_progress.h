@@ -21,6 +21,8 @@ class RunProgress {
   /// empty: its picture shows nothing.
   void done(std::uint64_t frame, const std::vector<std::string>& files, double milliseconds, bool empty = false);
   void failed(std::uint64_t frame, int exit_code, const std::string& message);
+  /// A line for people about what delays the run.
+  void tell(const std::string& line) const;
   /// Behind the last frame, whatever became of it.
   void end();
 

@@ -31,10 +31,21 @@ constexpr auto kTable = std::to_array<Property>({
     new_file("bundle.film", "--film", "NAME.mp4", "Film that farm verify makes from the pictures, in DIR")
         .in("Options"),
     number("bundle.fps", "--fps", "N", "Frames per second of the film").from(0.1, 1000).initially("25").in("Options"),
+    count("bundle.tries", "--tries", "N", "Try a frame that fails up to N times, the others in between")
+        .from(1, 100)
+        .initially("1")
+        .in("Options"),
+    number("bundle.retry_wait", "--retry-wait", "S", "Seconds before the second try, and twice as many each time")
+        .from(0.1, 3600)
+        .initially("10")
+        .in("Options"),
     text("bundle.farm_path", "--farm-path", "PATH",
          "Path of DIR on the farm's machines. OpenCue needs it; for Flamenco it is a default")
         .in("Options"),
     flag("bundle.link", "--link", "Link input files (hard links) instead of copying them").in("Options"),
+    flag("bundle.by_reference", "--by-reference",
+         "Copy no input files, but name them by path and checksum. All machines need them at these paths")
+        .in("Options"),
     file("bundle.addon", "--addon", "DIR", "Folder of render_mns.py of this version, for export blender").in("Options"),
     flag("bundle.force", "--force", "Replace another bundle in DIR and delete all its frames").in("Options"),
     flag("status.prometheus", "--prometheus", "Print metrics for Prometheus instead of a table").in("Options"),
@@ -51,6 +62,10 @@ constexpr auto kTable = std::to_array<Property>({
     text("work.chunk", "--chunk", "K/N", "Make only the Kth of N nearly equal parts of the run; K counts from 1")
         .in("Options"),
     flag("work.force", "--force", "Make frames again that already exist").in("Options"),
+    count("work.tries", "--tries", "N", "Try a frame that fails up to N times, the others in between")
+        .from(1, 100)
+        .initially("the bundle's")
+        .in("Options"),
     count("work.lease", "--lease", "S", "Seconds of silence after which other workers take over its frames")
         .from(1, 3600)
         .initially("60")

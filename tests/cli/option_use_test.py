@@ -153,7 +153,7 @@ CONTEXTS = {
     "story": ["{a.json}", "{b.json}"], "story legend": ["{a.json}", "{b.json}", "--legend"], "story film": ["{a.json}", "{b.json}"],
     "story chains": ["{chains.json}", "{chains.json}", "--legend"],
     "path": ["{one.pdb}", "{bent.pdb}"],
-    "bundle": [], "bundled film": ["--film", "f.mp4"], "": [],
+    "bundle": [], "bundled film": ["--film", "f.mp4"], "bundle tries": ["--tries", "2"], "": [],
 }
 
 # Of each option a value, and a context in which it changes what comes out.
@@ -234,6 +234,7 @@ OWN_ROWS = {
     ("formats", "--json"): (None, ""), ("farm bundle", "--engine"): ("slurm", "bundle"),
     ("farm bundle", "--chunk-minutes"): ("2", "bundle"), ("farm bundle", "--chunk-frames"): ("1", "bundle"),
     ("farm bundle", "--task-cores"): ("3", "bundle"), ("farm bundle", "--task-memory"): ("999", "bundle"),
+    ("farm bundle", "--by-reference"): (None, "bundle"), ("farm bundle", "--tries"): ("3", "bundle"), ("farm bundle", "--retry-wait"): ("5", "bundle tries"),
     ("farm bundle", "--film"): ("f.mp4", "bundle"), ("farm bundle", "--farm-path"): ("/mnt/farm", "bundle"),
     **{("panels", option): (value, context) for option, value, context in (
         ("--superpose-on", "backbone", "panels camera"), ("--columns", "1", "panels"), ("--gap", "9", "panels"),

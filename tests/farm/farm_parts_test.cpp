@@ -103,6 +103,16 @@ TEST(Chunks, AreAsLongAsWishedAndNeverTooMany) {
   EXPECT_EQ(by_frames.count, 3u);
 }
 
+TEST(Tries, WaitTwiceAsLongEachTimeAndNeverMoreThanAnHour) {
+  EXPECT_EQ(Tries{}.wait_after(1), std::nullopt);
+  const Tries three{3, 10.0}, many{100, 10.0};
+  EXPECT_EQ(three.wait_after(1), 10.0);
+  EXPECT_EQ(three.wait_after(2), 20.0);
+  EXPECT_EQ(three.wait_after(3), std::nullopt);
+  EXPECT_EQ(many.wait_after(10), 3600.0);
+  EXPECT_EQ(many.wait_after(99), 3600.0);
+}
+
 TEST(Tasks, AreGivenMemoryByWhatWasMeasured) {
   Chunking chunking;
   EXPECT_FALSE(chunking.memory());
@@ -171,6 +181,8 @@ TEST(Manifest, ComesBackAsItWas) {
   bundle.film = Film{"film.mov", 23.976, {"prores4444", {}, 10, 444}};
   bundle.chunking.seconds_per_frame = 0.1;
   bundle.chunking.decide(5);
+  bundle.tries = {4, 2.5};
+  bundle.inputs[0].source = "/data/a.pdb";
   folder.file("bundle.json", bundle_json(bundle));
   const Bundle read = read_bundle(folder.path());
   EXPECT_EQ(bundle_json(read), bundle_json(bundle));
@@ -181,6 +193,11 @@ TEST(Manifest, ComesBackAsItWas) {
   Bundle other = bundle;
   other.chunking.seconds_per_frame = 7.0;
   EXPECT_TRUE(same_but_for_measurement(bundle, other));
+  // Where an input is and how often frames are tried changes no frame.
+  other.inputs[0].source = "/elsewhere/a.pdb";
+  other.tries = {};
+  EXPECT_FALSE(same_but_for_measurement(bundle, other));
+  EXPECT_EQ(other.fingerprint(), bundle.fingerprint());
   other.inputs[0].sha256 = sha256("b");
   EXPECT_FALSE(same_but_for_measurement(bundle, other));
   EXPECT_NE(other.fingerprint(), bundle.fingerprint());

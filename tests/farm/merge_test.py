@@ -215,6 +215,33 @@ class Merge(WorkCase):
         self.assertEqual(sorted(self.records(folder, "render")), [2])
         self.assertIn("leave it out", self.meniscus("farm", "merge", folder, os.path.relpath(folder), code=2).stderr)
 
+    def of_version(self, folder, version):
+        """The bundle and its records as if a program of that version had made them."""
+        manifest = json.loads((folder / "bundle.json").read_text())
+        manifest["program_version"] = version
+        (folder / "bundle.json").write_text(json.dumps(manifest))
+        keys = ("schema", "schema_version", "program_version", "command", "frames", "frame_count", "size", "steps", "inputs")
+        text = json.dumps({key: manifest[key] for key in keys}, separators=(",", ":"))
+        for path in (folder / "state").glob("*/*.json"):
+            record = {**json.loads(path.read_text()), "bundle": hashlib.sha256(text.encode()).hexdigest()}
+            path.write_text(json.dumps(record))
+
+    def test_what_a_program_of_another_version_may_do(self):
+        """It makes no frame of the film, but counts, merges and shows those of the program that made the bundle."""
+        folder, _ = self.copies("older", 0)
+        copy, of_now = self.finished_copy("older_from"), self.finished_copy("newer_from")
+        for place in (folder, copy):
+            self.of_version(place, "0.0.1+gabcdef012345")
+        self.assertIn("was made by meniscus", self.meniscus("farm", "merge", folder, of_now, code=3).stderr)
+        self.assertEqual(self.records(folder, "render"), {})
+        self.meniscus("farm", "merge", folder, copy)
+        self.assertEqual(json.loads(self.meniscus("farm", "status", folder, "--json").stdout)["steps"][1]["done"], FRAMES)
+        self.assertIn("made by", self.meniscus("farm", "log", folder, "3").stdout)
+        self.meniscus("farm", "verify", folder)
+        self.assert_equals_reference(folder)
+        (folder / "images" / "frame_00003.png").unlink()
+        self.assertIn("use one build on all machines", self.meniscus("work", folder, code=3).stderr)
+
     def test_frames_that_failed_elsewhere_are_known_here(self):
         folder, (first, second) = self.copies("failing", 2)
         for copy in (first, second):
