@@ -53,7 +53,7 @@ spheres() { program pdb_to_xyzr "$molecule" > "$work/$1.xyzr" && program pdb_to_
 msms() { cd "$work" && program msms -if Å.xyzr -of Å -af Å -density 3 && ls Å.vert Å.face Å.area; }
 nanoshaper() { cd "$work" && printf 'XYZR_FileName = Å.xyzr\nRoot_FileName = Å.\n' > Å.prm && program nanoshaper Å.prm; }
 
-python3 -m pip download -q --disable-pip-version-check --no-deps --only-binary=:all: --platform win_amd64 --python-version 3.11 -d "$work" "numpy<2.3"
+python3 -m pip download -q --disable-pip-version-check --no-deps --only-binary=:all: --platform win_amd64 --python-version 3.11 -d "$work" "numpy==1.26.*"
 check "installed by pip, to the first area" first_area
 check "the area again" inside -c "$compute"
 check "spheres, with and without names" spheres Å
