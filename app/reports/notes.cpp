@@ -14,7 +14,6 @@
 #include "app/reports/file_report.h"
 #include "core/base/text.h"
 #include "core/color/ordered_classes.h"
-#include "core/mesh/mesh_objects.h"
 
 namespace meniscus {
 namespace {
@@ -87,14 +86,6 @@ void tell_run(const SceneCommand& command, const FrameRun& frames) {
       say(command, fmt::format("warning: {}: {}", trajectory.path(), warning.text));
   if (!trajectory.cut_short().empty())
     say(command, fmt::format("warning: {}: {}", trajectory.path(), trajectory.cut_short()));
-}
-
-std::vector<TriangleMesh> mesh_and_tell(const SceneCommand& command, std::span<const SurfaceObject> objects,
-                                        double tolerance, bool may_be_empty) {
-  std::vector<TriangleMesh> meshes = mesh_objects(objects, tolerance, may_be_empty);
-  say(command,
-      fmt::format("{} triangles within {:.4g} Å of the surface", with_thousands(triangle_count(meshes)), tolerance));
-  return meshes;
 }
 
 void tell_built(const SceneCommand& command, const Molecule& molecule) {

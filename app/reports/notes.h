@@ -10,7 +10,6 @@
 
 #include "app/options/scene_options.h"
 #include "core/base/progress.h"
-#include "core/mesh/triangle_mesh.h"
 #include "core/scene/frame_run.h"
 #include "core/scene/view_aim.h"
 
@@ -40,10 +39,6 @@ Structure read_and_tell(const SceneCommand& command);
 
 /// What was read and left out, each warning, and how many frames a run has.
 void tell_run(const SceneCommand& command, const FrameRun& frames);
-
-/// Meshes what is shown of each object, and says how many triangles came out.
-std::vector<TriangleMesh> mesh_and_tell(const SceneCommand& command, std::span<const SurfaceObject> objects,
-                                        double tolerance, bool may_be_empty = false);
 
 /// How much of the surface its map reaches, on which device it was computed, and whether radii grew.
 void tell_built(const SceneCommand& command, const Molecule& molecule);

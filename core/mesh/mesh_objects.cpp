@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 
 #include <glm/geometric.hpp>
 
@@ -44,11 +43,6 @@ std::vector<TriangleMesh> mesh_objects(std::span<const SurfaceObject> objects, d
   }
   if (!any && !may_be_empty) throw RequestError("no part of the surface is shown, so there is no mesh to write");
   return meshes;
-}
-
-std::size_t triangle_count(std::span<const TriangleMesh> meshes) {
-  return std::accumulate(meshes.begin(), meshes.end(), std::size_t{0},
-                         [](std::size_t sum, const TriangleMesh& mesh) { return sum + mesh.triangles.size(); });
 }
 
 namespace {

@@ -36,9 +36,6 @@ double tolerance_of(const MeshRequest& request, glm::ivec2 size, const Camera& c
 std::vector<TriangleMesh> mesh_objects(std::span<const SurfaceObject> objects, double tolerance,
                                        bool may_be_empty = false);
 
-/// Of all of them.
-std::size_t triangle_count(std::span<const TriangleMesh> meshes);
-
 /// What a mesh is to be like.
 struct MeshFineness {
   double tolerance = 0.05;  ///< Å; the smallest, where it depends on the place

@@ -173,7 +173,7 @@ class Dressed(unittest.TestCase):
 
     def test_a_surface_is_computed_and_computed_anew(self):
         before = picture("alone")
-        bpy.ops.object.meniscus_from_file(filepath=UBIQUITIN, wait=True)
+        bpy.ops.object.meniscus_from_file(filepath=UBIQUITIN, wait=True, detail="PROXY")
         self.check()
         item = bpy.context.view_layer.objects.active
         self.check_picture("computed", before)
@@ -191,7 +191,7 @@ class Dressed(unittest.TestCase):
         known = np.isin(atom, marked)  # others were not there to be marked
         self.assertGreater(known.mean(), 0.9)
         np.testing.assert_array_equal(marks, np.where(known, atom + 0.5, 0.0))
-        item.meniscus.probe, item.meniscus.density = 1.4, 0.2
+        item.meniscus.probe, item.meniscus.density = 1.4, 1.0
         bpy.ops.object.meniscus_update(wait=True)
         self.check()  # and back
         np.testing.assert_array_equal(picture("computed_back"), first)
