@@ -66,6 +66,7 @@ Outcome at_frame(PreviewState state, std::size_t frame, const Surroundings& arou
 Outcome played(const CommandReader& command, PreviewState state, bool plays) {
   state.frames_per_second = command.number_or(state.frames_per_second, "fps", 0.1, 240.0);
   state.playing = plays;
+  state.plays_strip = plays && command.flag_or(false, "strip");
   return {std::move(state), Renewal::nothing, {{"playing", plays}}};
 }
 
@@ -165,6 +166,7 @@ Outcome show_frame(const CommandReader& command, PreviewState state, const Surro
 }
 
 Outcome next_frame(const CommandReader&, PreviewState state, const Surroundings& around) {
+  if (state.plays_strip) return next_of_strip(std::move(state), around);
   const std::size_t next = (state.frame + 1) % around.molecule.frame_count();
   Outcome outcome = at_frame(std::move(state), next, around);
   outcome.reply["frame"] = next;
@@ -194,7 +196,9 @@ Outcome follow_keys(const CommandReader& command, PreviewState state, const Surr
 }
 
 Outcome play(const CommandReader& command, PreviewState state, const Surroundings& around) {
-  return played(command, std::move(state), around.molecule.frame_count() > 1);
+  const bool strip = command.flag_or(false, "strip");
+  const std::size_t pictures = strip ? state.strip.size() : around.molecule.frame_count();
+  return played(command, std::move(state), pictures > 1);
 }
 
 Outcome pause(const CommandReader& command, PreviewState state, const Surroundings&) {

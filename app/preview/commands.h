@@ -90,6 +90,9 @@ Reducer set_surface, set_probe, show, hide, represent, put_object, hide_surface,
     set_cut, set_cap, remove_entry, set_patches;
 Reducer set_color, paint, set_patch_kinds, set_opacity, set_film_opacity, set_look, set_preset,  // look_commands.cpp
     set_legend;
+/// The next picture of a strip that plays; at its end playing ends.
+Outcome next_of_strip(PreviewState state, const Surroundings& around);
+Reducer keep_scene, forget_scene, show_strip;                                              // strip_commands.cpp
 Reducer undo, redo, end_step, quit;                                                        // commands.cpp
 Translator press;                                                                          // commands.cpp
 Service tell_stats, tell_choices, pick;                                                    // question_commands.cpp

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -83,6 +84,9 @@ struct PreviewState : PreviewFigure {
   int samples = 4;                            ///< rays per pixel of the full picture
   bool copies_apart = false;                  ///< no probe may touch two copies of the structure (Structure::instances)
   std::map<std::string, Camera> named_views;  ///< kept by the user
+  std::vector<PreviewFigure> strip;           ///< scenes kept for a film, in its order
+  double strip_place = 0.0;                   ///< of the strip, which was shown last
+  bool plays_strip = false;                   ///< playing goes along the strip, not through the frames
   ExportWishes wishes;
   std::uint64_t revision = 1;  ///< grows with every change of what is seen
   bool ended = false;          ///< a command asked to end

@@ -313,10 +313,21 @@ Camera ShownMolecule::overview(const PreviewState& state) const {
   return zoomed_to(camera, all, all, aspect(state));
 }
 
+std::vector<Ball> ShownMolecule::balls_shown(const PreviewFigure& figure) const {
+  // With all copies, if there are any; then there are no cuts by atoms.
+  return structure_.instances.empty() ? shown_balls(balls_, coloring(figure)) : balls_;
+}
+
+std::vector<ClipPlane> ShownMolecule::planes(const PreviewFigure& figure) const {
+  const std::vector<Cut>& cuts = figure.figure.cuts;
+  if (figure.figure.hides_surface || cuts.empty()) return {};
+  const CutAtoms atoms = cut_atoms(cuts, marked_ ? *marked_ : frame_structure());
+  return clip_planes(cuts, atoms, {figure.camera, reach(), balls_shown(figure)});
+}
+
 std::vector<std::string> ShownMolecule::idle_among(std::span<const Cut> cuts, const PreviewFigure& figure) const {
   if (figure.figure.hides_surface) return {};
-  // With all copies, if there are any; then there are no cuts by atoms.
-  const std::vector<Ball> shown = structure_.instances.empty() ? shown_balls(balls_, coloring(figure)) : balls_;
+  const std::vector<Ball> shown = balls_shown(figure);
   const CutAtoms atoms = cut_atoms(cuts, marked_ ? *marked_ : frame_structure());
   return idle_cuts(cuts, atoms, {figure.camera, reach(), shown}, reach());
 }

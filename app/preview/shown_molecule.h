@@ -122,6 +122,8 @@ class ShownMolecule {
   Camera overview(const PreviewState& state) const;
   /// How many atoms of the surface the figure shows. Throws RequestError if it is none.
   std::size_t count_shown(const PreviewFigure& figure) const;
+  /// The planes of the figure's cuts, at this frame. Throws RequestError for a cut by atoms that selects none.
+  std::vector<ClipPlane> planes(const PreviewFigure& figure) const;
   /// Of cuts of the surface: a sentence for each that cuts nothing or leaves nothing.
   std::vector<std::string> idle_among(std::span<const Cut> cuts, const PreviewFigure& figure) const;
 
@@ -134,6 +136,7 @@ class ShownMolecule {
   };
 
   Made made_at(const PreviewState& state);
+  std::vector<Ball> balls_shown(const PreviewFigure& figure) const;
   Made made(const PreviewFigure& figure, Renewal renewal, std::size_t frame) const;
   std::vector<bool> part_shown(const PreviewFigure& figure, const Structure* marked) const;
   void place_balls(const PreviewFigure& figure);

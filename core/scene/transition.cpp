@@ -82,9 +82,8 @@ Radii radii_of(const Scene& scene) {
 }
 
 Radii between(const Radii& from, const Radii& to, double share) {
-  // A radius that only one of them names, or that of no probe, is not on the way to another.
-  const auto one = [share](double a, double b) { return a > 0.0 && b > 0.0 ? between(a, b, share) : a; };
-  return {one(from.probe, to.probe), one(from.stick, to.stick), one(from.tube, to.tube)};
+  return {radius_between(from.probe, to.probe, share), radius_between(from.stick, to.stick, share),
+          radius_between(from.tube, to.tube, share)};
 }
 
 void set_radii(const Radii& radii, Scene& scene) {
@@ -107,17 +106,6 @@ void lay_over(Framebuffer& picture, const Framebuffer& over) {
     picture.color[n] = over.color[n] + picture.color[n] * (1.0f - over.color[n].w);
 }
 
-std::vector<Cut> cuts_at(std::span<const ClipPlane> planes) {
-  std::vector<Cut> cuts;
-  for (const ClipPlane& plane : planes) {
-    Cut cut;
-    cut.direction = plane.normal;
-    cut.bound = plane.offset;
-    cuts.push_back(cut);
-  }
-  return cuts;
-}
-
 }  // namespace
 
 double eased(double time, Pace pace) { return pace == Pace::even ? time : time * time * (3.0 - 2.0 * time); }
@@ -136,6 +124,21 @@ Framebuffer picture_of(const Shot& shot, Framebuffer molecule) {
 Camera camera_between(const Camera& from, const Camera& to, double share) {
   if (share == 0.0) return from;
   return CameraPath({{0.0, from}, {1.0, seen_through(to, from)}}).at(share);
+}
+
+double radius_between(double from, double to, double share) {
+  return from > 0.0 && to > 0.0 ? between(from, to, share) : from;
+}
+
+std::vector<Cut> cuts_at(std::span<const ClipPlane> planes) {
+  std::vector<Cut> cuts;
+  for (const ClipPlane& plane : planes) {
+    Cut cut;
+    cut.direction = plane.normal;
+    cut.bound = plane.offset;
+    cuts.push_back(cut);
+  }
+  return cuts;
 }
 
 std::vector<ClipPlane> planes_between(std::span<const ClipPlane> from, std::span<const ClipPlane> to,

@@ -53,6 +53,12 @@ Framebuffer picture_of(const Shot& shot, Framebuffer molecule);
 /// first; where that of the second differs, it ends with what the second shows in the plane of its target.
 Camera camera_between(const Camera& from, const Camera& to, double share);
 
+/// Å. A radius that is 0, of nothing, or that only one of them names is not on the way to another.
+double radius_between(double from, double to, double share);
+
+/// The planes as cuts.
+std::vector<Cut> cuts_at(std::span<const ClipPlane> planes);
+
 /// Planes on the way from some to others. The first goes over into the first, and so on. One that has no partner, or
 /// turns by a right angle or more, leaves the balls along its normal, or comes from outside.
 std::vector<ClipPlane> planes_between(std::span<const ClipPlane> from, std::span<const ClipPlane> to,

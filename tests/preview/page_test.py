@@ -270,6 +270,34 @@ class Page(PageCase):
                              f" === {json.dumps(json.dumps(before['target'], separators=(',', ':')))}")
             self.assertEqual(page.complaints, [])
 
+    async def test_scenes_are_kept_and_played(self):
+        preview = self.serve(MOLECULE, "--select", "polymer", "--color", "chain", "--probe", "1")
+        scenes = "document.querySelectorAll('#scenes li').length"
+        async with Browser(CHROMIUM, SIZE) as page:
+            await page.open(preview.url)
+            await page.click("#keep-scene")
+            await page.until(f"{scenes} === 1 && document.getElementById('play-strip').disabled")
+            await page.evaluate("""const probe = document.getElementById('probe-number');
+                probe.value = 2; probe.dispatchEvent(new Event('change')); 0""")
+            await page.until("JSON.parse(document.getElementById('picture').dataset.state).probe_radius === 2")
+            await page.click("#keep-scene")
+            await page.until(f"{scenes} === 2 && !document.getElementById('play-strip').disabled")
+            await page.click("#scenes li:first-child .recall")
+            await page.until("JSON.parse(document.getElementById('picture').dataset.state).probe_radius === 1")
+            await page.evaluate("""window.radii = new Set();
+                new MutationObserver(() => radii.add(JSON.parse(document.getElementById('picture').dataset.state).probe_radius))
+                  .observe(document.getElementById('picture'), {attributeFilter: ['data-state']}); 0""")
+            await page.click("#play-strip")
+            await page.until("document.getElementById('play-strip').textContent === 'Play film' && "
+                             "JSON.parse(document.getElementById('picture').dataset.state).strip.place === 1")
+            radii = sorted(await page.evaluate("[...radii]"))
+            self.assertEqual(radii[-1], 2)
+            self.assertGreater(len([radius for radius in radii if 1 < radius < 2]), 3, radii)
+            await self.shoot(page, "film.png")
+            await page.click("#scenes li:first-child .remove")
+            await page.until(f"{scenes} === 1 && document.getElementById('play-strip').disabled")
+            self.assertEqual(page.complaints, [])
+
     async def test_objects_scenes_and_exports_beside_the_pictures(self):
         preview = self.serve(MOLECULE, "--select", "polymer", "--color", "chain")
         async with Browser(CHROMIUM, (1100, 900)) as page:

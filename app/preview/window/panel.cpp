@@ -67,6 +67,7 @@ void Panel::widgets() {
   heading("Figure");
   figure_.draw();
   view();
+  strip();
   look();
   if (link_.state()["frames"].get<int>() > 1) frames();
   picked();
@@ -150,6 +151,35 @@ void Panel::view() {
   if (ImGui::Button("all")) link_.send({{"command", "reset_view"}});
 }
 
+void Panel::strip() {
+  heading("Film");
+  const Json& told = link_.state()["strip"];
+  const int count = told["scenes"];
+  if (ImGui::Button("Keep scene")) link_.send({{"command", "keep_scene"}});
+  Gui::mark("keep scene");
+  tooltip("The figure as it is now becomes the last scene of a film");
+  for (int n = 0; n < count; ++n) {
+    constexpr int kInARow = 6;
+    if (n % kInARow > 0) ImGui::SameLine();
+    if (ImGui::Button(fmt::format("{}##scene", n + 1).c_str())) link_.send({{"command", "strip"}, {"place", n}});
+    tooltip("Shows this scene; a click on the right forgets it");
+    if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) link_.send({{"command", "forget_scene"}, {"index", n}});
+  }
+  if (count < 2) return;
+  float place = told["place"];
+  const bool playing = told["playing"];
+  if (ImGui::Button(playing ? "Pause film" : "Play film")) {
+    constexpr int kRate = 24;  // pictures a second
+    // From the beginning, and for undo a step.
+    if (!playing) link_.send({{"command", "strip"}, {"place", place < static_cast<float>(count - 1) ? place : 0.0f}});
+    link_.send(playing ? Json{{"command", "pause"}} : Json{{"command", "play"}, {"strip", true}, {"fps", kRate}});
+  }
+  Gui::mark("play film");
+  ImGui::SetNextItemWidth(-1.0f);
+  if (ImGui::SliderFloat("##strip", &place, 0.0f, static_cast<float>(count - 1), "%.2f", ImGuiSliderFlags_AlwaysClamp))
+    link_.send({{"command", "strip"}, {"place", rounded(place)}});
+}
+
 void Panel::look() {
   heading("Look");
   label("Preset");
@@ -195,7 +225,7 @@ void Panel::frames() {
   heading("Frames");
   const Json& state = link_.state();
   const int count = state["frames"];
-  const bool playing = state["playing"];
+  const bool playing = state["playing"] && !state["strip"]["playing"];
   if (ImGui::Button(playing ? "Pause" : "Play", {5.5f * ImGui::GetFontSize(), 0.0f}))
     link_.send({{"command", playing ? "pause" : "play"}});
   Gui::mark("play");

@@ -32,6 +32,7 @@ class Panel {
   void surface();
   void coloring();
   void view();
+  void strip();
   void look();
   void strength(const nlohmann::json& slider);
   void light();

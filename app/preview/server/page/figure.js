@@ -3,13 +3,13 @@
 
 const $ = (id) => document.getElementById(id);
 
-function element(tag, properties = {}, ...children) {
+export function element(tag, properties = {}, ...children) {
   const made = Object.assign(document.createElement(tag), properties);
   made.append(...children);
   return made;
 }
 
-function remove_button(what, action) {
+export function remove_button(what, action) {
   const button = element("button", { type: "button", className: "remove", textContent: "×" });
   button.setAttribute("aria-label", `Remove ${what}`);
   button.addEventListener("click", action);

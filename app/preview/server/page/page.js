@@ -4,6 +4,7 @@ import { answers, Connection } from "./connection.js";
 import { figure_controls } from "./figure.js";
 import { follow_lamp, place_lamp } from "./lamp.js";
 import { follow_pointer, follow_keys } from "./motion.js";
+import { strip_controls } from "./strip.js";
 
 const $ = (id) => document.getElementById(id);
 const canvas = $("picture"), stage = $("stage");
@@ -37,7 +38,7 @@ const server = new Connection({
 
 const kStep = 700;  // ms without a command, after which the next is a step of its own for undo
 const tells_only = new Set(["pick", "export", "export_state", "cancel_export", "save", "render_command", "end_step", "undo", "redo"]);
-const changes_state = new Set(["key", "save_view", "forget_view", "play", "pause", "save"]);
+const changes_state = new Set(["key", "save_view", "forget_view", "keep_scene", "forget_scene", "play", "pause", "save"]);
 let last_change = 0;
 
 /// What an error says, without the word of its command, which is a program's and no reader's.
@@ -207,6 +208,7 @@ new ResizeObserver(fit).observe(stage);
 // State
 
 const figure = figure_controls(command, (text) => say(text));
+const show_strip = strip_controls(command);
 
 /// Unless somebody is at it: what is typed, or dragged ahead of the pictures, stays.
 function set_value(element, value) {
@@ -232,6 +234,7 @@ function apply_state(next) {
   $("map").options[0].text = next.color.own_map ? "the file's" : "its own";
   set_value($("preset"), next.preset);
   figure.show(next);
+  show_strip(next);
   take_wishes(next);
   $("kinds").checked = next.patch_kinds;
   $("kinds-key").hidden = !(next.patch_kinds || next.color.scheme === "kind");
@@ -244,7 +247,7 @@ function apply_state(next) {
   $("frame").max = next.frames - 1;
   set_value($("frame"), next.frame);
   $("frame-number").textContent = `${next.frame + 1} of ${next.frames}`;
-  $("play").textContent = next.playing ? "Pause" : "Play";
+  $("play").textContent = next.playing && !next.strip.playing ? "Pause" : "Play";
   $("key").textContent = is_key(next) ? "Remove key" : "Set key";
   $("save-path").disabled = next.keys.length === 0;
   $("follow").checked = next.follow_keys;

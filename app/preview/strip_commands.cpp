@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The commands of the strip: scenes that are kept, and the way from each to the next, as `meniscus film` goes.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "app/preview/command_json.h"
+#include "app/preview/commands.h"
+#include "core/base/error.h"
+#include "core/scene/transition.h"
+
+namespace meniscus {
+namespace {
+
+constexpr std::size_t kMostScenes = 50;
+constexpr double kSecondsBetween = 2.0;  // as --transition has it
+
+/// What must be asked for to have the numbers of this look.
+LookRequest request_for(LookRequest asked, Look look, bool outlines_patches) {
+  for (const LookNumber& number : look_numbers())
+    if (number.in) asked.*number.asked = number.in(look);
+  asked.light_direction = look.light_direction;
+  asked.silhouettes = look.silhouettes;
+  asked.outer_lines = look.outer_lines;
+  asked.inner_lines = look.inner_lines;
+  asked.part_lines = look.part_lines;
+  if (outlines_patches) {
+    asked.patch_lines = look.patch_lines;
+    asked.patch_line_color = look.patch_line_color;
+  }
+  return asked;
+}
+
+/// Numbers change steadily; all else is that of the nearer scene.
+PreviewFigure figure_between(const PreviewFigure& from, const PreviewFigure& to, double share,
+                             const Surroundings& around) {
+  const PreviewFigure &nearer = share < 0.5 ? from : to, &other = share < 0.5 ? to : from;
+  const double way = std::min(share, 1.0 - share);
+  const ShownMolecule& molecule = around.molecule;
+  PreviewFigure figure = nearer;
+  figure.overview = false;
+  figure.camera = camera_between(nearer.camera, other.camera, way);
+  if (nearer.kind == other.kind) figure.probe_radius = radius_between(nearer.probe_radius, other.probe_radius, way);
+  const auto shape_radius = [&](std::optional<double> ShapeRadii::*radius) {
+    std::optional<double>& shown = figure.figure.representations.*radius;
+    if (shown) shown = radius_between(*shown, (other.figure.representations.*radius).value_or(0.0), way);
+  };
+  shape_radius(&ShapeRadii::stick_radius);
+  shape_radius(&ShapeRadii::tube_radius);
+
+  std::vector<Ball> balls = molecule.reach();
+  for (Ball& ball : balls) ball.radius += std::max(from.probe_radius, to.probe_radius);
+  figure.figure.cuts = cuts_at(planes_between(molecule.planes(from), molecule.planes(to), balls, share));
+  if (nearer.figure.cuts.empty()) figure.figure.cap = other.figure.cap;
+
+  const auto look = [&](const PreviewFigure& of) {
+    return look_of(of.look, around.state.size, of.background, of.hues(), of.patches.has_value());
+  };
+  const Look between = look_between(look(nearer), look(other), way);
+  figure.look = request_for(nearer.look, between, nearer.patches.has_value());
+  figure.background = between.background;
+  return figure;
+}
+
+/// place: from 0 to the last scene.
+Outcome at_place(PreviewState state, double place, const Surroundings& around) {
+  const std::vector<PreviewFigure>& strip = around.state.strip;
+  const auto scene = static_cast<std::size_t>(place);
+  const double share = eased(place - std::floor(place), Pace::smooth);
+  static_cast<PreviewFigure&>(state) =
+      share > 0.0 ? figure_between(strip[scene], strip[scene + 1], share, around) : strip[scene];
+  state.strip_place = place;
+  require_copies_apart(around.molecule.structure(), state, around.state.probe_reach());
+  return {std::move(state), Renewal::shapes};
+}
+
+/// The scene that "index" names.
+std::vector<PreviewFigure>::iterator scene_in(const CommandReader& command, PreviewState& state) {
+  if (state.strip.empty()) throw RequestError(fmt::format("{}: no scene is kept", command.word()));
+  return state.strip.begin() + command.integer("index", 0, static_cast<int>(state.strip.size()) - 1);
+}
+
+Outcome with_strip(PreviewState& state) {
+  const std::size_t count = state.strip.size();
+  if (state.plays_strip) state.playing = state.plays_strip = false;
+  state.strip_place = std::min(state.strip_place, count > 0 ? static_cast<double>(count - 1) : 0.0);
+  return {std::move(state), Renewal::nothing, {{"scenes", count}}};
+}
+
+}  // namespace
+
+Outcome keep_scene(const CommandReader& command, PreviewState state, const Surroundings&) {
+  const PreviewFigure& figure = state;
+  if (command.has("index")) {
+    *scene_in(command, state) = figure;
+    return with_strip(state);
+  }
+  if (state.strip.size() == kMostScenes)
+    throw RequestError(fmt::format("keep_scene: at most {} scenes are kept; forget one", kMostScenes));
+  state.strip.push_back(figure);
+  state.strip_place = static_cast<double>(state.strip.size() - 1);
+  return with_strip(state);
+}
+
+Outcome forget_scene(const CommandReader& command, PreviewState state, const Surroundings&) {
+  state.strip.erase(scene_in(command, state));
+  return with_strip(state);
+}
+
+Outcome show_strip(const CommandReader& command, PreviewState state, const Surroundings& around) {
+  if (state.strip.empty()) throw RequestError("strip: no scene is kept; keep_scene keeps one");
+  const double place = command.number("place", 0.0, static_cast<double>(state.strip.size() - 1));
+  return at_place(std::move(state), place, around);
+}
+
+Outcome next_of_strip(PreviewState state, const Surroundings& around) {
+  const double last = static_cast<double>(state.strip.size()) - 1.0;
+  constexpr double kRounding = 1e-6;  // of sums, which would miss the scenes themselves
+  double place = std::min(state.strip_place + 1.0 / (kSecondsBetween * state.frames_per_second), last);
+  if (std::abs(place - std::round(place)) < kRounding) place = std::round(place);
+  Outcome next = at_place(std::move(state), place, around);
+  if (place == last) next.state.playing = next.state.plays_strip = false;
+  next.reply["place"] = place;
+  return next;
+}
+
+}  // namespace meniscus
