@@ -114,8 +114,10 @@ class Tries(WorkCase):
 class Pause(WorkCase):
     def test_a_paused_bundle_waits_and_goes_on(self):
         folder = self.povray_bundle("paused")
-        worker = subprocess.Popen([MENISCUS, "work", folder], stderr=subprocess.PIPE, text=True)
-        wait_until(lambda: self.records(folder, "surface"), what="a frame")
+        self.meniscus("work", folder, "--step", "surface")
+        # Its share is one batch, which is cut off.
+        worker = subprocess.Popen([MENISCUS, "work", folder, "--step", "render", "--chunk", "1/1"], stderr=subprocess.PIPE, text=True)
+        wait_until(lambda: self.records(folder, "render"), what="a frame")
         for _ in range(2):
             self.meniscus("farm", "pause", folder)
         wait_until(lambda: not processes_in(folder), what="an end of the work")
