@@ -85,7 +85,7 @@ constexpr auto kTable = of_commands(
         text("annotations.labels", "--label", "EXPR=TEXT",
              "Write TEXT at these atoms, with a line to their centre. Repeatable")
             .in(kLabels, kShared | repeatable)
-            .of(kForPictures | for_page)
+            .of(for_render | for_preview | for_page)
             .in_short_help(),
         flag("annotations.time_stamp", "--time-stamp",
              "Write the time of each frame in ps, ns or µs, or else its number")

@@ -12,33 +12,33 @@ constexpr auto kTable = std::to_array<Property>({
          "Engines to write job files for, separated by commas. make, slurm, openjd, flamenco, opencue, or all")
         .proposes("make|slurm|openjd|flamenco|opencue|all")
         .initially("all but opencue")
-        .in("Options"),
+        .in("Tasks"),
     number("bundle.chunk_minutes", "--chunk-minutes", "M", "Wanted minutes per task, estimated from a trial frame")
         .from(0.01, 1e4)
         .initially("5")
-        .in("Options"),
+        .in("Tasks"),
     count("bundle.chunk_frames", "--chunk-frames", "N", "Frames per task; no trial frame is made")
         .from(1, kUnlimited)
-        .in("Options"),
+        .in("Tasks"),
     count("bundle.task_cores", "--task-cores", "N", "Cores per task, for engines that run several tasks on a machine")
         .from(1, 4096)
         .initially("--threads after --, else 2")
-        .in("Options"),
+        .in("Tasks"),
     count("bundle.task_memory", "--task-memory", "MIB", "Memory per task in MiB")
         .from(1, 1 << 30)
         .initially("1.5 times that of the trial frame, and 256")
-        .in("Options"),
+        .in("Tasks"),
     new_file("bundle.film", "--film", "NAME.mp4", "Film that farm verify makes from the pictures, in DIR")
         .in("Options"),
     number("bundle.fps", "--fps", "N", "Frames per second of the film").from(0.1, 1000).initially("25").in("Options"),
     count("bundle.tries", "--tries", "N", "Try a frame that fails up to N times, the others in between")
         .from(1, 100)
         .initially("1")
-        .in("Options"),
+        .in("Tasks"),
     number("bundle.retry_wait", "--retry-wait", "S", "Seconds before the second try, and twice as many each time")
         .from(0.1, 3600)
         .initially("10")
-        .in("Options"),
+        .in("Tasks"),
     text("bundle.farm_path", "--farm-path", "PATH",
          "Path of DIR on the farm's machines. OpenCue needs it; for Flamenco it is a default")
         .in("Options"),

@@ -47,6 +47,7 @@ constexpr auto kTable = of_commands(
              "--view open --clip 'before EXPR'")
             .in(kCamera, in_bundle)
             .in_short_help()
+            .of(kForFigures)
             .excludes("camera.from|camera.view|camera.zoom_to"),
         file("camera.path", "--camera-path", "FILE", "JSON file of key frames (frame, camera) of a moving camera")
             .in(kCamera, kShared)

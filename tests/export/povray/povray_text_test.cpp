@@ -177,7 +177,7 @@ TEST(WriteScene, RefusesWhatItCannotWriteAndLeavesNothing) {
   EXPECT_THROW(write({}, broken), Error);
   EXPECT_FALSE(std::filesystem::exists(scratch.path() / "scene"));
 
-  EXPECT_EQ(write({}, s).files.size(), 6u);
+  EXPECT_EQ(write({}, s).files.size(), 7u);
   EXPECT_THROW(write({}, s), OutputError);
   SceneOptions replace;
   replace.existing = Existing::replace;
