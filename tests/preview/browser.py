@@ -111,7 +111,7 @@ class Browser:
         self.waiting[self.number] = asyncio.get_running_loop().create_future()
         answer = self.waiting[self.number]
         await self.connection.send(json.dumps({"id": self.number, "method": method, "params": parameters}))
-        message = await asyncio.wait_for(answer, 60)
+        message = await asyncio.wait_for(answer, 120)  # software GL may draw that long
         if "error" in message:
             raise RuntimeError(f"{method}: {message['error']}")
         return message["result"]
@@ -123,12 +123,15 @@ class Browser:
         return result["result"].get("value")
 
     async def until(self, script, seconds=60):
-        """Waits until the script gives something true, which is returned."""
+        """Waits until the script gives something true, which is returned; a page that is loaded anew gives nothing."""
         end = time.monotonic() + seconds
         while time.monotonic() < end:
-            value = await self.evaluate(script)
-            if value:
-                return value
+            try:
+                if value := await self.evaluate(script):
+                    return value
+            except RuntimeError as error:
+                if "navigated" not in str(error):
+                    raise
             await asyncio.sleep(0.05)
         raise AssertionError(f"never true: {script}; the page says: "
                              + str(await self.evaluate("document.getElementById('message').textContent")))
