@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Surfaces that Blender computes itself: of files and of atoms in objects, stored, undone, on the timeline, in the background."""
 
-import json
 import os
 import subprocess
 import sys
@@ -13,54 +12,11 @@ import addon_utils
 import bpy
 import numpy as np
 
-FOLDER, ADDON, HERE, BLENDER, PROGRAM = sys.argv[sys.argv.index("--") + 1:]
-PACKAGE = os.environ["MENISCUS_PACKAGE"]
-sys.path.insert(0, HERE)
+sys.path.insert(0, sys.argv[sys.argv.index("--") + 3])
 import samples  # noqa: E402
-
-from meniscus_import import attributes, build, compat, computed, mns_reader, molecular_nodes, motion  # noqa: E402
-from meniscus_import.computing import preparation  # noqa: E402
-
-TRIPLE = os.path.join(FOLDER, "triple.xyzr")
-CAGE = os.path.join(FOLDER, "cage.xyzr")
-UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
-
-
-def start_anew():
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    addon_utils.enable("meniscus_import", default_set=True)
-    name = computed.__package__
-    preferences = bpy.context.preferences.addons[name].preferences
-    preferences.package, preferences.program = PACKAGE, PROGRAM
-
-
-def of_file(path=TRIPLE, detail="FINE", **options):
-    assert bpy.ops.object.meniscus_from_file(filepath=path, wait=True, detail=detail, **options) == {"FINISHED"}
-    return bpy.context.view_layer.objects.active
-
-
-def update():
-    return bpy.ops.object.meniscus_update(wait=True)
-
-
-def wanted(*arguments):
-    """Area and volume in the program's words, a pair for each line."""
-    said = subprocess.run([PROGRAM, "surface", *arguments, "--json", "-q", "--device", "cpu"], check=True, capture_output=True, text=True).stdout
-    try:
-        lines = [json.loads(said)]
-    except ValueError:
-        lines = [json.loads(line) for line in said.splitlines()]
-    return [(line["area"], line["volume"]) for line in lines]
-
-
-def measures(item):
-    return item["meniscus_area"], item["meniscus_volume"]
-
-
-def positions(mesh):
-    values = np.empty(3 * len(mesh.vertices), dtype=np.float32)
-    mesh.vertices.foreach_get("co", values)
-    return values.reshape(-1, 3)
+from computed_case import (ADDON, BLENDER, CAGE, FOLDER, PACKAGE, PROGRAM, TRIPLE, UBIQUITIN, ComputedCase, measures, of_file, positions,  # noqa: E402
+                           start_anew, update, wanted)
+from meniscus_import import attributes, build, compat, computed, mns_reader, molecular_nodes  # noqa: E402
 
 
 def signed_volume(item):
@@ -87,11 +43,7 @@ def atoms_object(name="atoms", scale=0.01, molecule="triple"):
     return item
 
 
-class Computed(unittest.TestCase):
-    def setUp(self):
-        start_anew()
-        self.assertNotEqual(computed.working().told()["library"], "", computed.working().told())
-
+class Computed(ComputedCase):
     def test_a_file_gives_the_surface_that_the_program_computes(self):
         item = of_file()
         self.assertEqual(measures(item), wanted(TRIPLE)[0])
@@ -122,43 +74,6 @@ class Computed(unittest.TestCase):
         bpy.context.view_layer.objects.active = atoms_object()
         with self.assertRaisesRegex(RuntimeError, "libmeniscus"):
             bpy.ops.object.meniscus_from_atoms(wait=True)
-
-    def test_fields_are_rows_of_the_table(self):
-        fields = of_file().meniscus.bl_rna.properties
-        for row in preparation.ROWS:
-            field = fields[preparation.name_of(row)]
-            self.assertEqual((field.name, field.description.startswith(row.help)), (preparation.label_of(row), True), row.key)
-            self.assertEqual(field.default, preparation.default_of(row), row.key)
-            if row.type == "word":
-                self.assertEqual(tuple(each.identifier for each in field.enum_items), row.words)
-            if row.type == "count":
-                self.assertEqual((field.hard_min, field.hard_max), (row.lowest, row.highest))
-
-    def test_a_molecule_is_prepared(self):
-        item = of_file(UBIQUITIN, selection="resi 1-20")
-        self.assertEqual(measures(item), wanted(UBIQUITIN, "--select", "resi 1-20")[0])
-        item.meniscus.selection, item.meniscus.keep_water, item.meniscus.radii = "resi 1-80", True, "united"
-        update()
-        self.assertEqual(measures(item), wanted(UBIQUITIN, "--select", "resi 1-80", "--keep-water", "--radii", "united")[0])
-        item.meniscus.radii = "none"
-        with self.assertRaisesRegex(RuntimeError, "(?i)radii"):
-            update()
-
-    def test_a_run_is_superposed(self):
-        scene = bpy.context.scene
-        item = of_file(samples.UBIQUITIN, selection="resi 1-15", is_run=True, center=False)
-        found = {}
-        for atoms in ("", "name CA"):
-            item.meniscus.superpose = atoms
-            update()
-            middles = []
-            for frame in range(1, 5):
-                scene.frame_set(frame)
-                self.assertEqual(item.get("meniscus_error", ""), "")
-                middles.append(positions(item.data).mean(axis=0) / item.meniscus.scale)
-            found[atoms] = float(np.linalg.norm(np.diff(middles, axis=0), axis=1).max())
-        print(f"middle of the surface moves by {found} Å")
-        self.assertLess(found["name CA"], 0.5 * found[""])
 
     def test_what_is_wrong_is_said_and_the_surface_stays(self):
         item = of_file()
@@ -204,70 +119,6 @@ class Computed(unittest.TestCase):
         self.assertEqual(update(), {"FINISHED"})
         np.testing.assert_array_equal(positions(item.data), shape)
         self.assertEqual(item["meniscus_area"], area)
-
-    def test_a_fine_mesh_follows_a_proxy_when_nothing_moves(self):
-        item = of_file(TRIPLE, detail="AUTO")
-        fine = len(item.data.polygons)
-        self.assertEqual(fine, len(of_file(TRIPLE, detail="FINE").data.polygons))
-        item.meniscus.probe = 2.0
-        with unittest.mock.patch.object(motion, "REST", 1e6):
-            computed.ask(item, in_motion=True)
-        computed.wait()
-        proxy = len(item.data.polygons)
-        self.assertEqual(measures(item), wanted(TRIPLE, "--probe", "2")[0])
-        self.assertLess(2 * proxy, fine)
-        computed._come_to_rest()  # too early
-        self.assertFalse(computed.working().is_busy())
-        with unittest.mock.patch.object(motion, "REST", 0.0):
-            motion.moves(item.name)
-        with unittest.mock.patch.object(motion, "is_playing", return_value=True):
-            computed._come_to_rest()
-        self.assertFalse(computed.working().is_busy())
-        computed._come_to_rest()
-        computed.wait()
-        self.assertGreater(len(item.data.polygons), 2 * proxy)
-        self.assertFalse(motion.any_moves())
-        item.meniscus.probe = 1.4  # whose fine mesh is kept
-        computed.ask(item, in_motion=True)
-        self.assertEqual(len(item.data.polygons), fine)
-        item.meniscus.probe = 1.7
-        computed.ask(item, in_motion=True)
-        computed.wait()
-        self.assertLess(2 * len(item.data.polygons), fine)
-        scene = bpy.context.scene
-        scene.camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
-        scene.collection.objects.link(scene.camera)
-        scene.render.engine, scene.cycles.samples, scene.cycles.use_denoising = "CYCLES", 1, False
-        scene.render.resolution_x = scene.render.resolution_y = 8
-        bpy.ops.render.render()
-        self.assertGreater(len(item.data.polygons), 2 * proxy)
-        item.meniscus.detail, item.meniscus.probe = "FINE", 1.9
-        computed.ask(item, in_motion=True)
-        self.assertFalse(motion.is_moving(item.name))
-
-    def test_frames_that_play_are_proxies_and_pictures_are_not(self):
-        item = of_file(samples.UBIQUITIN, detail="AUTO", selection="resi 1-15", is_run=True)
-        counts = []
-        for frame, plays in ((2, False), (3, True), (4, False)):
-            with unittest.mock.patch.object(motion, "is_playing", return_value=plays):
-                bpy.context.scene.frame_set(frame)
-            self.assertEqual(item["meniscus_error"], "")
-            counts.append(len(item.data.polygons))
-        self.assertLess(2 * counts[1], min(counts[0], counts[2]))
-        self.assertFalse(motion.is_moving(item.name))
-
-    def test_solid_views_show_the_colours(self):
-        """But where a user chose others."""
-        views = [area.spaces.active.shading for window in bpy.context.window_manager.windows for area in window.screen.areas
-                 if area.type == "VIEW_3D"]
-        if not views:
-            self.skipTest("there is no view")
-        for before, after in (("MATERIAL", "VERTEX"), ("RANDOM", "RANDOM")):
-            for make in (of_file, lambda: bpy.ops.import_scene.meniscus(filepath=os.path.join(FOLDER, "pair.mns"))):
-                for shading in views:
-                    shading.color_type = before
-                make()
-                self.assertEqual({shading.color_type for shading in views}, {after})
 
     def test_undo_brings_back_the_surface_of_before(self):
         item = of_file()
@@ -565,7 +416,6 @@ class Computed(unittest.TestCase):
         self.assertEqual(list(of_file().users_collection), [mine])
         layer.exclude = True
         self.assertEqual(list(of_file().users_collection), [bpy.context.scene.collection])
-
 
 
 if not unittest.main(argv=["inside_computed"], exit=False).result.wasSuccessful():

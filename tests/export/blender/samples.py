@@ -44,6 +44,10 @@ def export(program, folder, name, *options):
 
 #: Ubiquitin in solution, ten models.
 UBIQUITIN = "/usr/share/freesasa/test-data/1d3z.pdb"
+#: The lines of a PDB file that make two copies of chain A, 20 Å apart along x.
+TWO_COPIES = "REMARK 350 BIOMOLECULE: 1\nREMARK 350 APPLY THE FOLLOWING TO CHAINS: A\n" + "".join(
+    "REMARK 350   BIOMT%d %3d %9.6f %9.6f %9.6f %14.5f\n" % (row + 1, copy, *(float(column == row) for column in range(3)), shift if row == 0 else 0)
+    for copy, shift in ((1, 0), (2, 20)) for row in range(3))
 
 
 def export_run(program, target, frames="1-5:2", *options):
