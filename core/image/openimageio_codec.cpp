@@ -6,7 +6,6 @@
 #include <utility>
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imageio.h>
 
 #include "core/base/version.h"
@@ -88,15 +87,14 @@ class OpenImageIOCodec final : public ImageCodec {
   }
 
   DecodedImage decode(const std::string& path) const override {
-    OIIO::ImageBuf picture(path);
-    DecodedImage decoded;
-    if (picture.read(0, 0, true, OIIO::TypeDesc::FLOAT)) {
-      const OIIO::ImageSpec& spec = picture.spec();
-      decoded = {spec.width, spec.height, spec.nchannels, {}};
-      decoded.values.resize(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
-    }
-    if (decoded.values.empty() || !picture.get_pixels(OIIO::ROI::All(), OIIO::TypeDesc::FLOAT, decoded.values.data()))
-      throw std::runtime_error(picture.geterror());
+    // Not an ImageBuf: that has a cache, which takes a file for unchanged that was written again within a second.
+    const auto picture = OIIO::ImageInput::open(path);
+    if (!picture) throw std::runtime_error(OIIO::geterror());
+    const OIIO::ImageSpec& spec = picture->spec();
+    DecodedImage decoded{spec.width, spec.height, spec.nchannels, {}};
+    decoded.values.resize(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
+    if (!picture->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, decoded.values.data()))
+      throw std::runtime_error(picture->geterror());
     return decoded;
   }
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Texts are UTF-8 everywhere, but a std::string that becomes a path by itself is read by the code page of Windows: in what
-libmeniscus is made of, files are named by paths, and texts become paths by path_of_text alone."""
+libmeniscus is made of, files are named by paths, and texts become paths by path_of_text alone. Pictures are read without
+OpenImageIO's cache."""
 
 import pathlib
 import re
@@ -20,6 +21,9 @@ TELLS_CODE_PAGE = re.compile(r"\.string\(\)")
 DECLARED = re.compile(r"\b" + PATH + r"(?:\s*&&?|\s+const)?\s+(\w+)")
 #: A literal of ASCII, a path of another, or a text that was made one.
 IS_PATH = re.compile(r'"|const |path_of_text\(|(?:std::filesystem|fs)::|[)}]|std::move\((\w+)\)|(\w+)')
+
+#: It takes a file for unchanged that was written again within the same second: with its old size, or its old pixels.
+CACHED_PICTURE = re.compile(r"\bImageBuf(?:\s+\w+)?[({]")
 
 
 def unsafe(text, header=""):
@@ -51,6 +55,13 @@ class FileNames(unittest.TestCase):
         for call in ("std::ifstream stream(path);", "std::ifstream stream(path_of_text(file));", 'fs::path("..");', "fs::absolute(path);",
                      "OutputFile output(path_of_text(file), Existing::replace);"):
             self.assertEqual(unsafe(text + call), [])
+
+    def test_no_picture_is_read_through_a_cache(self):
+        self.assertTrue(CACHED_PICTURE.search("OIIO::ImageBuf picture(path);") and CACHED_PICTURE.search("ImageBuf(path)"))
+        found = [str(path.relative_to(ROOT)) for folder in ("core", "exporters", "app", "scripts", "tests")
+                 for path in (ROOT / folder).rglob("*") if path.suffix in (".cpp", ".h", ".py") and path != pathlib.Path(__file__).resolve()
+                 and CACHED_PICTURE.search(path.read_text(encoding="utf-8"))]
+        self.assertEqual(found, [], "read it by ImageInput")
 
 
 if __name__ == "__main__":

@@ -24,7 +24,7 @@ LIMIT = 16 / 255
 
 def pixels(path):
     """sRGB and coverage: (rows, columns, 4)."""
-    return np.asarray(OpenImageIO.ImageBuf(path).get_pixels(OpenImageIO.FLOAT), dtype=np.float64)
+    return np.asarray(OpenImageIO.ImageInput.open(path).read_image(OpenImageIO.FLOAT), dtype=np.float64)
 
 
 class Eevee(unittest.TestCase):

@@ -28,8 +28,8 @@ def pixels(path):
     """Linear RGBA, premultiplied: (rows, columns, 4)."""
     asked = OpenImageIO.ImageSpec()
     asked.attribute("oiio:UnassociatedAlpha", 1)
-    image = OpenImageIO.ImageBuf(path, 0, 0, asked)
-    values = np.asarray(image.get_pixels(OpenImageIO.FLOAT), dtype=np.float64)[:, :, :4]
+    image = OpenImageIO.ImageInput.open(path, asked)
+    values = np.asarray(image.read_image(OpenImageIO.FLOAT), dtype=np.float64)[:, :, :4]
     if path.endswith(".png"):  # straight, sRGB
         color = values[:, :, :3]
         values[:, :, :3] = np.where(color <= 0.04045, color / 12.92, ((color + 0.055) / 1.055) ** 2.4) * values[:, :, 3:]
@@ -106,8 +106,8 @@ class Figure(unittest.TestCase):
         # Light from everywhere: what is darker than the rest is in shadow.
         self.run_program(PROGRAM, "render", UBIQUITIN, "-o", ours, *usual, "--preset", "classic", "--ambient", "1", "--specular", "0", "--samples",
                          "1", "--aovs", "--save-camera", camera)
-        picture = OpenImageIO.ImageBuf(ours)
-        channels = dict(zip(picture.spec().channelnames, np.moveaxis(np.asarray(picture.get_pixels(OpenImageIO.FLOAT)), 2, 0)))
+        picture = OpenImageIO.ImageInput.open(ours)
+        channels = dict(zip(picture.spec().channelnames, np.moveaxis(np.asarray(picture.read_image(OpenImageIO.FLOAT)), 2, 0)))
         with open(camera, encoding="ascii") as file:
             told = json.load(file)
         place, target, up = (np.array(told[key]) for key in ("position", "target", "up"))

@@ -52,7 +52,7 @@ def areas(molecule, *options):
 def pixels(path, view):
     """Of the part of a screenshot that shows objects: (rows, columns, 3), 0 to 255."""
     left, bottom, right, top = view
-    values = np.asarray(OpenImageIO.ImageBuf(path).get_pixels(OpenImageIO.UINT8), dtype=int)
+    values = np.asarray(OpenImageIO.ImageInput.open(path).read_image(OpenImageIO.UINT8), dtype=int)
     height = len(values)
     return values[height - top:height - bottom, left:right, :3]
 

@@ -46,8 +46,8 @@ class OwnScene(unittest.TestCase):
         done = subprocess.run([POVRAY, "+Iown.pov", "+Oown.png", f"+W{WIDTH}", f"+H{HEIGHT}", "-D", "-A", "File_Gamma=1.0"],
                               capture_output=True, text=True, check=False, cwd=folder)
         self.assertEqual(done.returncode, 0, done.stderr[-2000:])
-        image = OpenImageIO.ImageBuf(os.path.join(folder, "own.png"))
-        return np.asarray(image.get_pixels(OpenImageIO.FLOAT))[:, :, :3], MESSAGES.findall(done.stderr)
+        image = OpenImageIO.ImageInput.open(os.path.join(folder, "own.png"))
+        return np.asarray(image.read_image(OpenImageIO.FLOAT))[:, :, :3], MESSAGES.findall(done.stderr)
 
     def picture(self, placed, *options):
         return self.render(self.export(*options), INCLUDE + placed)[0]
