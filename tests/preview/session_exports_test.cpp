@@ -3,43 +3,26 @@
 #include <chrono>
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "app/preview/session.h"
 #include "core/structure/formats/read_structure.h"
+#include "tests/preview/session_case.h"
 #include "tests/preview/two_models.h"
-#include "tests/support/run_program.h"
 
 namespace meniscus::test {
 namespace {
 
-using Json = nlohmann::json;
-
-class SessionExports : public ::testing::Test {
+class SessionExports : public SessionCase {
  protected:
   SessionExports() {
-    PreviewState view;
-    view.size = {80, 60};
     SessionContext context;
     context.scene.emplace();
-    session_ =
-        std::make_unique<PreviewSession>(make_cpu_view_renderer(), read_structure(folder_.file("two.pdb", kTwoModels)),
-                                         view, std::nullopt, folder_.path(), std::nullopt, context);
+    begin(read_structure(folder_.file("two.pdb", kTwoModels)), context);
   }
-
-  Json apply(const std::string& command) { return session_->apply(Json::parse(command)); }
-  void expect_ok(const std::string& command) {
-    const Json reply = apply(command);
-    EXPECT_TRUE(reply["ok"]) << command << " -> " << reply;
-  }
-
-  TemporaryFolder folder_;
-  std::unique_ptr<PreviewSession> session_;
 };
 
 // Even with "force" no file of another kind is replaced.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
 #include <set>
 #include <string>
 
@@ -12,14 +11,11 @@
 
 #include "app/preview/camera_motion.h"
 #include "app/preview/command_json.h"
-#include "app/preview/session.h"
 #include "core/structure/formats/read_structure.h"
-#include "tests/support/run_program.h"
+#include "tests/preview/session_case.h"
 
 namespace meniscus::test {
 namespace {
-
-using Json = nlohmann::json;
 
 // A peptide bond, a water, and a ligand.
 constexpr std::string_view kThree = R"(ATOM      1  N   ALA A   1       0.000   0.000   0.000  1.00 10.00           N
@@ -32,42 +28,27 @@ HETATM    7  O   HOH B   3       4.000   5.000   0.000  1.00 40.00           O
 END
 )";
 
-class FigureSession : public ::testing::Test {
+class FigureSession : public SessionCase {
  protected:
   FigureSession() {
     const std::string file = folder_.file("three.pdb", kThree);
     ReadOptions reading;
     reading.selection = parse_selection("polymer");
-    PreviewState view;
-    view.size = {80, 60};
     SessionContext context;
     context.read_shown = [file, reading](const FigureRequest& figure, std::size_t) {
       ReadOptions shown = reading;
       figure.ask_for(shown);
       return read_structure(file, shown);
     };
-    session_ = std::make_unique<PreviewSession>(make_cpu_view_renderer(), read_structure(file, reading), view,
-                                                std::nullopt, folder_.path(), std::nullopt, context);
+    begin(read_structure(file, reading), context);
   }
 
-  Json apply(const std::string& command) { return session_->apply(Json::parse(command)); }
   /// The state without what every command changes.
   Json state() {
-    Json state = apply(R"({"command":"state"})");
+    Json state = SessionCase::state();
     for (const char* key : {"revision", "undo", "redo", "drawn_by"}) state.erase(key);
     return state;
   }
-  void expect_ok(const std::string& command) {
-    const Json reply = apply(command);
-    EXPECT_TRUE(reply["ok"]) << command << " -> " << reply;
-  }
-  std::vector<std::uint8_t> picture() {
-    session_->render(Quality::full);
-    return session_->rgba();
-  }
-
-  TemporaryFolder folder_;
-  std::unique_ptr<PreviewSession> session_;
 };
 
 constexpr const char* kEdits[] = {

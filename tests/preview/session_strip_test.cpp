@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The strip of kept scenes: on the way numbers are those of a film, all else is that of the nearer scene.
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -8,41 +7,18 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/preview/session.h"
 #include "core/scene/cut.h"
 #include "core/scene/transition.h"
 #include "core/structure/formats/read_structure.h"
+#include "tests/preview/session_case.h"
 #include "tests/preview/two_models.h"
-#include "tests/support/run_program.h"
 
 namespace meniscus::test {
 namespace {
 
-using Json = nlohmann::json;
-
-class StripSession : public ::testing::Test {
+class StripSession : public SessionCase {
  protected:
-  StripSession() {
-    PreviewState view;
-    view.size = {80, 60};
-    session_ = std::make_unique<PreviewSession>(make_cpu_view_renderer(),
-                                                read_structure(folder_.file("two.pdb", kTwoModels), {}), view,
-                                                std::nullopt, folder_.path());
-  }
-
-  Json apply(const std::string& command) { return session_->apply(Json::parse(command)); }
-  Json state() { return apply(R"({"command":"state"})"); }
-  void expect_ok(const std::string& command) {
-    const Json reply = apply(command);
-    EXPECT_TRUE(reply["ok"]) << command << " -> " << reply;
-  }
-  std::vector<std::uint8_t> picture() {
-    session_->render(Quality::full);
-    return session_->rgba();
-  }
-
-  TemporaryFolder folder_;
-  std::unique_ptr<PreviewSession> session_;
+  StripSession() { begin(read_structure(folder_.file("two.pdb", kTwoModels), {})); }
 };
 
 TEST_F(StripSession, GoesFromSceneToSceneAsFilmsDo) {
