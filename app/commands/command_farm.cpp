@@ -255,7 +255,7 @@ void verify(const std::filesystem::path& folder, const std::optional<farm::InPla
   const farm::Bundle bundle = farm::read_bundle(folder);
   const StopHandler handler([] { farm::stop_children(); }, std::nullopt);
   farm::check_places(folder);
-  // What is not in the folder is not needed any more.
+  // Inputs by reference are not read any more: the frames are made.
   farm::Bundle here = bundle;
   std::erase_if(here.inputs, [&](const farm::Input& input) {
     return !input.source.empty() && farm::input_path(input, folder) == input.source;

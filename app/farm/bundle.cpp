@@ -22,8 +22,6 @@ using Json = nlohmann::ordered_json;
 constexpr int kSchemaVersion = 1;
 constexpr std::uint64_t kMostChunks = 1000;         // Slurm's MaxArraySize is 1001 unless a site says otherwise
 constexpr std::uint64_t kMostFrames = 100'000'000;  // a manifest that asks for more is damaged
-constexpr std::uint64_t kMostTries = 100;
-constexpr double kLongestWait = 3600.0;  // seconds before a frame is tried again
 constexpr std::uint64_t kAnyNumber = ~std::uint64_t{0};
 constexpr std::size_t kLongestShown = 200;  // bytes of a value in a message
 constexpr const char* kMakers[] = {"meniscus", "povray", "blender"};
@@ -163,7 +161,7 @@ Bundle bundle_from_json(const Json& json) {
   if (json.contains("film")) bundle.film = read_film(json.at("film"));
   bundle.chunking = read_chunking(json.at("chunks"));
   if (json.contains("tries"))
-    bundle.tries = {whole_number(json.at("tries").at("most"), kMostTries),
+    bundle.tries = {whole_number(json.at("tries").at("most"), Tries::kMost),
                     json.at("tries").at("wait_seconds").get<double>()};
   return bundle;
 }
@@ -189,7 +187,7 @@ std::optional<std::uint64_t> Chunking::memory() const {
 
 std::optional<double> Tries::wait_after(std::uint64_t failed) const {
   if (failed >= most) return {};
-  return std::min(std::ldexp(wait_seconds, static_cast<int>(std::min(failed, kMostTries)) - 1), kLongestWait);
+  return std::min(std::ldexp(wait_seconds, static_cast<int>(std::min(failed, Tries::kMost)) - 1), Tries::kLongestWait);
 }
 
 std::string Bundle::fingerprint() const { return sha256(work_json(*this).dump()); }

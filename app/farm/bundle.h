@@ -64,10 +64,13 @@ struct Chunking {
   std::optional<std::uint64_t> memory() const;
 };
 
-/// How often a frame is tried that fails.
+/// How often a frame that fails is tried.
 struct Tries {
-  std::uint64_t most = 1;      ///< then it has failed
-  double wait_seconds = 10.0;  ///< before the second; twice as long before each one after it, an hour at most
+  static constexpr std::uint64_t kMost = 100;
+  static constexpr double kShortestWait = 0.1, kLongestWait = 3600.0;  ///< seconds
+
+  std::uint64_t most = 1;      ///< after so many failed ones it has failed
+  double wait_seconds = 10.0;  ///< before the second; doubled before each further one, up to kLongestWait
 
   /// Seconds before the next, after so many failed ones; nothing if it was the last.
   std::optional<double> wait_after(std::uint64_t failed) const;

@@ -66,7 +66,8 @@ void check_numbers(const Bundle& bundle) {
       std::max(bundle.chunking.asked_memory.value_or(1), bundle.chunking.peak_memory.value_or(1));
   if (bundle.chunking.cores < 1 || bundle.chunking.cores > kMostCores || memory < 1 || memory > kMostMemory)
     throw RequestError("cores or memory of its tasks are not valid");
-  if (bundle.tries.most < 1 || !(bundle.tries.wait_seconds >= 0.1 && bundle.tries.wait_seconds <= 3600.0))
+  if (bundle.tries.most < 1 ||
+      !(bundle.tries.wait_seconds >= Tries::kShortestWait && bundle.tries.wait_seconds <= Tries::kLongestWait))
     throw RequestError("its number of tries, or the time between them, is not valid");
   if (!bundle.film) return;
   if (!bundle.makes_pictures()) throw RequestError("has a film, and no pictures to make it of");

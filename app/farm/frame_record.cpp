@@ -20,7 +20,6 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLargestRecord = std::size_t{1} << 20;
-constexpr double kLongestRest = 3600.0;  // seconds
 
 // Frames are made of files in these two folders.
 bool is_made_path(const std::string& path) {
@@ -83,7 +82,7 @@ FrameRecord record_from_json(const Json& json) {
 }
 
 bool is_sound(const FrameRecord& record) {
-  return record.exit_code >= 0 && record.exit_code < 256 && record.again.value_or(0.0) <= kLongestRest &&
+  return record.exit_code >= 0 && record.exit_code < 256 && record.again.value_or(0.0) <= Tries::kLongestWait &&
          std::ranges::all_of(record.files, [](const MadeFile& file) { return is_made_path(file.path); });
 }
 

@@ -26,7 +26,7 @@ struct FrameRecord {
   int exit_code = 0;            ///< 0: made
   std::string error;            ///< of a frame that failed: one line
   std::uint64_t tries = 1;      ///< that failed one after another, with this one
-  std::optional<double> again;  ///< of a frame that failed: seconds after which it is tried once more
+  std::optional<double> again;  ///< of a frame that failed: seconds until the next try
   std::vector<MadeFile> files;  ///< of a frame that was made
   double seconds = 0.0;         ///< that it took
   std::string first_try;        ///< why a second process made it, if the first was ended by a signal

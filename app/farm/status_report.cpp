@@ -51,7 +51,7 @@ std::string tries_text(const FrameRecord& failed) {
 /// "2 workers are running (a-1-2, b-3-4): about 5:00 min to go"
 std::string workers_line(const BundleStatus& status, const std::filesystem::path& folder) {
   if (status.paused)
-    return fmt::format("\npaused, {} {} {}; meniscus farm resume {} ends that\n", status.workers.size(),
+    return fmt::format("\npaused, {} {} {}; to go on: meniscus farm resume {}\n", status.workers.size(),
                        status.workers.size() == 1 ? "worker" : "workers", status.workers.size() == 1 ? "waits" : "wait",
                        escaped(shell_word(folder.string())));
   if (status.seconds_to_go == 0.0) return {};

@@ -138,7 +138,7 @@ class Worker {
 
   void wait_while_paused(Task& task) {
     if (!is_paused(place_.folder)) return;
-    task.progress.tell(fmt::format("paused; `meniscus farm resume {}` ends that", shell_word(place_.folder.string())));
+    task.progress.tell(fmt::format("paused; to go on: meniscus farm resume {}", shell_word(place_.folder.string())));
     while (is_paused(place_.folder)) std::this_thread::sleep_for(kLongestWait);
   }
 
@@ -336,7 +336,7 @@ void check_inputs(const Bundle& bundle, const std::filesystem::path& folder, boo
                        elsewhere ? fmt::format("is missing; bring it there, or to {}", (folder / input.path).string())
                                  : "is missing; make the bundle again");
     const std::uintmax_t bytes = std::filesystem::file_size(path);
-    // Who knows the checksum of a file knows the file: a bundle of others learns of no other file by naming it.
+    // A file elsewhere is always read to its end: a stranger's bundle must not learn whether a file has some size.
     const bool quick = !thorough && !elsewhere && bytes > kQuickToCheck;
     if (bytes != input.bytes || (!quick && sha256_of_file(path) != input.sha256))
       throw InputError(path, 0, "is not what was bundled (size or SHA-256); make the bundle again");

@@ -7,6 +7,8 @@
 namespace meniscus {
 namespace {
 
+constexpr const char* kTries = "Times to try a frame that fails; other frames are made in between";
+
 constexpr auto kTable = std::to_array<Property>({
     text("bundle.engine", "--engine", "WORDS",
          "Engines to write job files for, separated by commas. make, slurm, openjd, flamenco, opencue, or all")
@@ -31,11 +33,8 @@ constexpr auto kTable = std::to_array<Property>({
     new_file("bundle.film", "--film", "NAME.mp4", "Film that farm verify makes from the pictures, in DIR")
         .in("Options"),
     number("bundle.fps", "--fps", "N", "Frames per second of the film").from(0.1, 1000).initially("25").in("Options"),
-    count("bundle.tries", "--tries", "N", "Try a frame that fails up to N times, the others in between")
-        .from(1, 100)
-        .initially("1")
-        .in("Tasks"),
-    number("bundle.retry_wait", "--retry-wait", "S", "Seconds before the second try, and twice as many each time")
+    count("bundle.tries", "--tries", "N", kTries).from(1, 100).initially("1").in("Tasks"),
+    number("bundle.retry_wait", "--retry-wait", "S", "Seconds before the second try; doubled before each further one")
         .from(0.1, 3600)
         .initially("10")
         .in("Tasks"),
@@ -62,10 +61,7 @@ constexpr auto kTable = std::to_array<Property>({
     text("work.chunk", "--chunk", "K/N", "Make only the Kth of N nearly equal parts of the run; K counts from 1")
         .in("Options"),
     flag("work.force", "--force", "Make frames again that already exist").in("Options"),
-    count("work.tries", "--tries", "N", "Try a frame that fails up to N times, the others in between")
-        .from(1, 100)
-        .initially("the bundle's")
-        .in("Options"),
+    count("work.tries", "--tries", "N", kTries).from(1, 100).initially("the bundle's").in("Options"),
     count("work.lease", "--lease", "S", "Seconds of silence after which other workers take over its frames")
         .from(1, 3600)
         .initially("60")

@@ -137,7 +137,7 @@ class Pause(WorkCase):
             self.meniscus("farm", "resume", folder)
         said = worker.communicate(timeout=240)[1]
         self.assertEqual(worker.returncode, 0, said)
-        self.assertTrue(re.search(r"paused; `meniscus farm resume \S+` ends that", said), said)
+        self.assertTrue(re.search(r"paused; to go on: meniscus farm resume \S+", said), said)
         self.meniscus("farm", "verify", folder)
         self.assert_equals_reference(folder)
         self.assert_nothing_unfinished(folder)

@@ -170,7 +170,7 @@ void Panel::strip() {
   const bool playing = told["playing"];
   if (ImGui::Button(playing ? "Pause film" : "Play film")) {
     constexpr int kRate = 24;  // pictures a second
-    // From the beginning, and for undo a step.
+    // At its end it starts anew. Undo goes back to what was shown before the film.
     if (!playing) link_.send({{"command", "strip"}, {"place", place < static_cast<float>(count - 1) ? place : 0.0f}});
     link_.send(playing ? Json{{"command", "pause"}} : Json{{"command", "play"}, {"strip", true}, {"fps", kRate}});
   }

@@ -14,7 +14,7 @@ export function strip_controls(command) {
   $("strip").addEventListener("input", () => command("strip", { place: $("strip").valueAsNumber }));
   $("play-strip").addEventListener("click", async () => {
     if (strip.playing) return command("pause");
-    // From the beginning, and for undo a step.
+    // At its end it starts anew. Undo goes back to what was shown before the film.
     if (await command("strip", { place: strip.place < strip.scenes - 1 ? strip.place : 0 }))
       await command("play", { strip: true, fps: kRate });
   });
