@@ -40,7 +40,7 @@ struct MoleculeShot {
 /// The pace of a transition. smooth: it starts and ends slowly.
 enum class Pace { smooth, even };
 
-/// The share of the way after that share of the time.
+/// The share of the way that is done after a share of the time, both from 0 to 1.
 double eased(double time, Pace pace);
 
 /// How the molecule of a shot is drawn.
@@ -53,7 +53,7 @@ Framebuffer picture_of(const Shot& shot, Framebuffer molecule);
 /// first; where that of the second differs, it ends with what the second shows in the plane of its target.
 Camera camera_between(const Camera& from, const Camera& to, double share);
 
-/// Å. A radius that is 0, of nothing, or that only one of them names is not on the way to another.
+/// Å. `from`, unless both are above 0: no radius grows out of nothing, or out of one that nobody chose.
 double radius_between(double from, double to, double share);
 
 /// The planes as cuts.

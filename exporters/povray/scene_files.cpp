@@ -49,7 +49,7 @@ void append_one_camera(SceneText& out, const CameraNumbers& camera) {
   declare("Meniscus_Orthographic").count(camera.orthographic ? 1 : 0).literal(";\n");
 }
 
-// A list of a name, of which the scene's frame takes one.
+// An array with an element for each frame, and under the name itself the element of the frame that is rendered.
 void append_list(SceneText& out, std::string_view name, const auto& of_frames, const auto& append) {
   out.literal("#declare ").literal(name).literal("_List = array[").count(of_frames.size()).literal("] {\n");
   for (std::size_t n = 0; n < of_frames.size(); ++n) {

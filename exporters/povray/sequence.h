@@ -53,7 +53,7 @@ class SequenceScene {
   /// Writes <name>.ini, <name>.pov, <name>.inc, <name>_style.inc, <name>_aov.inc, <name>_objects.json (the frames, and
   /// what the colours mean), and of a volume map <name>_map.df3. Files that are there with just this content stay; the
   /// others are written, all or none. Throws OutputError.
-  /// film: nullptr: none; else <name>_story.pov and <name>_story.ini are written, too.
+  /// film: adds <name>_story.pov and <name>_story.ini; nullptr: no film.
   SceneReport write_shared(const Story* film = nullptr) const;
 
   /// Writes <name>_geometry_#####.inc, numbered by the frame of the trajectory, and where the surface is several

@@ -179,12 +179,23 @@ def is_surface(item):
     return item is not None and item.type == "MESH" and "ses_kind" in item.data.attributes
 
 
-class VIEW3D_PT_meniscus(bpy.types.Panel):
-    bl_idname = "VIEW3D_PT_meniscus"
-    bl_label = "Meniscus"
+class InSidebar:
+    """Where all panels are."""
+
     bl_category = "Meniscus"
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
+
+
+class BelowPanel(InSidebar):
+    """Where those are that belong to the first one."""
+
+    bl_parent_id = "VIEW3D_PT_meniscus"
+
+
+class VIEW3D_PT_meniscus(InSidebar, bpy.types.Panel):
+    bl_idname = "VIEW3D_PT_meniscus"
+    bl_label = "Meniscus"
 
     def draw(self, context):
         layout, item = self.layout, context.active_object
@@ -236,13 +247,9 @@ class VIEW3D_PT_meniscus(bpy.types.Panel):
         layout.prop(settings, "live")
 
 
-class VIEW3D_PT_meniscus_molecule(bpy.types.Panel):
+class VIEW3D_PT_meniscus_molecule(BelowPanel, bpy.types.Panel):
     bl_idname = "VIEW3D_PT_meniscus_molecule"
     bl_label = "Molecule"
-    bl_category = "Meniscus"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_parent_id = "VIEW3D_PT_meniscus"
 
     @classmethod
     def poll(cls, context):
@@ -258,13 +265,9 @@ def draw_fields(layout, settings, rows):
         layout.prop(settings, preparation.name_of(row))
 
 
-class VIEW3D_PT_meniscus_time(bpy.types.Panel):
+class VIEW3D_PT_meniscus_time(BelowPanel, bpy.types.Panel):
     bl_idname = "VIEW3D_PT_meniscus_time"
     bl_label = "Time"
-    bl_category = "Meniscus"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_parent_id = "VIEW3D_PT_meniscus"
 
     @classmethod
     def poll(cls, context):
@@ -293,13 +296,9 @@ class VIEW3D_PT_meniscus_time(bpy.types.Panel):
         row.prop(settings, "frame")
 
 
-class VIEW3D_PT_meniscus_look(bpy.types.Panel):
+class VIEW3D_PT_meniscus_look(BelowPanel, bpy.types.Panel):
     bl_idname = "VIEW3D_PT_meniscus_look"
     bl_label = "Look"
-    bl_category = "Meniscus"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_parent_id = "VIEW3D_PT_meniscus"
 
     @classmethod
     def poll(cls, context):
