@@ -398,6 +398,7 @@ json description_of(const PageFigure& figure, const Tables& tables) {
           {"some_hidden", tables.some_hidden()},
           {"layers", layers_of(figure, tables.frame().pivot)},
           {"samples", samples},
+          {"samples_of_shade", kSamplesOfShade},
           {"labels", labels},
           {"schemes", schemes_of(figure, tables.color_by_kind())},
           {"names", names_of(figure.atoms)},

@@ -417,15 +417,25 @@ void CpuRenderer::look_at(int sample, const RenderSettings& settings, bool has_m
   task.finish = finish_parameters(look, scene_.placement, settings.size, sample, has_marks);
   task.samples = samples_.lanes(look.traces_sky());
   task.shade_map = shade_map_.data();
-  task.visibility = samples_.visibility.data();
   task.sums = sums_.data();
-  if (has_front) look_at_front(task, settings, interruption);
-  if (look.ambient_occlusion > 0.0f && !look.traces_sky())
-    for_each_until(interruption, task.view.size.y, [&](int y) { kernels_.occlude_row(task, y); });
+  if (has_front) look_at_front(sample, task, settings, interruption);
+  find_shade(samples_, sample, look, task, interruption);
   for_each_until(interruption, task.view.size.y, [&](int y) { kernels_.finish_row(task, y); });
 }
 
-void CpuRenderer::look_at_front(LaneLook task, const RenderSettings& settings, Interruption& interruption) {
+void CpuRenderer::find_shade(BlockSamples& samples, int sample, const Look& look, LaneLook& task,
+                             Interruption& interruption) {
+  task.visibility = samples.visibility.data();
+  task.shade_depth = samples.depth.data();
+  if (look.ambient_occlusion == 0.0f || look.traces_sky()) return;
+  if (sample == shade_sample(sample)) {
+    samples.shade_depth = samples.depth;
+    for_each_until(interruption, task.view.size.y, [&](int y) { kernels_.occlude_row(task, y); });
+  }
+  task.shade_depth = samples.shade_depth.data();
+}
+
+void CpuRenderer::look_at_front(int sample, LaneLook task, const RenderSettings& settings, Interruption& interruption) {
   const glm::ivec2 size = task.view.size;
   const std::size_t pixel_count = static_cast<std::size_t>(size.x) * size.y;
   front_sums_.assign(pixel_count, glm::vec4(0.0f));
@@ -433,11 +443,9 @@ void CpuRenderer::look_at_front(LaneLook task, const RenderSettings& settings, I
   task.samples = front_.lanes(settings.look.traces_sky());
   task.finish.specular = 0.0f;  // highlights are in what is cast
   task.shade_map = front_shade_map_.data();
-  task.visibility = front_.visibility.data();
   task.sums = front_sums_.data();
   task.ink = front_ink_.data();
-  if (settings.look.ambient_occlusion > 0.0f && !settings.look.traces_sky())
-    for_each_until(interruption, size.y, [&](int y) { kernels_.occlude_row(task, y); });
+  find_shade(front_, sample, settings.look, task, interruption);
   for_each_until(interruption, size.y, [&](int y) { kernels_.finish_row(task, y); });
   const int reach = static_cast<int>(std::ceil(0.5f * settings.look.widest_line() + 0.5f));
   for_each_until(interruption, size.y, [&](int y) {

@@ -36,6 +36,7 @@ struct LookedAtBlock {
         texel.x >= integer(0) && texel.y >= integer(0) && texel.x < integer(size.x) && texel.y < integer(size.y);
     return gather(look_.shade_map, select(inside, texel.y * integer(size.x) + texel.x, integer(size.x * size.y)));
   }
+  real shade_depth_or_nothing(integer2 pixel) { return fetch(look_.shade_depth, pixel); }
   real visibility_at(integer2 pixel) { return fetch(look_.visibility, pixel); }
   integer mark_at(integer2 pixel) { return to_whole(fetch(look_.samples.mark, pixel)); }
   real3 hit_normal_at(integer2 pixel) {
