@@ -261,6 +261,7 @@ for export in ("povray", "blender", "mitsuba", "pbrt"):
 for shape in ("--sticks", "--balls", "--spheres", "--tube", "--bases", "--glycans"):
     OWN_ROWS["export page", shape] = (ROWS[shape][0], "covered ring" if shape in ("--bases", "--glycans") else "plain")
 OWN_ROWS["export page", "--background"] = ("black", "plain")
+OWN_ROWS["export page", "--named-view"] = ("Back={camera.json}", "plain")
 for export in ("mesh", "ply"):
     OWN_ROWS["export " + export, "--stick-radius"] = ("0.7", "mesh sticks")
     OWN_ROWS["export " + export, "--tube-radius"] = ("0.9", "mesh tube")

@@ -5,6 +5,7 @@ and then perhaps names of tests (PageTest.test_turns_and_picks).
 With MENISCUS_SCREENSHOTS=FOLDER in the environment, pictures of the pages are left there to be looked at."""
 
 import base64
+import json
 import os
 import pathlib
 import subprocess
@@ -30,7 +31,7 @@ NOTHING = 0xffffffff
 # One sample through the middle of each pixel, with the look: words of what is met, and of the sums of colours.
 CAST = """(() => {
   const viewer = window.meniscus, caster = viewer.caster, gl = caster.gl, [width, height] = [%d, %d];
-  caster.begin(viewer.first, width, height);
+  caster.begin(viewer.camera, width, height);
   caster.cast(0, viewer.effects);
   const text = (words) => { let all = ""; for (const byte of new Uint8Array(words.buffer)) all += String.fromCharCode(byte);
     return btoa(all); };
@@ -71,6 +72,12 @@ class PageTest(unittest.IsolatedAsyncioTestCase):
     def export(self, molecule, *options, name="page.html"):
         self.run_program("export", "page", molecule, "-o", self.path(name), "--force", "-q", *options)
         return self.path(name)
+
+    def part_of(self, molecule, first, last):
+        """A file with some of its residues."""
+        with open(molecule) as file, open(self.path("part.pdb"), "w") as part:
+            part.writelines(row for row in file if row.startswith("ATOM") and first <= int(row[22:26]) <= last)
+        return part.name
 
     def browser(self, size=(520, 260)):
         return Browser(CHROMIUM, size, SOFTWARE_GL)
@@ -169,9 +176,7 @@ class PageTest(unittest.IsolatedAsyncioTestCase):
             self.assertEqual(page.complaints, [])
 
     async def test_what_readers_hide_cut_and_see_through_is_that_of_render(self):
-        camera, size, few = self.path("camera.json"), "%dx%d" % SIZE, self.path("few.pdb")
-        with open(PROTEASE) as file, open(few, "w") as part:
-            part.writelines(row for row in file if row.startswith("ATOM") and 20 <= int(row[22:26]) <= 60)
+        camera, size, few = self.path("camera.json"), "%dx%d" % SIZE, self.part_of(PROTEASE, 20, 60)
         async with self.browser() as page:
             await self.load(page, self.export(few, "--size", size, "--color", "chain", "--save-camera", camera))
             look = ["--size", size, "--color", "chain", "--camera", camera, "--depth-cue", "0"]
@@ -186,6 +191,50 @@ class PageTest(unittest.IsolatedAsyncioTestCase):
             await page.evaluate("meniscus.show_chains(new Set(meniscus.figure.names.chains)), meniscus.opacity = 0.5, meniscus.set_cut(0)")
             self.check("seen through", await self.cast(page), self.rendered(few, *look, "--opacity", "0.5"))
             self.assertEqual(page.complaints, [])
+
+    async def test_views_are_those_of_their_files(self):
+        part, camera = self.part_of(UBIQUITIN, 1, 15), self.path("back.json")
+        inside = ["--size", "%dx%d" % SIZE, "--color", "residue", "--clip", "depth>0.4", "--view", "left", "--zoom-to", "resid 5", "--opacity", "0.6"]
+        self.run_program("render", part, "-o", self.path("back.png"), "--force", "-q", "--size", "%dx%d" % SIZE, "--view", "back", "--projection",
+                         "orthographic", "--save-camera", camera)
+        self.run_program("render", part, "-o", self.path("inside.png"), "--force", "-q", "--samples", "1", *inside)
+        async with self.browser() as page:
+            await self.load(page, self.export(part, "--size", "%dx%d" % SIZE, "--color", "residue", "--named-view", f"<b>Back</b>={camera}",
+                                              "--named-view", f"Inside={self.path('inside.png')}"))
+            names = await page.evaluate("[...document.querySelectorAll('#views button')].map((button) => button.textContent)")
+            self.assertEqual(names, ["First view", "<b>Back</b>", "Inside"])
+            first = await page.evaluate("meniscus.camera")
+            await page.evaluate("window.held = false, meniscus.waiting = 0, meniscus.figure.samples.length = 1, meniscus.change()")
+            await page.at_rest(100)
+            await page.click("#views button:nth-child(2)")
+            self.assertEqual(await page.evaluate("document.getElementById('picked').textContent"), "<b>Back</b>")
+            self.assertTrue(await page.evaluate("meniscus.camera.orthographic"))
+            await page.until("meniscus.gliding === null", 30)
+            with open(camera) as file:
+                wanted = json.load(file)
+            seen = await page.evaluate("({ ...meniscus.camera, origin: meniscus.figure.origin })")
+            for key in ("position", "target"):
+                numpy.testing.assert_allclose(numpy.add(seen[key], seen["origin"]), wanted[key], atol=1e-9)
+            self.assertEqual((seen["orthographic"], seen["height"]), (True, wanted["height"]))
+            # Half of a half turn.
+            middle = await page.evaluate("((v) => between({ ...v[0].camera }, { ...v[1].camera, orthographic: false, fov: v[0].camera.fov }, 0.5))"
+                                         "(meniscus.figure.views)")
+            ahead = numpy.subtract(middle["target"], middle["position"])
+            self.assertLess(abs(numpy.dot(ahead, numpy.subtract(first["target"], first["position"]))), 1e-6 * numpy.dot(ahead, ahead))
+            await page.send("Emulation.setEmulatedMedia", features=[{"name": "prefers-reduced-motion", "value": "reduce"}])
+            await page.evaluate("window.held = true")
+            await page.click("#views button:nth-child(3)")
+            self.assertEqual(await page.evaluate("document.getElementById('opacity').value"), "60")
+            self.check("view Inside", await self.cast(page), self.rendered(part, *inside))
+            await page.click("#reset")
+            self.assertEqual(await page.evaluate("meniscus.camera"), first)
+            self.assertEqual(page.complaints, [])
+        for bad, words in ((["--named-view", "Back"], "write NAME=FILE"), (["--named-view", f"A={camera}", "--named-view", f"A={camera}"], "choose another"),
+                           (["--named-view", "A=none.json"], "cannot be opened")):
+            done = subprocess.run([PROGRAM, "export", "page", part, "-o", self.path("bad.html"), *bad], capture_output=True, text=True)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn(words, done.stderr)
+            self.assertFalse(os.path.exists(self.path("bad.html")))
 
     async def test_turns_and_picks(self):
         async with self.browser() as page:
@@ -212,6 +261,7 @@ class PageTest(unittest.IsolatedAsyncioTestCase):
             for key in ("ArrowLeft", "+", ".", "p", "r"):
                 await page.send("Input.dispatchKeyEvent", type="keyDown", key=key)
                 await page.send("Input.dispatchKeyEvent", type="keyUp", key=key)
+            await page.until("meniscus.gliding === null", 60)
             self.assertEqual(before, await page.evaluate("window.meniscus.camera.position"))
             await page.evaluate("(() => { const cut = document.getElementById('cut'); cut.value = 50; cut.dispatchEvent(new Event('input')); })()")
             await page.at_rest(200)

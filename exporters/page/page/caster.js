@@ -333,7 +333,7 @@ class Caster {
     const wanted = [...(effects.shade ? ["AMBIENT_OCCLUSION"] : []), ...(effects.lines ? ["SILHOUETTES"] : []), ...defines];
     this.draw_whole(target, this.program("whole.vert", "finish.frag", wanted), { normal_texels: normal, sample_texels: color, what_texels: what,
       ...(effects.shade ? { shade_texels: this.pixels.shade } : {}), sum_texels: sum }, {},
-      { Parameters: { words: this.figure.finish, values: { ...this.depth_range, ...this.line_widths(), ...values } } });
+      { Parameters: { words: this.figure.finish, values: { ...this.depth_range, ...this.line_widths(), ...(this.fades ? {} : { depth_cue: 0 }), ...values } } });
   }
 
   /// Footprints of some primitives or balls, in their order. kind: of a program's vertex shader.
