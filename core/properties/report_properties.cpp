@@ -111,8 +111,8 @@ constexpr auto kTable = std::to_array<Property>({
         .in_short_help(),
     word("storyboard.to", "--to", "WORD",
          "What is made. pictures: a film, or numbered pictures; povray: a folder with a scene for POV-Ray whose frames "
-         "are the film's")
-        .one_of("pictures|povray")
+         "are the film's; blender: a folder that Blender imports as scenes and keys")
+        .one_of("pictures|povray|blender")
         .initially("pictures")
         .in(kStoryboard)
         .in_short_help(),
