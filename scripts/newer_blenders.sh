@@ -70,7 +70,7 @@ for version in "${versions[@]}"; do
   log=$home/inside_usd.log
   "$home/blender" -b --factory-startup --python-exit-code 3 --python "$tests/../mesh/inside_blender_usd.py" -- "$program" >"$log" 2>&1 && failed=0 || failed=1
   count "Blender $version, USD of a run: $failed failed; $log" 1 $failed
-  scripts=(inside_blender inside_sequence inside_driven inside_computed inside_prepared inside_dressed inside_handed_on inside_looks)
+  scripts=(inside_blender inside_sequence inside_storyboard inside_driven inside_computed inside_prepared inside_dressed inside_handed_on inside_looks)
   [[ ${molecular_nodes[$version]:-} ]] && scripts+=(inside_molecular_nodes)
   for script in "${scripts[@]}"; do
     log=$home/$script.log

@@ -134,14 +134,17 @@ void run(const DeclaredFilm& declared) {
   const FilmCommand& command = declared.state;
   const bool is_film = is_film_path(command.scene.output);
   if (command.medium != FilmMedium::pictures && is_film)
-    throw UsageError(fmt::format("-o {}: --to povray writes a folder; name one, or leave --to out",
-                                 in_quotes(command.scene.output)));
+    throw UsageError(fmt::format("-o {}: --to {} writes a folder; name one, or leave --to out",
+                                 in_quotes(command.scene.output),
+                                 command.medium == FilmMedium::povray ? "povray" : "blender"));
   if (is_film) check_output(command.scene.output, command.existing());
   Storyboard storyboard(declared);
   if (command.medium == FilmMedium::pictures)
     PictureFilm(storyboard).make();
-  else
+  else if (command.medium == FilmMedium::povray)
     write_povray_film(storyboard);
+  else
+    write_blender_film(storyboard);
 }
 
 }  // namespace
@@ -152,7 +155,8 @@ void add_film(CLI::App& command) {
       "  meniscus film a.png b.png c.png -o story.mp4\n"
       "  meniscus film apo.json holo.json -o story.mp4 --hold 2,4 --transition 1.5 --size 1920x1080\n"
       "  meniscus film a.json b.json -o 'story_####.png' --ease even\n"
-      "  meniscus film a.json b.json --to povray -o story         a scene for POV-Ray; it prints how to render it",
+      "  meniscus film a.json b.json --to povray -o story         a scene for POV-Ray; it prints how to render it\n"
+      "  meniscus film a.json b.json --to blender -o story        surfaces and keys for Blender's add-on to import",
       "Scenes are files of --save-scene or pictures that meniscus render made. On the way from one to the next the "
       "camera,\ncut planes, the probe's radius and numbers of the look change steadily; all else dissolves.");
   auto declared = std::make_shared<DeclaredFilm>(command, for_film);
@@ -165,7 +169,7 @@ void add_film(CLI::App& command) {
   options.add("storyboard.transition", state.transition);
   options.add("picture.draft", state.is_draft);
   options.add_word("storyboard.ease", state.pace, {Pace::smooth, Pace::even});
-  options.add_word("storyboard.to", state.medium, {FilmMedium::pictures, FilmMedium::povray});
+  options.add_word("storyboard.to", state.medium, {FilmMedium::pictures, FilmMedium::povray, FilmMedium::blender});
   declared->options.option("image.size")->description("Size of the film in pixels [that of the first scene]");
   command.callback([declared] {
     declared->options.take();

@@ -88,6 +88,7 @@ Storyboard::Timing::Timing(const FilmCommand& film) {
 Storyboard::Storyboard(const DeclaredFilm& declared) : command_(with_scenes(declared.state)), timing_(command_) {
   for (SceneCommand& command : read_scenes(declared)) {
     if (command_.is_draft) make_draft(command.scene);
+    titles_.push_back(command.scene.annotations.title);
     // What is written into pictures is in no scene for another renderer, and leaves no room for it.
     if (is_exported()) {
       leaves_writing_out_ = leaves_writing_out_ || is_written_into(command.scene);

@@ -18,8 +18,9 @@
 
 namespace meniscus {
 
-/// What a film is made of: pictures of our own, or the frames of a scene for another renderer.
-enum class FilmMedium { pictures, povray };
+/// What a film is made of: pictures of our own, the frames of a scene for another renderer, or scenes and keys of
+/// another program.
+enum class FilmMedium { pictures, povray, blender };
 
 struct FilmCommand : SceneCommand {
   std::vector<std::string> files;
@@ -65,6 +66,11 @@ class Storyboard {
   const FilmCommand& command() const { return command_; }
   bool is_exported() const { return command_.medium != FilmMedium::pictures; }
   std::uint64_t pictures() const;
+  /// For how many pictures a scene is shown that is no run, and the transition to the next one lasts.
+  std::uint64_t held(std::size_t n) const { return timing_.held[n]; }
+  std::uint64_t between(std::size_t n) const { return timing_.between[n]; }
+  /// What the scene has written above its pictures, in exports too.
+  const std::string& title(std::size_t n) const { return titles_[n]; }
   /// Whether titles, labels, legends and the like were taken out of scenes.
   bool leaves_writing_out() const { return leaves_writing_out_; }
 
@@ -83,11 +89,16 @@ class Storyboard {
   const FilmCommand& command_;
   Timing timing_;
   std::vector<std::unique_ptr<FilmScene>> scenes_;
+  std::vector<std::string> titles_;
   std::optional<Shot> last_;  ///< of the scene before
   bool leaves_writing_out_ = false;
 };
 
 /// Writes a folder with a scene for POV-Ray of the storyboard (--to povray).
 void write_povray_film(Storyboard& storyboard);
+
+/// Writes a folder with the surfaces of the storyboard, and when each is shown by which camera, for Blender
+/// (--to blender). Throws UsageError for a scene of a run.
+void write_blender_film(Storyboard& storyboard);
 
 }  // namespace meniscus

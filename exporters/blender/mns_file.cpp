@@ -10,6 +10,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -65,6 +66,12 @@ void MnsWriter::add(const std::string& name, std::span<const std::uint8_t> value
 
 void MnsWriter::write(const std::string& path, Existing existing, nlohmann::json header,
                       const std::function<void(std::uint64_t)>& tell) const {
+  OutputFile file(path, existing);
+  write(file, std::move(header), tell);
+  file.commit();
+}
+
+void MnsWriter::write(OutputFile& file, nlohmann::json header, const std::function<void(std::uint64_t)>& tell) const {
   // Offsets count from the end of the header, so that the header's own length does not matter for them.
   std::size_t offset = 0;
   nlohmann::json table = nlohmann::json::array();
@@ -85,7 +92,6 @@ void MnsWriter::write(const std::string& path, Existing existing, nlohmann::json
 
   // The prologue holds the checksum of all that follows; zeros keep its place.
   std::vector<std::byte> prologue(kPrologue);
-  OutputFile file(path, existing);
   file.write(std::span<const std::byte>(prologue));
   std::uint32_t crc = 0;
   const auto write = [&](std::span<const std::byte> bytes) {
@@ -115,7 +121,6 @@ void MnsWriter::write(const std::string& path, Existing existing, nlohmann::json
   put(prologue, 16, static_cast<std::uint64_t>(text.size()));
   put(prologue, 24, size);
   file.rewrite_beginning(prologue);
-  file.commit();
 }
 
 nlohmann::json shot_object(const Shot& shot) {

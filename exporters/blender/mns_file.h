@@ -70,6 +70,8 @@ class MnsWriter {
   /// "arrays" is added to it. tell: called with the size in bytes before anything is written.
   void write(const std::string& path, Existing existing, nlohmann::json header,
              const std::function<void(std::uint64_t)>& tell = {}) const;
+  /// The same into a file that others commit.
+  void write(OutputFile& file, nlohmann::json header, const std::function<void(std::uint64_t)>& tell = {}) const;
 
  private:
   struct Array {

@@ -292,13 +292,9 @@ json object_header(const MeshedObject& meshed, const std::string& prefix, const 
   return header;
 }
 
-}  // namespace
-
-void write_objects(const std::string& path, Existing existing, std::span<const MeshedObject> objects,
-                   const std::optional<Shot>& shot, const Provenance& provenance,
-                   const std::optional<PlaceInRun>& place, const CutFile& cut,
-                   const std::function<void(std::uint64_t)>& tell) {
-  MnsWriter file;
+/// Puts the arrays of all objects into the file, and makes its header.
+json add_objects(MnsWriter& file, std::span<const MeshedObject> objects, const Provenance& provenance,
+                 const CutFile& cut) {
   json list = json::array();
   for (const MeshedObject& meshed : objects) {
     if (meshed.mesh.triangles.empty()) continue;
@@ -329,9 +325,27 @@ void write_objects(const std::string& path, Existing existing, std::span<const M
     file.set_version(kMnsVersionOfCaps);
     header["caps"] = caps_header(cut);
   }
+  return header;
+}
+
+}  // namespace
+
+void write_objects(const std::string& path, Existing existing, std::span<const MeshedObject> objects,
+                   const std::optional<Shot>& shot, const Provenance& provenance,
+                   const std::optional<PlaceInRun>& place, const CutFile& cut,
+                   const std::function<void(std::uint64_t)>& tell) {
+  MnsWriter file;
+  json header = add_objects(file, objects, provenance, cut);
   if (shot) header["camera"] = shot_object(*shot);
   if (place) header["sequence"] = {{"run", place->run}, {"frame", place->frame}, {"scene_frame", place->scene_frame}};
   file.write(path, existing, std::move(header), tell);
+}
+
+void write_objects(OutputFile& file, std::span<const MeshedObject> objects, const Provenance& provenance,
+                   const CutFile& cut) {
+  MnsWriter arrays;
+  const json header = add_objects(arrays, objects, provenance, cut);
+  arrays.write(file, header);
 }
 
 }  // namespace meniscus::blender

@@ -66,5 +66,8 @@ void write_objects(const std::string& path, Existing existing, std::span<const M
                    const std::optional<Shot>& shot, const Provenance& provenance,
                    const std::optional<PlaceInRun>& place = {}, const CutFile& cut = {},
                    const std::function<void(std::uint64_t)>& tell = {});
+/// The same, of one moment and without a camera, into a file that others commit.
+void write_objects(OutputFile& file, std::span<const MeshedObject> objects, const Provenance& provenance,
+                   const CutFile& cut);
 
 }  // namespace meniscus::blender

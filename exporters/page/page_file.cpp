@@ -418,6 +418,7 @@ json description_of(const PageFigure& figure, const Tables& tables) {
           {"some_hidden", tables.some_hidden()},
           {"layers", layers_of(figure)},
           {"samples", samples},
+          {"samples_of_shade", kSamplesOfShade},
           {"labels", labels},
           {"schemes", schemes_of(figure, tables.color_by_kind())},
           {"names", names_of(figure.atoms)},

@@ -16,7 +16,7 @@ import os
 import bpy
 from bpy_extras.io_utils import ImportHelper
 
-from . import build, compat, computed, mns_reader, panel, sequence, sequence_reader, settings
+from . import build, compat, computed, mns_reader, panel, sequence, sequence_reader, settings, storyboard
 
 
 class Looks:
@@ -137,6 +137,35 @@ class IMPORT_SCENE_OT_meniscus_sequence(Looks, bpy.types.Operator, ImportHelper)
         return {"FINISHED"}
 
 
+class IMPORT_SCENE_OT_meniscus_storyboard(Looks, bpy.types.Operator, ImportHelper):
+    """Import a storyboard that meniscus film --to blender wrote: scenes, and key frames from each to the next"""
+
+    bl_idname = "import_scene.meniscus_storyboard"
+    bl_label = "Import Meniscus storyboard"
+    bl_options = {"UNDO", "PRESET"}
+
+    filename_ext = ".json"
+    filter_glob: bpy.props.StringProperty(default="*.json", options={"HIDDEN"})
+    filepath: bpy.props.StringProperty(subtype="FILE_PATH", options={"SKIP_SAVE"})
+    scale: bpy.props.FloatProperty(
+        name="Scale", description="Blender units per ångström; 0 takes that of the storyboard", default=0.0, min=0.0,
+        soft_max=1.0, precision=4)
+    set_time: bpy.props.BoolProperty(
+        name="Set frame range and rate", description="The scene gets the range and the rate of the film, and a marker for each of its "
+        "scenes", default=True)
+
+    def execute(self, context):
+        options = {name: getattr(self, name) for name in ("crisp_colors", "own_materials", "center", "import_camera",
+                                                          "use_camera", "set_time")}
+        try:
+            storyboard.import_file(self.filepath, context, scale=self.scale or None, **options)
+        except (mns_reader.MnsError, OSError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self.tell(context)
+        return {"FINISHED"}
+
+
 class OBJECT_OT_meniscus_reload(bpy.types.Operator):
     """Read the file of the active Meniscus surface again; its materials, modifiers and place remain"""
 
@@ -161,6 +190,7 @@ class OBJECT_OT_meniscus_reload(bpy.types.Operator):
 def menu_entry(self, _context):
     self.layout.operator(IMPORT_SCENE_OT_meniscus.bl_idname, text="Meniscus surface (.mns)")
     self.layout.operator(IMPORT_SCENE_OT_meniscus_sequence.bl_idname, text="Meniscus sequence (.json)")
+    self.layout.operator(IMPORT_SCENE_OT_meniscus_storyboard.bl_idname, text="Meniscus storyboard (.json)")
 
 
 def object_menu_entry(self, context):
@@ -168,7 +198,7 @@ def object_menu_entry(self, context):
         self.layout.operator(OBJECT_OT_meniscus_reload.bl_idname)
 
 
-CLASSES = [IMPORT_SCENE_OT_meniscus, IMPORT_SCENE_OT_meniscus_sequence, OBJECT_OT_meniscus_reload]
+CLASSES = [IMPORT_SCENE_OT_meniscus, IMPORT_SCENE_OT_meniscus_sequence, IMPORT_SCENE_OT_meniscus_storyboard, OBJECT_OT_meniscus_reload]
 
 if compat.can_drop_files():
 

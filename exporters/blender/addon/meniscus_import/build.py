@@ -63,13 +63,7 @@ def import_file(path, context=None, **options):
             name = f"{stem}.{key if len(file.objects) > 1 or options.parts else 'surface'}"
             meshes.append(build_mesh(surface, name, options, new_materials, fps_of(context.scene), names))
             for copy in surface.copies:  # linked: all copies share one mesh
-                made.surfaces.append(bpy.data.objects.new(name, meshes[-1]))
-                made.surfaces[-1].matrix_world = placement(copy, options.scale, origin)
-                set_provenance(made.surfaces[-1], surface, options, names)
-                made.surfaces[-1]["meniscus_file"] = remembered_path(path)
-                made.surfaces[-1]["meniscus_part"] = key
-                made.surfaces[-1]["meniscus_atoms"] = atoms
-                made.surfaces[-1]["meniscus_origin"] = [float(value) for value in origin]
+                made.surfaces.append(add_copy(meshes[-1], copy, surface, path, file, options, origin, key))
                 made.collection.objects.link(made.surfaces[-1])
         if options.import_camera and shot:
             camera = bpy.data.cameras.new(stem + ".camera")
@@ -92,6 +86,18 @@ def import_file(path, context=None, **options):
     let_rays_through(context.scene, meshes)
     present(context, made.surfaces)
     return made
+
+
+def add_copy(mesh, copy, surface, path, file, options, origin, part=None):
+    """An object for a copy of a surface of a file, which Reload finds by `part`: its name, as parts_of has it."""
+    item = bpy.data.objects.new(mesh.name, mesh)
+    item.matrix_world = placement(copy, options.scale, origin)
+    set_provenance(item, surface, options, names_of(*file.objects))
+    item["meniscus_file"] = remembered_path(path)
+    item["meniscus_part"] = part or next(name for name, each in parts_of(file, False) if each is surface)
+    item["meniscus_atoms"] = sum(len(each["atom.center"]) for each in file.objects)
+    item["meniscus_origin"] = [float(value) for value in origin]
+    return item
 
 
 def parts_of(file, apart):
@@ -201,10 +207,11 @@ def fps_of(scene):
     return scene.render.fps / scene.render.fps_base
 
 
-def build_mesh(surface, name, options, new_materials, fps, names):
+def build_mesh(surface, name, options, new_materials, fps, names, fades=False):
+    """fades: with materials that fade as the object's colour says."""
     mesh = bpy.data.meshes.new(name)
     try:
-        add_materials(mesh, surface, new_materials, options.own_materials)
+        add_materials(mesh, surface, new_materials, options.own_materials, fades)
         fill_mesh(mesh, of_surface(surface, options.scale, options.crisp_colors, names), fps)
     except BaseException:
         bpy.data.meshes.remove(mesh)
@@ -249,10 +256,11 @@ def fill_mesh(mesh, arrays, fps, trusted=False):
     compat.set_active_color(mesh, "Color")
 
 
-def add_materials(mesh, surface, new_materials, own=False):
-    """own: not those that all imports share."""
+def add_materials(mesh, surface, new_materials, own=False, fades=False):
+    """own: not those that all imports share. fades: as the object's colour says."""
     for role, kind in materials.wanted(surface):
-        mesh.materials.append(materials.find_or_make(role, kind, new_materials, own, materials.hatching_of(surface, role), materials.looks_of(surface)))
+        mesh.materials.append(materials.find_or_make(role, kind, new_materials, own, materials.hatching_of(surface, role),
+                                                     materials.looks_of(surface), fades))
 
 
 def source_of(header):

@@ -186,12 +186,13 @@ def add_geometry_sockets(tree):
 
 
 def add_input(tree, name, kind, value):
-    """One input more of a node group; kind: "NodeSocketFloat" and the like."""
+    """One input more of a node group; kind: "NodeSocketFloat" and the like. value: None of those that have none."""
     if hasattr(tree, "interface"):
         socket = tree.interface.new_socket(name, in_out="INPUT", socket_type=kind)
     else:
         socket = tree.inputs.new(kind, name)
-    socket.default_value = value
+    if value is not None:
+        socket.default_value = value
 
 
 def add_output(tree, name, kind):

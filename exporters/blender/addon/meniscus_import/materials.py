@@ -3,7 +3,7 @@
 
 import bpy
 
-from . import compat
+from . import compat, fading
 from .mesh_arrays import SLOTS
 
 #: How a surface lets through what lies behind it, and what the names of its materials end with.
@@ -34,18 +34,20 @@ def looks_of(surface):
     return tuple(sorted((key, float(value)) for key, value in surface.header.get("material", {}).items()))
 
 
-def find_or_make(role, kind, new_materials, own=False, hatching=None, looks=()):
+def find_or_make(role, kind, new_materials, own=False, hatching=None, looks=(), fades=False):
     """The material of a role, one of SLOTS, for a kind of opacity; own: of one import alone. hatching: as hatching_of; looks:
-    as looks_of. Those that are made are added to new_materials."""
+    as looks_of; fades: as the object's colour says (fading.py). Those that are made are added to new_materials."""
     mark = f"{role} {kind}" + (" own" if own else "") + ("" if hatching is None else " hatched {:g} {:g}".format(*hatching))
-    mark += "".join(f" {key} {value:g}" for key, value in looks)
+    mark += "".join(f" {key} {value:g}" for key, value in looks) + (" fading" if fades else "")
     for material in new_materials if own else bpy.data.materials:
-        if material.get(MARK) == mark or (kind == OPAQUE and not own and not looks and _is_of_an_old_import(material, role)):
+        if material.get(MARK) == mark or (kind == OPAQUE and not (own or looks or fades) and _is_of_an_old_import(material, role)):
             return material
-    material = bpy.data.materials.new(f"Meniscus {role}{ENDINGS[kind]}{'' if hatching is None else ' hatched'}")
+    material = bpy.data.materials.new(f"Meniscus {role}{ENDINGS[kind]}{'' if hatching is None else ' hatched'}{' fading' if fades else ''}")
     new_materials.append(material)
     material[MARK] = mark
     _fill(material, kind, hatching, dict(looks))
+    if fades:
+        fading.add(material)
     return material
 
 

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `meniscus film --to blender`: writes a storyboard as surfaces, and when and how each of them is shown.
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/commands/blender_meshes.h"
+#include "app/commands/mesh_notes.h"
+#include "app/commands/storyboard.h"
+#include "app/process/program_error.h"
+#include "app/reports/notes.h"
+#include "core/base/output_file.h"
+#include "core/base/progress.h"
+#include "core/base/text.h"
+#include "core/math/box.h"
+#include "exporters/blender/story_file.h"
+
+namespace meniscus {
+namespace {
+
+bool have_one_content(const std::filesystem::path& one, const std::filesystem::path& other) {
+  if (std::filesystem::file_size(one) != std::filesystem::file_size(other)) return false;
+  std::ifstream first(one, std::ios::binary), second(other, std::ios::binary);
+  using Bytes = std::istreambuf_iterator<char>;
+  return std::equal(Bytes(first), Bytes(), Bytes(second));
+}
+
+void check(Storyboard& storyboard) {
+  for (std::size_t n = 0; n < storyboard.size(); ++n) {
+    FilmScene& scene = storyboard.scene(n);
+    check_blender(scene.run.scene());
+    if (scene.run.is_run())
+      throw UsageError(
+          fmt::format("{}: --to blender takes scenes of one molecule, and this is one of a run of frames; give it to "
+                      "meniscus export blender",
+                      in_quotes(storyboard.command().files[n])));
+  }
+}
+
+void tell_what_is_left_out(Storyboard& storyboard) {
+  const FilmCommand& command = storyboard.command();
+  if (storyboard.leaves_writing_out())
+    say(command,
+        "note: titles, labels, legends, scale bars and the like are left out: Blender gets the molecule; "
+        "titles name the markers of its timeline");
+  bool cuts = false, probes = false;
+  for (std::size_t n = 0; n < storyboard.size(); ++n) {
+    const Scene &scene = storyboard.scene(n).run.scene(), &first = storyboard.scene(0).run.scene();
+    cuts = cuts || !scene.figure.cuts.empty();
+    probes = probes || scene.molecule.surface.probe_radius != first.molecule.surface.probe_radius;
+  }
+  if (cuts || probes)
+    say(command, fmt::format("note: {} not move in Blender: the surface of each scene is a mesh, and they fade",
+                             cuts && probes ? "cut planes and the probe's radius do"
+                             : cuts         ? "cut planes do"
+                                            : "the probe's radius does"));
+}
+
+class BlenderFilm {
+ public:
+  explicit BlenderFilm(Storyboard& storyboard)
+      : storyboard_(storyboard),
+        command_(storyboard.command()),
+        folder_(command_.scene.output, command_.existing()),
+        progress_(progress_on_stderr(command_), "film", storyboard.size()) {}
+
+  void write() {
+    tell_what_is_left_out(storyboard_);
+    story_.is_smooth = command_.pace == Pace::smooth;
+    story_.fps = command_.scene.film.frames_per_second;
+    std::uint64_t frame = 1;
+    for (std::size_t n = 0; n < storyboard_.size(); ++n) {
+      blender::StoryScene& scene = story_.scenes.emplace_back();
+      scene.first = frame;
+      scene.last = frame + storyboard_.held(n) - 1;
+      frame = scene.last + 1 + (n + 1 < storyboard_.size() ? storyboard_.between(n) : 0);
+      add(n, scene);
+      progress_.advance(1);
+    }
+    story_.origin = 0.5 * (extent_.low + extent_.high);
+    folder_.file("story.json").write(blender::story_json(story_));
+    for (const auto& file : files_) file->commit();
+    folder_.commit();
+    const std::filesystem::path written = folder_.path() / "story.json";
+    say(command_, fmt::format("{} scenes as {} files, {} frames, {:.1f} s", storyboard_.size(), files_.size(),
+                              with_thousands(frame - 1), static_cast<double>(frame - 1) / story_.fps));
+    std::cout << escaped(written.string()) << "\n";
+  }
+
+ private:
+  void add(std::size_t n, blender::StoryScene& made) {
+    FigureRun& run = storyboard_.scene(n).run;
+    const Scene& scene = run.scene();
+    made.name = std::filesystem::path(command_.files[n]).stem().string();
+    made.title = storyboard_.title(n);
+    made.background = scene.image.background;
+    made.shot = blender_shot(scene, run.camera(0));
+    for (const Ball& ball : run.figure().balls()) {
+      extent_.include(ball.center - ball.radius);
+      extent_.include(ball.center + ball.radius);
+    }
+    run.make({kMeshBytesPerAtom}, [&]() -> FigureRun::Sink {
+      return [&](FigureFrame frame) -> FinishFrame {
+        made.file = write_surface(n, std::move(frame));
+        return [] { return MadeFrame{}; };
+      };
+    });
+  }
+
+  /// The name of the file with it: of an earlier scene, if that looks the same.
+  std::string write_surface(std::size_t n, FigureFrame frame) {
+    const SceneCommand& command = storyboard_.scene(n).run.command();
+    const MeshFineness fineness{blender::kTolerance, {}, 0.0, false};
+    const blender::CutFile cut = cut_file(command, frame);
+    const blender::Provenance provenance = provenance_of(frame.figure.molecule);
+    warn_of_many(command, expected_triangles(frame.figure.molecule.objects, fineness, CopiesOfMesh::shared));
+    FigureMeshes meshes;
+    mesh_figure(command, frame, cut, fineness, meshes);
+    add_numbers(command, blender::parse_surface_numbers(command.scene.mesh.attributes), frame.figure.molecule.structure,
+                meshes.objects);
+    auto file = std::make_unique<OutputFile>(folder_.path() / blender::scene_file(n), command_.existing());
+    write_objects(*file, meshes.objects, provenance, cut);
+    const auto same = std::ranges::find_if(
+        files_, [&](const auto& other) { return have_one_content(other->temporary_path(), file->temporary_path()); });
+    if (same != files_.end()) return (*same)->target().filename().string();
+    files_.push_back(std::move(file));
+    return files_.back()->target().filename().string();
+  }
+
+  Storyboard& storyboard_;
+  const FilmCommand& command_;
+  OutputFolder folder_;
+  Progress progress_;
+  blender::Story story_;
+  Box extent_;
+  std::vector<std::unique_ptr<OutputFile>> files_;  ///< with surfaces, until all are there
+};
+
+}  // namespace
+
+void write_blender_film(Storyboard& storyboard) {
+  check(storyboard);
+  BlenderFilm(storyboard).write();
+}
+
+}  // namespace meniscus

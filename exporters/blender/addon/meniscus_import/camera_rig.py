@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The camera of a storyboard: a child of its target, with key frames at the beginning and the end of each transition."""
+
+import math
+
+import bpy
+import numpy as np
+
+from . import build, camera_path, curves, keys
+
+#: What a camera may be off its way, seen from its target, degrees; and of its distance, angle and height, a share.
+TURN, SIZE = 0.2, 1e-3
+
+
+def add(collection, board, name, scale, origin, made):
+    """The camera, whose parent stands at the target. Both are added to `made` as soon as they are there."""
+    poses = camera_path.complete([camera_path.pose_of(scene.camera) for scene in board.scenes])
+    target = bpy.data.objects.new(f"{name}.target", None)
+    made.append(target)
+    target.rotation_mode = "QUATERNION"
+    target.empty_display_size = 5.0 * scale
+    data = bpy.data.cameras.new(f"{name}.camera")
+    item = bpy.data.objects.new(data.name, data)
+    made.append(item)
+    item.parent = target
+    data.sensor_fit = "VERTICAL"
+    data.type = "ORTHO" if poses[0].is_flat else "PERSP"
+    for each in target, item:
+        collection.objects.link(each)
+    half = 0.5 * data.sensor_height
+    places = [(pose.target - origin) * scale for pose in poses]
+    _key(board, target, "location", places, lambda before, after, share: share, lambda *_: 1e-6)
+    _key(board, target, "rotation_quaternion", [pose.turn for pose in poses], camera_path.turned, _tolerance_of_turn)
+    _key(board, item, "location", [(pose.distance * scale,) for pose in poses], _grown, _tolerance_of_size, indices=(2,))
+    if any(pose.is_flat for pose in poses):
+        _key(board, data, "ortho_scale", [(pose.height * scale,) for pose in poses], _grown, _tolerance_of_size, indices=(-1,))
+    _key(board, data, "lens", [(half / pose.tangent,) for pose in poses],
+         lambda before, after, share: camera_path.grown_lens(before[0] / half, after[0] / half, share), _tolerance_of_size, indices=(-1,))
+    if len({pose.is_flat for pose in poses}) > 1:
+        _step(board, data, "type", [float(pose.is_flat) for pose in poses])
+    if any(pose.behind for pose in poses):
+        _step(board, item, "delta_location", [pose.behind * scale for pose in poses], 2)
+    return item
+
+
+def reach_all(item, board, points_of_scenes, scale):
+    """Clips nothing that any scene shows. points_of_scenes: (n, 3) Å for each."""
+    reach = max(float(np.linalg.norm(points - np.array(scene.camera["position"]), axis=1).max())
+                for scene, points in zip(board.scenes, points_of_scenes)) * scale
+    item.data.clip_start, item.data.clip_end = max(1e-4 * reach, 1e-6), 4.0 * reach
+
+
+def _grown(before, after, share):
+    return camera_path.grown(before[0], after[0], share)
+
+
+def _tolerance_of_turn(before, after):
+    degrees = math.degrees(2.0 * math.acos(min(abs(float(np.dot(before, after))), 1.0)))
+    return TURN / max(degrees, TURN)
+
+
+def _tolerance_of_size(before, after):
+    return SIZE * min(before[0], after[0]) / max(abs(after[0] - before[0]), 1e-9 * before[0])
+
+
+def transitions(board):
+    """Pairs of scenes, one after the other, and whether there is a picture between them."""
+    return [(before, after, after.first > before.last + 1) for before, after in zip(board.scenes, board.scenes[1:])]
+
+
+def _key(board, owner, path, values, way, tolerance, indices=None):
+    """Keys of some channels of a property. values: of each scene, those of all channels. way(before, after, share): how much of the
+    straight way between the values of two scenes is done."""
+    indices = range(len(values[0])) if indices is None else indices
+    values = [[float(part) for part in value] for value in values]
+    ways = [keys.Way(board.scenes[0].last, part) for part in values[0]]
+    start = curves.SMOOTH if board.is_smooth else curves.EVEN
+    for (before, after, dissolves), one, other in zip(transitions(board), values, values[1:]):
+        for channel, part in zip(ways, one):
+            channel.go_on(before.last, part)
+        if dissolves and one != other:
+            keys.follow(ways, (before.last, after.first), (one, other), lambda time: way(one, other, board.share(time)),
+                        tolerance(one, other), start)
+        for channel, part in zip(ways, other):
+            channel.go_on(after.first, part, keys.LINEAR if dissolves else keys.CONSTANT)
+    current = getattr(owner, path)
+    if indices == (-1,):
+        setattr(owner, path, values[0][0])
+    else:
+        for index, part in zip(indices, values[0]):
+            current[index] = part
+    for index, channel in zip(indices, ways):
+        channel.insert(owner, path, index)
+
+
+def _step(board, owner, path, values, index=-1):
+    """Keys of what stays until the next scene is there."""
+    way = keys.Way(board.scenes[0].first, values[0])
+    for scene, value in zip(board.scenes[1:], values[1:]):
+        way.go_on(scene.first, value, keys.CONSTANT)
+    way.insert(owner, path, index)

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Objects that come and go by one number, the alpha of their colour: 0 not there yet, 1 there, 2 gone again."""
+
+from . import compat
+
+NAME = "Meniscus fade"
+#: Stripes a pixel, across and down, of which a share is shown: finer than any picture, of no common measure with its rows.
+STRIPES = (7.31, 3.17)
+#: Of a picture, in pixels, for which they are so fine; in larger ones they are wider.
+WIDTH, HEIGHT = 4096.0, 4096.0
+
+
+def add(material):
+    """Has a material fade. In Cycles a ray of the camera sees the object or passes, by where in its pixel it lies: so it meets one
+    of two objects that fade into each other, never both, and the mean of a pixel is the blend of their pictures. Other rays, and
+    Eevee, see the object through as much as it is not there."""
+    tree = material.node_tree
+    output = compat.find_or_add(tree, "OUTPUT_MATERIAL", "ShaderNodeOutputMaterial")
+    shader = output.inputs["Surface"].links[0].from_socket
+    fade = tree.nodes.new("ShaderNodeGroup")
+    fade.node_tree = _group()
+    fade.location = (output.location[0], output.location[1] - 200)
+    output.location[0] += 200
+    for_cycles = tree.nodes.new("ShaderNodeOutputMaterial")
+    for_cycles.target = "CYCLES"
+    for_cycles.location = (output.location[0], output.location[1] - 200)
+    tree.links.new(shader, fade.inputs["Shader"])
+    tree.links.new(fade.outputs["Shader"], output.inputs["Surface"])
+    tree.links.new(fade.outputs["Shader of Cycles"], for_cycles.inputs["Surface"])
+    compat.let_through(material)
+
+
+def _group():
+    """The one that all materials share."""
+    import bpy
+
+    found = bpy.data.node_groups.get(NAME)
+    if found is not None and found.bl_idname == "ShaderNodeTree":
+        return found
+    tree = bpy.data.node_groups.new(NAME, "ShaderNodeTree")
+    compat.add_input(tree, "Shader", "NodeSocketShader", None)
+    compat.add_output(tree, "Shader", "NodeSocketShader")
+    compat.add_output(tree, "Shader of Cycles", "NodeSocketShader")
+    inside, outside = tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
+    there = tree.nodes.new("ShaderNodeObjectInfo").outputs["Alpha"]
+    past = compat.math_node(tree, "SUBTRACT", there, 1.0)
+    opacity = compat.math_node(tree, "SUBTRACT", 1.0, compat.math_node(tree, "MINIMUM", compat.math_node(tree, "ABSOLUTE", past), 1.0))
+    place = tree.nodes.new("ShaderNodeSeparateXYZ")
+    tree.links.new(tree.nodes.new("ShaderNodeTexCoord").outputs["Window"], place.inputs[0])
+    across = compat.math_node(tree, "MULTIPLY", place.outputs["X"], STRIPES[0] * WIDTH)
+    stripe = compat.math_node(tree, "FRACT", compat.math_node(tree, "MULTIPLY_ADD", place.outputs["Y"], STRIPES[1] * HEIGHT, across))
+    come = compat.math_node(tree, "LESS_THAN", stripe, there)
+    stays = compat.math_node(tree, "SUBTRACT", 1.0, compat.math_node(tree, "LESS_THAN", stripe, past))
+    seen = compat.math_node(tree, "MULTIPLY", come, stays)
+    direct = tree.nodes.new("ShaderNodeLightPath").outputs["Is Camera Ray"]
+    rest = compat.math_node(tree, "SUBTRACT", 1.0, direct)
+    of_cycles = compat.math_node(tree, "MULTIPLY_ADD", seen, direct, compat.math_node(tree, "MULTIPLY", opacity, rest))
+    nothing = tree.nodes.new("ShaderNodeBsdfTransparent").outputs[0]
+    for share, name in ((opacity, "Shader"), (of_cycles, "Shader of Cycles")):
+        mix = tree.nodes.new("ShaderNodeMixShader")
+        tree.links.new(share, mix.inputs[0])
+        tree.links.new(nothing, mix.inputs[1])
+        tree.links.new(inside.outputs["Shader"], mix.inputs[2])
+        tree.links.new(mix.outputs[0], outside.inputs[name])
+    return tree

@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Key frames of a property, with the curves between them."""
+
+import numpy as np
+
+from . import compat, curves
+
+CONSTANT, LINEAR = "CONSTANT", "LINEAR"
+
+
+class Way:
+    """Key frames of one value: points are pairs of a frame and a value, ways between two of them CONSTANT, LINEAR or the handles
+    of a curve, as curves.bezier has them."""
+
+    def __init__(self, frame, value):
+        self.points, self.ways = [(frame, value)], []
+
+    def go_on(self, frame, value, way=LINEAR):
+        """Nothing is to be done at the frame of the last point, and where a value stays that changes in steps."""
+        if frame > self.points[-1][0] and not (way == CONSTANT and value == self.points[-1][1] and {CONSTANT}.issuperset(self.ways)):
+            self.points.append((frame, value))
+            self.ways.append(way)
+
+    def insert(self, owner, path, index=-1):
+        """As the animation of a data block; index: of an array."""
+        owner.keyframe_insert(path, index=index, frame=self.points[0][0])
+        curve = next(each for each in compat.action_curves(owner) if each.data_path == path and each.array_index == max(index, 0))
+        curve.keyframe_points[0].co[1] = self.points[0][1]
+        for frame, value in self.points[1:]:
+            curve.keyframe_points.insert(frame, value, options={"FAST"})
+        for point in curve.keyframe_points:
+            point.handle_left_type = point.handle_right_type = "FREE"
+            point.interpolation = CONSTANT
+            point.handle_left, point.handle_right = (np.array(point.co) + (step, 0.0) for step in (-1.0, 1.0))
+        for number, way in enumerate(self.ways):
+            start, end = curve.keyframe_points[number], curve.keyframe_points[number + 1]
+            start.interpolation = way if isinstance(way, str) else "BEZIER"
+            if not isinstance(way, str):
+                size = np.array(end.co) - np.array(start.co)
+                start.handle_right, end.handle_left = (np.array(start.co) + size * part for part in (way[:2], way[2:]))
+
+
+def follow(ways, frames, ends, share, tolerance, start, most=2):
+    """Goes on from the first to the second of `frames` with several Ways at once, from the values of the first to those of the
+    second of `ends`. share: of the way at a share of the time. With two keys each, and keys in between where the curve would miss
+    by more than `tolerance` of the way; halved `most` times at most. start: handles to begin the fit with."""
+    low, high = (float(share(time)) for time in (0.0, 1.0))
+    handles, missed = curves.fitted((share(curves.TIMES) - low) / (high - low), start)
+    if missed * abs(high - low) > tolerance and most > 0 and frames[1] - frames[0] >= 2:
+        middle = round(0.5 * (frames[0] + frames[1]))
+        part = (middle - frames[0]) / (frames[1] - frames[0])
+        reached = (float(share(part)) - low) / (high - low)
+        between = [one + (other - one) * reached for one, other in zip(*ends)]
+        follow(ways, (frames[0], middle), (ends[0], between), lambda time: share(part * time), tolerance, start, most - 1)
+        follow(ways, (middle, frames[1]), (between, ends[1]), lambda time: share(part + (1.0 - part) * time), tolerance, start, most - 1)
+        return
+    for way, value in zip(ways, ends[1]):
+        way.go_on(frames[1], value, handles)

@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A storyboard in a scene: a collection for each of its scenes, one camera that goes from one to the next, all by key frames."""
+
+import hashlib
+import json
+import os
+
+import bpy
+import numpy as np
+
+from . import build, camera_rig, compat, curves, frames, keys, mns_reader, storyboard_reader
+from .mesh_arrays import names_of
+
+#: What of the header of a surface changes how it looks.
+LOOKS = ("copies", "mesh", "kind_colors", "film_opacity", "caps", "material")
+#: Å by which a mesh is larger than one of the same place.
+NUDGE = 0.002
+
+
+class Imported:
+    """What came into the scene. items: for each scene of the storyboard the objects that it shows, which scenes may share."""
+
+    def __init__(self):
+        self.collection = self.camera = None
+        self.items = []
+
+
+def import_file(path, context=None, scale=None, center=False, import_camera=True, use_camera=True, set_time=True, **options):
+    """Reads a story.json and its surfaces into a new collection. scale: Blender units per Å, None: as the file says. Others: as of
+    build.Options and sequence.Run. After MnsError or OSError it leaves nothing in the scene."""
+    context = context or bpy.context
+    board = storyboard_reader.read(path)
+    options = build.Options(scale=board.scale if scale is None else scale, **options)
+    files = {each: mns_reader.read(each) for each in {scene.path: None for scene in board.scenes}}
+    story = _Story(path, board, files, options, _origin(context.scene, board, files, center))
+    made = Imported()
+    before = {store: set(store) for store in (bpy.data.objects, bpy.data.meshes, bpy.data.cameras, bpy.data.collections,
+                                              bpy.data.materials, bpy.data.worlds, bpy.data.actions)}
+    try:
+        made.collection = bpy.data.collections.new(story.name)
+        made.items = story.add_scenes(made.collection)
+        if import_camera:
+            made.camera = camera_rig.add(made.collection, board, story.name, options.scale, story.origin, [])
+            camera_rig.reach_all(made.camera, board, [frames.points_of(files[scene.path]) for scene in board.scenes], options.scale)
+        context.scene.collection.children.link(made.collection)
+    except BaseException:
+        for store, kept in before.items():
+            for item in set(store) - kept:
+                store.remove(item)
+        raise
+    if set_time:
+        set_up_time(context.scene, board)
+    if made.camera is not None and use_camera:
+        context.scene.camera = made.camera
+        build.use_picture_size(context.scene, board.scenes[0].camera)
+    surfaces = list({item: None for items in made.items for item in items})
+    build.let_rays_through(context.scene, [item.data for item in surfaces])
+    context.scene.frame_set(board.scenes[0].first)
+    build.present(context, surfaces)
+    return made
+
+
+def set_up_time(scene, board):
+    """Range and rate of frames, and a marker where each scene is there."""
+    scene.frame_start, scene.frame_end = board.scenes[0].first, board.scenes[-1].last
+    scene.render.fps, scene.render.fps_base = compat.frame_rate(board.fps)
+    for each in board.scenes:
+        scene.timeline_markers.new(each.title or each.name, frame=each.first)
+
+
+def _origin(scene, board, files, center):
+    if not center:
+        return np.zeros(3)
+    file = next(iter(files.values()))
+    atoms = sum(len(surface["atom.center"]) for surface in file.objects)
+    return build.scene_origin(scene, lambda: board.origin, build.source_of(file.header), atoms)
+
+
+def digest_of(surface):
+    """The same of two surfaces that look the same."""
+    told = hashlib.sha256(json.dumps({key: surface.header[key] for key in LOOKS if key in surface.header}, sort_keys=True).encode())
+    for name in sorted(surface.arrays):
+        told.update(name.encode())
+        told.update(np.ascontiguousarray(surface.arrays[name]))
+    return told.digest()
+
+
+class _Story:
+    def __init__(self, path, board, files, options, origin):
+        self.path, self.board, self.files, self.options, self.origin = path, board, files, options, origin
+        self.name = os.path.basename(os.path.dirname(os.path.abspath(path))) or board.stem
+        self.made = {}  # digest of a surface -> its objects, one for each copy
+        self.new_materials = []
+        self.places = {}  # hash of where the vertices of a mesh are -> how many meshes are there
+
+    def add_scenes(self, parent):
+        """A collection in `parent` for each; objects that several show are in each of theirs. The objects, scene by scene."""
+        shown = []
+        for number, scene in enumerate(self.board.scenes, 1):
+            collection = bpy.data.collections.new(f"{number} {scene.name}")
+            parent.children.link(collection)
+            items = [item for surface in self.files[scene.path].objects for item in self.objects_of(surface, f"{self.name}.{number}", scene)]
+            for item in items:
+                collection.objects.link(item)
+            shown.append(items)
+        for item in {item: None for items in shown for item in items}:
+            shows = [item in items for items in shown]
+            hide(item, self.board, shows)
+            fade(item, self.board, shows)
+        return shown
+
+    def objects_of(self, surface, stem, scene):
+        key = digest_of(surface)
+        if key in self.made:
+            return self.made[key]
+        file = self.files[scene.path]
+        name = f"{stem}.{surface.name if len(file.objects) > 1 else 'surface'}"
+        mesh = build.build_mesh(surface, name, self.options, self.new_materials, self.board.fps, names_of(*file.objects), fades=True)
+        self.nudge(mesh, surface)
+        self.made[key] = [build.add_copy(mesh, copy, surface, scene.path, file, self.options, self.origin) for copy in surface.copies]
+        return self.made[key]
+
+    def nudge(self, mesh, surface):
+        """Moves a mesh outwards by next to nothing if an earlier one lies where it does: behind one surface that a ray passes,
+        Cycles does not see another in the same place."""
+        place = np.ascontiguousarray(surface["mesh.position"]).tobytes()
+        others = self.places.setdefault(hash(place), 0)
+        self.places[hash(place)] += 1
+        if others:
+            co = np.empty((len(mesh.vertices), 3), dtype=np.float32)
+            mesh.vertices.foreach_get("co", co.ravel())
+            co += surface["mesh.normal"] * np.float32(others * NUDGE * self.options.scale)
+            mesh.vertices.foreach_set("co", co.ravel())
+            mesh.update()
+
+
+def fade(item, board, shows):
+    """Keys of the alpha of its colour, from 0 to 1 where a transition brings it, from there to 2 where one takes it away."""
+    easing = curves.SMOOTH if board.is_smooth else curves.EVEN
+    way = keys.Way(board.scenes[0].first, float(shows[0]))
+    for number, (before, after, dissolves) in enumerate(camera_rig.transitions(board), 1):
+        if shows[number] != shows[number - 1]:
+            start = float(shows[number - 1])
+            way.go_on(before.last, start, keys.LINEAR if way.points[-1][1] == start else keys.CONSTANT)
+            way.go_on(after.first, 1.0 if shows[number] else 2.0, easing if dissolves else keys.CONSTANT)
+    item.color[3] = way.points[0][1]
+    if len(way.points) > 1:
+        way.insert(item, "color", 3)
+
+
+def hide(item, board, shows):
+    """Keys that show an object from where the transition to a scene begins that has it to where that from it ends; shows: whether
+    each scene has it."""
+    if all(shows):
+        return
+    way = keys.Way(board.scenes[0].first, float(not shows[0]))
+    for number, (before, after, _) in enumerate(camera_rig.transitions(board), 1):
+        if shows[number] and not shows[number - 1]:
+            way.go_on(before.last + 1, 0.0, keys.CONSTANT)
+        elif shows[number - 1] and not shows[number]:
+            way.go_on(after.first, 1.0, keys.CONSTANT)
+    for path in ("hide_render", "hide_viewport"):
+        way.insert(item, path)
