@@ -6,6 +6,7 @@ With MENISCUS_SCREENSHOTS=FOLDER in the environment, pictures of the pages are l
 
 import base64
 import json
+import math
 import os
 import pathlib
 import subprocess
@@ -163,16 +164,51 @@ class PageTest(unittest.IsolatedAsyncioTestCase):
             await self.compare(page, TOXIN, "--show", "chain A", "--sticks", "chain C", "--zoom-to", "chain C")
             self.assertEqual(page.complaints, [])
 
-    async def test_cuts_and_what_is_seen_through_are_those_of_render(self):
+    def balls(self, name, balls):
+        """A file of atoms: places and radii."""
+        with open(self.path(name), "w") as file:
+            file.writelines("%.6f %.6f %.6f %.3f\n" % ball for ball in balls)
+        return file.name
+
+    def rings(self):
+        """A base and a sugar, each a flat ring."""
+        with open(self.path("rings.pdb"), "w") as file:
+            for number, residue, names in ((1, "LIG", "N1 C2 N3 C4 C5 C6"), (2, "NAG", "C1 C2 C3 C4 C5 O5")):
+                for n, name in enumerate(names.split()):
+                    x, y = 8 * number + 1.4 * math.cos(n * math.pi / 3), 1.4 * math.sin(n * math.pi / 3)
+                    file.write(f"HETATM{6 * number + n:5d}  {name:<3} {residue} A{number:4d}    {x:8.3f}{y:8.3f}{0:8.3f}  1.00  0.00          {name[0]:>2}\n")
+        return file.name
+
+    async def test_rare_surfaces_and_shapes_are_those_of_render(self):
+        inside, cage, part = self.path("inside.json"), [], self.part_of(UBIQUITIN, 1, 30)
+        with open(inside, "w") as file:
+            json.dump({"position": [0, 0, 0], "target": [1, 0.2, 0.1], "up": [0, 1, 0], "projection": "perspective", "vertical_fov": 80}, file)
+        for n in range(120):
+            y, turn = 1 - 2 * (n + 0.5) / 120, n * 2.399963
+            cage.append((8 * math.sqrt(1 - y * y) * math.cos(turn), 8 * y, 8 * math.sqrt(1 - y * y) * math.sin(turn), 1.9))
         async with self.browser() as page:
-            await self.compare(page, UBIQUITIN, "--clip", "depth>0.4", "--sticks", "resid 1-20", "--color", "residue")
+            # A torus that meets itself, and a probe that touches four atoms at once.
+            await self.compare(page, self.balls("spindle.xyzr", [(0, 0, 0, 1.5), (5.4, 0, 0, 1.5), (8, 1, 0, 1.2)]), "--color", "kind")
+            await self.compare(page, self.balls("square.xyzr", [(0, 0, 0, 1.5), (4, 0, 0, 1.5), (4, 4, 0, 1.5), (0, 4, 0, 1.5)]), "--color", "kind")
+            await self.compare(page, self.balls("cage.xyzr", cage), "--camera", inside)
+            await self.shoot(page, "page_cage.png")
+            await self.compare(page, part, "--surface", "sas", "--color", "residue")
+            await self.compare(page, part, "--surface", "vdw", "--color", "residue")
+            await self.compare(page, self.rings(), "--glycans", "resname NAG", "--bases", "resname LIG", "--hide-surface")
+            await self.compare(page, self.rings(), "--bases", "resname LIG", "--opacity", "0.5")
+            self.assertEqual(page.complaints, [])
+
+    async def test_cuts_and_what_is_seen_through_are_those_of_render(self):
+        part = self.part_of(UBIQUITIN, 1, 40)
+        async with self.browser() as page:
+            await self.compare(page, part, "--clip", "depth>0.4", "--sticks", "resid 1-10", "--color", "residue")
             await self.shoot(page, "page_cut.png")
-            await self.compare(page, UBIQUITIN, "--clip", "1,1,0<62", "--clip", "depth>0.2", "--cap-color", "orange", "--cap-hatching", "1.5",
+            await self.compare(page, part, "--clip", "1,1,0<60", "--clip", "depth>0.2", "--cap-color", "orange", "--cap-hatching", "1.5",
                                "--projection", "orthographic")
-            await self.compare(page, UBIQUITIN, "--opacity", "0.5", "--sticks", "backbone", "--color", "chain")
+            await self.compare(page, part, "--opacity", "0.5", "--sticks", "backbone", "--color", "chain")
             await self.shoot(page, "page_seen_through.png")
-            await self.compare(page, UBIQUITIN, "--opacity", "resid 1-30=0.4", "--film-opacity", "--clip", "depth>0.3", "--show",
-                               "resid 1-60", "--preset", "cover")
+            await self.compare(page, part, "--opacity", "resid 1-20=0.4", "--film-opacity", "--clip", "depth>0.3", "--show",
+                               "resid 1-35", "--preset", "cover")
             self.assertEqual(page.complaints, [])
 
     async def test_what_readers_hide_cut_and_see_through_is_that_of_render(self):
