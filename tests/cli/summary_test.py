@@ -99,6 +99,8 @@ class SummaryTest(unittest.TestCase):
             self.assertEqual(sorted((self.folder / made).read_text().splitlines()), sorted((self.folder / whole).read_text().splitlines()))
         self.assertEqual(sorted(name for name in os.listdir(self.folder) if name.endswith(".part")), [])
         self.assertIn("all.csv", self.run_program(*words, code=6).stderr)  # it is there
+        self.run_program(*words[:3], *words[200:], "--force")
+        self.assertEqual([row["file"] for row in self.rows("all.csv")], names[:3])
 
     def test_what_is_for_one_molecule_is_refused(self):
         for words in (["--json"], ["--frames", "all"], ["--frames", "all", "--csv-series", "s.csv"], ["--gradients", "g.csv"], ["--context", "resid 1"]):
