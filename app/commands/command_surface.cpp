@@ -7,6 +7,7 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/surface_command.h"
+#include "app/commands/surface_summary.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
 #include "app/process/program_error.h"
@@ -35,6 +36,7 @@ void check_outputs(const SurfaceCommand& command) {
   if (command.plot == "-" || (!command.plot.empty() && !command.plot.ends_with(".svg")))
     throw UsageError(
         fmt::format("--plot {}: plots are written as files whose names end in .svg", in_quotes(command.plot)));
+  if (command.resumes) throw UsageError("--resume goes on with a table of many files; add --csv-summary FILE");
   std::vector<std::string> paths = tables_of(command);
   if (std::ranges::count_if(paths, is_stdout) + command.json > 1)
     throw UsageError(
@@ -82,7 +84,8 @@ void add_surface(CLI::App& command) {
       "  meniscus surface balls.xyzr --surface vdw         van der Waals surface, radii of the file\n"
       "  meniscus surface adk.psf adk.dcd --csv-series run.csv --plot run.svg   one row per frame, curves\n"
       "  meniscus surface adk.psf adk.dcd --superpose 'name CA' --csv-cavities cavities.csv   each cavity over time\n"
-      "  meniscus surface adk.psf adk.dcd --json                one line of JSON per frame",
+      "  meniscus surface adk.psf adk.dcd --json                one line of JSON per frame\n"
+      "  meniscus surface *.cif.gz --csv-summary all.csv        one row for each of many molecules",
       "The surface is that of the polymers and ligands of the first model, with the most occupied conformer of "
       "each\nresidue; water and free ions are left out. A line reports what was read, left out and used. Radii are "
       "Bondi's\n(`meniscus info` lists them), or the file's own (PQR, XYZR). The surface is closed and includes all "
@@ -105,13 +108,15 @@ void add_surface(CLI::App& command) {
   options.add("report.gradients", state.gradient_csv);
   options.add_selection("report.context", state.context);
   options.add("report.csv_patches", state.patch_csv);
+  options.add("report.csv_summary", state.summary_csv);
+  options.add("report.resume", state.resumes);
   command.callback([declared] {
     declared->options.take();
     // Parts of surfaces are cut out by planes, and rays meet patches within theirs.
     const Division& division = declared->state.scene.molecule.division;
     declared->state.scene.molecule.surface.drawn =
         division.components || division.cavities != Cavities::keep || declared->state.open_sky;
-    print_surface(declared->state);
+    declared->state.summary_csv.empty() ? print_surface(declared->state) : print_summary(declared->state);
   });
 }
 

@@ -12,6 +12,8 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/figure_run.h"
+#include "app/commands/page_views.h"
+#include "app/options/property_options.h"
 #include "app/options/scene_options.h"
 #include "app/process/program_error.h"
 #include "app/reports/notes.h"
@@ -35,6 +37,10 @@ namespace meniscus {
 namespace {
 
 constexpr double kManyBytes = 15e6;
+
+struct PageCommand : SceneCommand {
+  std::vector<std::string> named_views;
+};
 
 /// What a page cannot show though it has the option is refused before anything is computed.
 void check_page(const Scene& scene) {
@@ -141,7 +147,7 @@ void tell_left_out(const SceneCommand& command, std::span<const std::string> key
 }
 
 /// Of the molecule; what it is written to.
-void write_page(const SceneCommand& command, FigureFrame frame) {
+void write_page(const SceneCommand& command, const NamedViews& views, FigureFrame frame) {
   const Scene& scene = command.scene;
   Figure& figure = frame.figure;
   const std::string name = text_of_path(path_of_text(scene.molecule.file).filename());
@@ -154,6 +160,8 @@ void write_page(const SceneCommand& command, FigureFrame frame) {
   shown.size = scene.picture.size();
   shown.look = look_of(scene.look, shown.size, scene.image.background,
                        hues_of(scene.molecule.color, scene.legend.asked(), uses_atoms(scene.figure.cuts)));
+  shown.views = views.aimed(scene, figure);
+  shown.fades_always = scene.look.depth_cue.has_value();
   const std::vector<Ball> balls = placed_balls(figure.molecule.objects);
   const SurfaceObject surface = merged(std::exchange(figure.molecule.objects, {}));
   shown.facts = facts_of(figure.molecule, surface, scene);
@@ -182,17 +190,18 @@ void write_page(const SceneCommand& command, FigureFrame frame) {
     say(command, "warning: readers load all of it; --show or --select make a smaller page");
 }
 
-void export_page(const SceneCommand& asked, std::span<const std::string> left_out) {
+void export_page(const PageCommand& asked, std::span<const std::string> left_out, bool trusts_scenes) {
   check_page(asked.scene);
   tell_left_out(asked, left_out);
   check_output(asked.scene.output, asked.existing());
   check_saved_camera(asked);
+  const NamedViews views(asked.named_views, asked, trusts_scenes);
   FigureRun run(asked);
   run.aim(asked.scene.picture, false);
   const SceneCommand& command = run.command();
   run.make({kSurfaceBytesPerAtom}, [&]() -> FigureRun::Sink {
     return [&](FigureFrame frame) -> FinishFrame {
-      write_page(command, std::move(frame));
+      write_page(command, views, std::move(frame));
       return [] { return MadeFrame{}; };
     };
   });
@@ -203,17 +212,22 @@ void export_page(const SceneCommand& asked, std::span<const std::string> left_ou
 }  // namespace
 
 void add_export_page(CLI::App& command) {
-  describe(command,
-           "  meniscus export page 1tii.pdb -o 1tii.html              then open it in a browser\n"
-           "  meniscus export page 1tii.pdb -o 1tii.html --color chain --sticks ligand\n"
-           "  meniscus export page --scene fig.json -o fig.html",
-           "The page fetches nothing, and casts the exact patches by WebGL 2 in the browser that opens it. Others "
-           "see\na still picture that is in it.");
-  auto declared = std::make_shared<DeclaredCommand<>>(command, for_page);
+  describe(
+      command,
+      "  meniscus export page 1tii.pdb -o 1tii.html              then open it in a browser\n"
+      "  meniscus export page 1tii.pdb -o 1tii.html --color chain --sticks ligand\n"
+      "  meniscus export page --scene fig.json -o fig.html\n"
+      "  meniscus export page 1tii.pdb -o 1tii.html --named-view 'Active site=site.json' --named-view Back=back.png",
+      "The page fetches nothing, and casts the exact patches by WebGL 2 in the browser that opens it. Others "
+      "see\na still picture that is in it.");
+  auto declared = std::make_shared<DeclaredCommand<PageCommand>>(command, for_page);
+  PropertyOptions(command).add("camera.named_views", declared->state.named_views);
   declared->options.describe_output("HTML file to write");
-  command.callback([declared] {
+  command.callback([declared, &command] {
     declared->options.take();
-    run_and_save_scene(declared->state, [&] { export_page(declared->state, declared->options.left_out()); });
+    const bool trusts_scenes = command.count("--trust-scene") > 0;
+    run_and_save_scene(declared->state,
+                       [&] { export_page(declared->state, declared->options.left_out(), trusts_scenes); });
   });
 }
 

@@ -90,6 +90,7 @@ FrameAnnotations::FrameAnnotations(const Scene& scene, FrameRun* run)
 Annotations FrameAnnotations::of(const SinkPicture& picture, const Structure& structure) const {
   Annotations annotations = annotations_of(request_, structure);
   if (!is_run_) return annotations;
+  annotations.labels_must_fit = false;  // the pictures beside it would lack one
   if (request_.time_stamp) annotations.time = time_text(picture.time, picture.source, longest_);
   annotations.curve = curve_;
   if (curve_) annotations.curve->now = picture.place;
@@ -144,23 +145,27 @@ FinishFrame PictureSink::to_file(const SinkPicture& picture, const Annotations& 
   draw(settings);
   if (progress) progress->end();
   file.commit();
-  return [path, shows_nothing = !file.shows_something()] { return MadeFrame{{path}, shows_nothing}; };
+  return [path, shows_nothing = !file.shows_something(), lacks_labels = file.lacks_labels()] {
+    return MadeFrame{{path}, shows_nothing, lacks_labels};
+  };
 }
 
 FinishFrame PictureSink::to_film(const SinkPicture& picture, const Annotations& annotations, const Draw& draw) {
   Framebuffer drawn = draw(picture_settings(command_, layout_));
   const bool shows_nothing = std::ranges::none_of(drawn.color, [](const glm::vec4& pixel) { return pixel.w > 0.0f; });
+  bool lacks_labels = false;
   {
     std::unique_lock lock(legend_, std::defer_lock);
     if (layout_.legend) lock.lock();
-    drawn = finished_picture(std::move(drawn), annotations, layout_, picture.camera, command_.scene.image.background);
+    drawn = finished_picture(std::move(drawn), annotations, layout_, picture.camera, command_.scene.image.background,
+                             &lacks_labels);
   }
   const FilmPixels& format = film_->pixels();
   auto pixels = std::make_shared<const std::vector<std::uint8_t>>(
       srgb_pixels(drawn, ground_of_film(command_.scene.image.background, format), format.bytes));
-  return [this, pixels, shows_nothing] {
+  return [this, pixels, shows_nothing, lacks_labels] {
     film_->add(*pixels);
-    return MadeFrame{{}, shows_nothing};
+    return MadeFrame{{}, shows_nothing, lacks_labels};
   };
 }
 

@@ -18,7 +18,9 @@ struct SurfaceCommand : SceneCommand {
       gradient_csv;  ///< paths; empty: none; "-": standard output
   std::string plot;  ///< path of an SVG of a run; empty: none
   std::optional<Selection> context;
-  std::string patch_csv;  ///< as above
+  std::string patch_csv;    ///< as above
+  std::string summary_csv;  ///< path of a table of many files; empty: there is one molecule
+  bool resumes = false;     ///< goes on with what is there of summary_csv
 
   /// Does a table take the place of what is printed else?
   bool prints_csv() const;

@@ -37,17 +37,32 @@ struct Failures {
   std::string message;
 };
 
-/// The first picture on which nothing is to be seen, and how many there are.
-struct EmptyPictures {
+/// The first picture that has some fault, and how many have it.
+struct FaultyPictures {
   std::uint64_t count = 0, first = 0;
 
-  std::string sentence() const {
-    return fmt::format(
-        "warning: {} of the pictures {} nothing (first: frame {}): no ray meets a part of the surface that --show "
-        "leaves; check where the camera looks",
-        with_thousands(count), count == 1 ? "shows" : "show", first);
+  void note(std::uint64_t frame, bool is_faulty) {
+    if (is_faulty && count++ == 0) first = frame;
+  }
+  /// "3 of the pictures show nothing (first: frame 7)"
+  std::string words(const char* one, const char* many) const {
+    return fmt::format("{} of the pictures {} (first: frame {})", with_thousands(count), count == 1 ? one : many,
+                       first);
   }
 };
+
+void tell_faults(const SceneCommand& command, const FaultyPictures& empty, const FaultyPictures& unlabelled) {
+  if (empty.count > 0)
+    say(command,
+        fmt::format("warning: {}: no ray meets a part of the surface that --show leaves; check where the camera "
+                    "looks",
+                    empty.words("shows nothing", "show nothing")));
+  if (unlabelled.count > 0)
+    say(command,
+        fmt::format("warning: {}: there is no room where labels do not meet; make them fewer or shorter, their "
+                    "letters smaller (--label-size), or the pictures larger",
+                    unlabelled.words("lacks its labels", "lack their labels")));
+}
 
 using Clock = std::chrono::steady_clock;
 
@@ -132,7 +147,7 @@ void tell_beyond_map(const SceneCommand& command, std::span<const std::shared_pt
 void run_frames(FrameRun& frames, const SceneCommand& command, std::vector<FrameWorker> workers) {
   RunProgress progress(command.reporting.progress, command.reporting.quiet, frames.chunk().size(), workers.size());
   Failures failures;
-  EmptyPictures empty;
+  FaultyPictures empty, unlabelled;
   // One more than are worked on waits to be, and one to be finished.
   const std::size_t most_pending = workers.size() == 1 ? 1 : workers.size() + 2;
   Jobs jobs(jobs_of(std::move(workers)));
@@ -144,7 +159,8 @@ void run_frames(FrameRun& frames, const SceneCommand& command, std::vector<Frame
       const Clock::time_point begin = Clock::now();
       const MadeFrame made = prepared.finish();
       progress.done(number, made.files, prepared.milliseconds + milliseconds_since(begin), made.shows_nothing);
-      if (made.shows_nothing && empty.count++ == 0) empty.first = number;
+      empty.note(number, made.shows_nothing);
+      unlabelled.note(number, made.lacks_labels);
     } catch (const std::exception& error) {
       if (ends_the_run(error)) throw;
       if (failures.count++ == 0) failures = {1, number, exit_code_of(error), error.what()};
@@ -152,7 +168,7 @@ void run_frames(FrameRun& frames, const SceneCommand& command, std::vector<Frame
     }
   }
   progress.end();
-  if (empty.count > 0) say(command, empty.sentence());
+  tell_faults(command, empty, unlabelled);
   if (failures.count > 0) {
     throw RunError(failures.code,
                    fmt::format("{} of {} frames failed; the first, frame {}: {}", with_thousands(failures.count),

@@ -20,6 +20,7 @@ namespace meniscus {
 struct MadeFrame {
   std::vector<std::string> files;  ///< those written
   bool shows_nothing = false;      ///< it is a picture on which nothing is to be seen
+  bool lacks_labels = false;       ///< it is a picture that has no room for them
 };
 
 /// What is left to do with a frame when those before it are done: on the thread that called run_frames.
@@ -43,9 +44,9 @@ constexpr std::uint64_t kSurfaceBytesPerAtom = 8'000, kMeshBytesPerAtom = 150'00
 /// Has the frames of the chunk made by the workers, each by one of them, and finishes them in their order. The workers
 /// share the cores; one that is alone works on the calling thread, with all of them. A frame that throws, in reading or
 /// making, is told on stderr, and the run goes on; but OutputError and GpuError end it at once, as the next frame would
-/// meet them too. Pictures that show nothing are told in one line for all of them. At the end throws RunError: with the
-/// code of the first frame that failed, else with kExitIncomplete if the trajectory was cut short and the run reaches
-/// its last whole frame.
+/// meet them too. Pictures that show nothing, or lack their labels, are told in one line for all of them. At the end
+/// throws RunError: with the code of the first frame that failed, else with kExitIncomplete if the trajectory was cut
+/// short and the run reaches its last whole frame.
 void run_frames(FrameRun& frames, const SceneCommand& command, std::vector<FrameWorker> workers);
 
 }  // namespace meniscus

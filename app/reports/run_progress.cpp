@@ -31,16 +31,16 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-RunProgress::RunProgress(ProgressStyle style, bool quiet, std::uint64_t frames, std::size_t at_once)
-    : style_(style), total_(frames), begin_(std::chrono::steady_clock::now()) {
+RunProgress::RunProgress(ProgressStyle style, bool quiet, std::uint64_t frames, std::size_t at_once, const char* word)
+    : style_(style), word_(word), total_(frames), begin_(std::chrono::steady_clock::now()) {
   if (style_ == ProgressStyle::automatic)
     style_ = quiet ? ProgressStyle::none : ::isatty(STDERR_FILENO) ? ProgressStyle::bar : ProgressStyle::plain;
-  if (style_ == ProgressStyle::json) write_line({{"event", "start"}, {"frames", total_}, {"at_once", at_once}});
+  if (style_ == ProgressStyle::json) write_line({{"event", "start"}, {word_ + "s", total_}, {"at_once", at_once}});
 }
 
 void RunProgress::done(std::uint64_t frame, const std::vector<std::string>& files, double milliseconds, bool empty) {
   if (style_ == ProgressStyle::json) {
-    Json line{{"event", "frame"}, {"frame", frame}, {"state", "done"}, {"files", files}, {"ms", milliseconds}};
+    Json line{{"event", word_}, {word_, frame}, {"state", "done"}, {"files", files}, {"ms", milliseconds}};
     if (empty) line["empty"] = true;
     write_line(line);
   }
@@ -50,10 +50,10 @@ void RunProgress::done(std::uint64_t frame, const std::vector<std::string>& file
 void RunProgress::failed(std::uint64_t frame, int exit_code, const std::string& message) {
   ++failed_;
   if (style_ == ProgressStyle::json) {
-    write_line({{"event", "frame"}, {"frame", frame}, {"state", "failed"}, {"exit", exit_code}, {"error", message}});
+    write_line({{"event", word_}, {word_, frame}, {"state", "failed"}, {"exit", exit_code}, {"error", message}});
   } else {
     if (style_ == ProgressStyle::bar) std::cerr << "\r\033[K";
-    std::cerr << "meniscus: frame " << frame << " failed: " << escaped(message) << std::endl;
+    std::cerr << "meniscus: " << word_ << " " << frame << " failed: " << escaped(message) << std::endl;
   }
   advance();
 }
@@ -70,7 +70,7 @@ void RunProgress::advance() {
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
   const double each = elapsed.count() / static_cast<double>(done_);
   const std::string rest = done_ < total_ ? ", " + duration(each * static_cast<double>(total_ - done_)) + " left" : "";
-  const std::string rate = fmt::format("{} of {} frames, {:.2f} s each{}", done_, total_, each, rest);
+  const std::string rate = fmt::format("{} of {} {}s, {:.2f} s each{}", done_, total_, word_, each, rest);
   if (style_ == ProgressStyle::bar) {
     constexpr int kWidth = 30;
     const int filled = static_cast<int>(kWidth * share);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The progress of a run of frames: a bar, plain lines, JSON lines, or the lines of OpenJD.
+// The progress of a run of frames, or of files: a bar, plain lines, JSON lines, or the lines of OpenJD.
 #pragma once
 
 #include <chrono>
@@ -15,8 +15,9 @@ namespace meniscus {
 /// Tells the progress of one run; one thread.
 class RunProgress {
  public:
-  /// at_once: so many frames are worked on at the same time.
-  RunProgress(ProgressStyle style, bool quiet, std::uint64_t frames, std::size_t at_once = 1);
+  /// at_once: so many frames are worked on at the same time. word: what is called a frame here.
+  RunProgress(ProgressStyle style, bool quiet, std::uint64_t frames, std::size_t at_once = 1,
+              const char* word = "frame");
 
   /// empty: its picture shows nothing.
   void done(std::uint64_t frame, const std::vector<std::string>& files, double milliseconds, bool empty = false);
@@ -30,6 +31,7 @@ class RunProgress {
   void advance();
 
   ProgressStyle style_;
+  const std::string word_;
   std::uint64_t total_, done_ = 0, failed_ = 0;
   int last_tenth_ = -1;
   std::chrono::steady_clock::time_point begin_;

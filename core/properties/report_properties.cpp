@@ -36,6 +36,14 @@ constexpr auto kTable = std::to_array<Property>({
     new_file("report.csv_patches", "--csv-patches", "FILE",
              "Write one row per patch of --patches. -: to standard output")
         .in(kOutput),
+    new_file(
+        "report.csv_summary", "--csv-summary", "FILE",
+        "Write numbers of many molecules, one row per file. All files given are molecules then; those that cannot be "
+        "computed have a row that says why")
+        .in(kOutput),
+    flag("report.resume", "--resume",
+         "Go on with a --csv-summary that did not come to its end. Files that failed are tried again")
+        .in(kOutput),
     text("report.context", "--context", "EXPR", "Report the area of --select that these atoms bury").in(kOutput),
     new_file("report.csv_pockets", "--csv", "FILE", "Write one row per pocket. -: to standard output")
         .in(kOutput)

@@ -249,7 +249,8 @@ class Writer {
   }
 
   /// Those whose places the picture shows. Letters become smaller where there is no room, if nobody chose their size.
-  void labels(const std::vector<PlaceLabel>& labels, const std::vector<glm::vec4>& atoms) {
+  /// False: they have none all the same.
+  bool labels(const std::vector<PlaceLabel>& labels, const std::vector<glm::vec4>& atoms) {
     std::vector<const PlaceLabel*> shown;
     std::vector<UnplacedLabel> unplaced;
     for (const PlaceLabel& label : labels) {
@@ -258,7 +259,7 @@ class Writer {
       shown.push_back(&label);
       unplaced.push_back({*seen + glm::dvec2(0.0, strips_.top), {}});
     }
-    if (shown.empty()) return;
+    if (shown.empty()) return true;
     LabelGround ground;
     ground.taken = taken_;
     ground.covered = CoveredGround(atoms, camera_, molecule_size_, strips_.top);
@@ -280,12 +281,9 @@ class Writer {
         draw_line(unplaced[n].anchor, unplaced[n].anchor, 4.0 * width);
         write({shown[n]->text, {box.low.x, (box.low.y + box.high.y) / 2}, em});
       }
-      return;
+      return true;
     }
-    throw RequestError(fmt::format(
-        "{}: {} labels find no places in {} x {} pixels where they do not meet; make them shorter, their letters "
-        "smaller ({}), or the picture larger",
-        option_name("label"), shown.size(), size_.x, size_.y, option_name("label-size")));
+    return false;
   }
 
   static constexpr int kLeastTitle = 8;  // pixels
@@ -371,7 +369,12 @@ AnnotationLayer::AnnotationLayer(const Annotations& annotations, const Camera& c
   if (!annotations.title.empty()) writer.title(annotations.title);
   if (annotations.curve) writer.curve(*annotations.curve);
   if (annotations.scale_bar) writer.scale_bar(annotations.bar_length);
-  writer.labels(annotations.labels, annotations.atoms);
+  lacks_labels_ = !writer.labels(annotations.labels, annotations.atoms);
+  if (lacks_labels_ && annotations.labels_must_fit)
+    throw RequestError(fmt::format(
+        "{}: labels find no places in {} x {} pixels where they do not meet; make them fewer or shorter, their letters "
+        "smaller ({}), or the picture larger",
+        option_name("label"), picture_size.x, picture_size.y, option_name("label-size")));
   strokes_ = writer.strokes();
   rim_width_ = std::max(1, writer.heights().usual / 9);
 }
@@ -391,9 +394,11 @@ void AnnotationLayer::lay_over(Framebuffer& rows, int first_row) const {
   mask.lay_over(rows, first_row, linear_from_srgb(inks_.ink), linear_from_srgb(inks_.rim), rim_width_);
 }
 
-void annotate(Framebuffer& picture, const Annotations& annotations, const Camera& camera,
+bool annotate(Framebuffer& picture, const Annotations& annotations, const Camera& camera,
               const std::optional<glm::vec3>& background, const Strips& strips) {
-  AnnotationLayer(annotations, camera, picture.size, background, strips).lay_over(picture, 0);
+  const AnnotationLayer written(annotations, camera, picture.size, background, strips);
+  written.lay_over(picture, 0);
+  return !written.lacks_labels();
 }
 
 }  // namespace meniscus

@@ -39,6 +39,7 @@ struct Annotations {
   bool scale_bar = false;            ///< at the bottom left
   std::optional<double> bar_length;  ///< Å, > 0; nothing: a round number, at most a quarter of what the picture shows
   std::vector<PlaceLabel> labels;
+  bool labels_must_fit = true;  ///< else they are left out of a picture that has no room for them
   std::optional<Curve>
       curve;  ///< at the bottom right, a third of the picture wide: faint from now on, with a mark at now
   std::vector<glm::vec4> atoms;  ///< their centres and radii, Å; labels keep clear of them where they can
@@ -79,12 +80,15 @@ StripContents strip_contents(const Annotations& annotations);
 class AnnotationLayer {
  public:
   /// picture_size: with the strips. Throws RequestError when there is no font, the bar or the title is longer than the
-  /// picture, or labels have no room in which they neither overlap nor cross.
+  /// picture, or labels that must fit have no room in which they neither overlap nor cross.
   AnnotationLayer(const Annotations& annotations, const Camera& camera, glm::ivec2 picture_size,
                   const std::optional<glm::vec3>& background, const Strips& strips = {});
 
   /// Writes into some whole rows of the picture, of which `first_row` is the first: as into the whole picture.
   void lay_over(Framebuffer& rows, int first_row) const;
+
+  /// Are there labels, and no room for them?
+  bool lacks_labels() const { return lacks_labels_; }
 
   /// All of it, in pixels of the picture; its colours, sRGB; and how far the rim reaches.
   std::span<const InkStroke> strokes() const { return strokes_; }
@@ -95,11 +99,12 @@ class AnnotationLayer {
   std::vector<InkStroke> strokes_;
   Inks inks_;
   int height_, rim_width_ = 1;
+  bool lacks_labels_ = false;
   mutable FontShelf fonts_;
 };
 
-/// Writes into a whole picture.
-void annotate(Framebuffer& picture, const Annotations& annotations, const Camera& camera,
+/// Writes into a whole picture. False: without its labels, which need not fit and have no room.
+bool annotate(Framebuffer& picture, const Annotations& annotations, const Camera& camera,
               const std::optional<glm::vec3>& background, const Strips& strips = {});
 
 }  // namespace meniscus

@@ -18,7 +18,7 @@ void LookPass::add(const CastSample& sample, const Look& look, const GpuScene& s
   Buffer& depths = is_map ? shade_map_ : depths_;
   TexelBuffer& depth_texels = is_map ? map_texels_ : depth_texels_;
   depths.resize(count * sizeof(float));
-  visibility_.resize(count * sizeof(float));
+  shade_.resize(count * sizeof(glm::vec2));
   const bool has_marks = scene.marks.byte_count() > 0;
   marks_.resize(has_marks ? count * sizeof(std::uint32_t) : 0);
   const kernel::BlockView view = block_view(frame, block, sample.offset);
@@ -38,16 +38,16 @@ void LookPass::add(const CastSample& sample, const Look& look, const GpuScene& s
   run(programs_.get("gpu_shaders/look/depth.comp"), kernel::DepthParameters{.has_marks = has_marks});
   depth_texels.view(depths);
   depth_texels.bind(1);
-  if (look.ambient_occlusion > 0.0f) {
+  if (look.ambient_occlusion > 0.0f && sample.index == shade_sample(sample.index)) {
     map_texels_.bind(2);
-    visibility_.bind(0);
+    shade_.bind(0);
     run(programs_.get("gpu_shaders/look/occlusion.comp"), occlusion_parameters(look, frame.size, sample.index));
   }
   ShaderDefines effects;
   if (look.ambient_occlusion > 0.0f) effects.emplace_back("AMBIENT_OCCLUSION", "1");
   if (look.widest_line() > 0.0f) effects.emplace_back("SILHOUETTES", "1");
-  visibility_texels_.view(visibility_);
-  visibility_texels_.bind(2);
+  shade_texels_.view(shade_);
+  shade_texels_.bind(2);
   mark_texels_.view(marks_);
   mark_texels_.bind(3);
   sample.colors.bind(0);

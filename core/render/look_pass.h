@@ -42,10 +42,10 @@ class LookPass {
 
  private:
   ProgramCache& programs_;
-  Buffer depths_, shade_map_, marks_, visibility_;
+  Buffer depths_, shade_map_, marks_, shade_;
   TexelBuffer first_hit_texels_{TexelFormat::uint4}, hit_texels_{TexelFormat::uint4};  // of sample 0, of the others
-  TexelBuffer depth_texels_{TexelFormat::uint1}, map_texels_{TexelFormat::uint1},
-      visibility_texels_{TexelFormat::uint1}, mark_texels_{TexelFormat::uint1}, atom_mark_texels_{TexelFormat::uint1};
+  TexelBuffer depth_texels_{TexelFormat::uint1}, map_texels_{TexelFormat::uint1}, shade_texels_{TexelFormat::uint1},
+      mark_texels_{TexelFormat::uint1}, atom_mark_texels_{TexelFormat::uint1};
 };
 
 /// Owns the texture of the last picture presented. Needs a current GL context for its whole life.

@@ -132,7 +132,7 @@ kernel::OcclusionParameters occlusion_parameters(const Look& look, glm::ivec2 pi
           .near_reach = static_cast<float>(near_shade_reach(picture_size)),
           .radius = look.ambient_occlusion_radius,
           .longest_reach = glm::length(glm::vec2(picture_size)),
-          .sample_index = static_cast<std::uint32_t>(sample)};
+          .sample_index = static_cast<std::uint32_t>(sample / kSamplesOfShade)};
 }
 
 kernel::FinishParameters finish_parameters(const Look& look, const ScenePlacement& scene, glm::ivec2 picture_size,

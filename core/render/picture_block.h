@@ -45,6 +45,10 @@ inline bool needs_shade_map(const PictureBlock& first, const RenderSettings& set
 /// Where sample `index` lies in its pixel, in pixels from the centre: the R2 sequence (Roberts 2018), centre first.
 glm::vec2 sample_offset(int index);
 
+/// Of the first of so many samples of a pixel shade is found, the others take it: it hardly differs among them.
+inline constexpr int kSamplesOfShade = 3;
+inline int shade_sample(int sample) { return sample - sample % kSamplesOfShade; }
+
 /// The block as a sample of each of its pixels sees it.
 kernel::BlockView block_view(const PictureFrame& frame, const PictureBlock& block, const glm::vec2& sample_offset);
 

@@ -37,6 +37,9 @@ class PictureFile {
   /// Did a ray meet anything in what came?
   bool shows_something() const { return shows_something_; }
 
+  /// Labels that need not fit have no room in it.
+  bool lacks_labels() const { return annotations_.lacks_labels(); }
+
   /// Once all of the molecule's picture is there.
   void commit();
 

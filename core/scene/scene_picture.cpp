@@ -53,12 +53,13 @@ void check_legend(const Scene& scene) {
 }
 
 Framebuffer finished_picture(Framebuffer molecule, const Annotations& annotations, const PictureLayout& layout,
-                             const Camera& camera, const std::optional<glm::vec3>& background) {
+                             const Camera& camera, const std::optional<glm::vec3>& background, bool* lacks_labels) {
   const Strips& strips = layout.strips;
   if (strips.top + strips.bottom > 0)
     molecule = with_margin(molecule, molecule.size + glm::ivec2(0, strips.top + strips.bottom), strips.top,
                            !molecule.z.empty());
-  annotate(molecule, annotations, camera, background, strips);
+  const bool is_whole = annotate(molecule, annotations, camera, background, strips);
+  if (lacks_labels) *lacks_labels = !is_whole;
   return layout.legend ? layout.legend->add_to(molecule, background) : molecule;
 }
 

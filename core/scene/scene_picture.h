@@ -35,9 +35,11 @@ RenderSettings render_settings(const Scene& scene, const PictureLayout& layout);
 /// Before anything is read. Throws RequestError for a legend that has nothing to explain.
 void check_legend(const Scene& scene);
 
-/// A whole picture of the molecule with what is written into it, and its legend. Throws as annotate() does.
+/// A whole picture of the molecule with what is written into it, and its legend. lacks_labels: where to
+/// tell that labels have no room which need not fit. Throws as annotate() does.
 Framebuffer finished_picture(Framebuffer molecule, const Annotations& annotations, const PictureLayout& layout,
-                             const Camera& camera, const std::optional<glm::vec3>& background);
+                             const Camera& camera, const std::optional<glm::vec3>& background,
+                             bool* lacks_labels = nullptr);
 
 /// The picture of a scene, as `meniscus render` makes it of one molecule: read, computed, seen and drawn. scene:
 /// complete(). context: of the renderer, in which surfaces are computed, too; nullptr: on the CPU. Throws RequestError

@@ -265,12 +265,8 @@ Framebuffer Transition::finished(const Framebuffer& drawn, const Side& side, dou
   const Strips strips = place(share).strips;
   Framebuffer picture = with_margin(drawn, drawn.size + glm::ivec2(0, strips.top + strips.bottom), strips.top, false);
   Annotations annotations = side.shot.annotations;
-  try {
-    annotate(picture, annotations, camera_of(side, share), background, strips);
-  } catch (const RequestError&) {
-    annotations.labels.clear();  // that have no room on the way
-    annotate(picture, annotations, camera_of(side, share), background, strips);
-  }
+  annotations.labels_must_fit = false;
+  annotate(picture, annotations, camera_of(side, share), background, strips);
   picture = with_margin(picture, side.shot.scene.picture.size(), 0, false);
   if (!side.shot.layout->legend) return picture;
   Framebuffer none;

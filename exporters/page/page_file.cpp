@@ -93,6 +93,11 @@ PictureFrame frame_around(std::span<const Ball> balls) {
   return frame;
 }
 
+/// Whether planes cut the surface in any view.
+bool has_cuts(const PageFigure& figure) {
+  return !figure.clip.empty() || std::ranges::any_of(figure.views, [](const auto& view) { return !view.clip.empty(); });
+}
+
 /// "A THR 12", and the name of the atom alone.
 std::string residue_of(const Atom& atom) {
   if (atom.residue_name.empty()) return fmt::format("atom {}", atom.index + 1);
@@ -176,7 +181,7 @@ class Tables {
 
   void add_surface(const SurfaceObject& object) {
     // What planes cut is packed whole: the points of hidden atoms, too, tell what is solid.
-    pack_scene(object.surface, figure_.clip.empty() ? object.coloring : Coloring(), frame_, scene_);
+    pack_scene(object.surface, has_cuts(figure_) ? Coloring() : object.coloring, frame_, scene_);
     add_atoms(object.coloring, object.atom);
   }
 
@@ -214,7 +219,7 @@ class Tables {
     marks.resize(shown.size(), 0);
     marks_.insert(marks_.end(), marks.begin(), marks.end());
     shown_.insert(shown_.end(), shown.begin(), shown.end());
-    some_hidden_ = some_hidden_ || (figure_.clip.empty() && coloring.hides_some());
+    some_hidden_ = some_hidden_ || coloring.hides_some();
   }
 
   /// What no page asks for is 0: it depends on a camera, or decides between points at one depth.
@@ -347,29 +352,43 @@ json schemes_of(const PageFigure& figure, bool by_kind) {
   return schemes;
 }
 
-/// What layers.js asks for; null without a surface. origin: from where the records count.
-json layers_of(const PageFigure& figure, const glm::dvec3& origin) {
+/// The first view, and those that readers choose. origin: from where the records count.
+json views_of(const PageFigure& figure, const glm::dvec3& origin) {
+  json views = json::array();
+  const auto add = [&](const PageView& view) {
+    json planes = json::array(), hatching = json::array();
+    for (const ClipPlane& plane : view.clip) {
+      const glm::dvec3& n = plane.normal;
+      planes.push_back({n.x, n.y, n.z, plane.offset - glm::dot(n, origin)});
+      const double distance = std::sqrt(2.0) * figure.cap.hatching;
+      const glm::dvec3 across = figure.cap.hatching > 0.0 ? hatching_direction(n) / distance : glm::dvec3(0.0);
+      const double phase = glm::dot(origin, across);
+      hatching.push_back({across.x, across.y, across.z, phase - std::floor(phase)});
+    }
+    views.push_back({{"name", view.name},
+                     {"camera", camera_of(view.camera, origin)},
+                     {"planes", planes},
+                     {"hatching", hatching},
+                     {"opacity", view.opacity},
+                     {"looks_inside", view.looks_inside}});
+  };
+  add({"First view", figure.camera, figure.clip});
+  for (const PageView& view : figure.views) add(view);
+  return views;
+}
+
+/// What layers.js asks for; null without a surface.
+json layers_of(const PageFigure& figure) {
   if (!figure.surface) return nullptr;
   const SurfaceObject& object = *figure.surface;
-  const bool hides = !figure.clip.empty() && object.coloring.hides_some();
-  json planes = json::array(), hatching = json::array();
-  for (const ClipPlane& plane : figure.clip) {
-    const glm::dvec3& n = plane.normal;
-    planes.push_back({n.x, n.y, n.z, plane.offset - glm::dot(n, origin)});
-    const double distance = std::sqrt(2.0) * figure.cap.hatching;
-    const glm::dvec3 across = figure.cap.hatching > 0.0 ? hatching_direction(n) / distance : glm::dvec3(0.0);
-    const double phase = glm::dot(origin, across);
-    hatching.push_back({across.x, across.y, across.z, phase - std::floor(phase)});
-  }
   const glm::vec3 cap = linear_from_srgb(figure.cap.color.value_or(glm::vec3(0.0f)));
   double largest = 0.0;
   for (const Ball& ball : object.surface.atoms) largest = std::max(largest, ball.radius);
-  return {{"planes", planes},
-          {"hatching", hatching},
-          {"hatched_look", {kHatchedShare, kHatchedLight}},
+  return {{"hatched_look", {kHatchedShare, kHatchedLight}},
           {"cap_color", {cap.x, cap.y, cap.z, figure.cap.color ? 1 : 0}},
           {"thickens", figure.thickens ? 1 : 0},
-          {"seen_through", object.coloring.is_translucent() || hides ? 1 : 0},
+          {"seen_through", object.coloring.is_translucent() ? 1 : 0},
+          {"whole", has_cuts(figure) || !object.coloring.hides_some()},
           {"specular", figure.look.material.specular},
           {"surface_atoms", object.surface.atoms.size()},
           {"largest_ball", largest},
@@ -386,7 +405,7 @@ json description_of(const PageFigure& figure, const Tables& tables) {
   const glm::vec3 background = look.background;
   return {{"title", figure.title},
           {"size", {figure.size.x, figure.size.y}},
-          {"camera", camera_of(figure.camera, tables.frame().pivot)},
+          {"views", views_of(figure, tables.frame().pivot)},
           {"origin", numbers(tables.frame().pivot)},
           {"background", {background.x, background.y, background.z}},
           {"cast", words_of(cast_parameters(tables.placement(), look, tables.atom_count(), tables.color_by_kind()))},
@@ -395,9 +414,11 @@ json description_of(const PageFigure& figure, const Tables& tables) {
           {"has_shade", look.ambient_occlusion > 0.0f},
           {"has_lines", look.widest_line() > 0.0f},
           {"line_step", look.line_step},
+          {"fades_always", figure.fades_always},
           {"some_hidden", tables.some_hidden()},
-          {"layers", layers_of(figure, tables.frame().pivot)},
+          {"layers", layers_of(figure)},
           {"samples", samples},
+          {"samples_of_shade", kSamplesOfShade},
           {"labels", labels},
           {"schemes", schemes_of(figure, tables.color_by_kind())},
           {"names", names_of(figure.atoms)},
@@ -427,8 +448,9 @@ std::string page_text(const PageFigure& figure) {
   tables.add_to(data);
   const std::string packed = data.deflated(description_of(figure, tables));
   const auto file = [](std::string_view path) { return template_text(page_templates(), path); };
-  std::string script = "\"use strict\";\n";
-  for (const char* const part : {"data.js", "camera.js", "caster.js", "layers.js", "controls.js"}) script += file(part);
+  std::string script = "// SPDX-License-Identifier: BSD-3-Clause\n\"use strict\";\n";
+  for (const char* const part : {"data.js", "camera.js", "caster.js", "layers.js", "views.js", "controls.js"})
+    script += without_comments(file(part));
   const std::string style = "\n" + std::string(file("page.css"));
   const std::string_view picture(reinterpret_cast<const char*>(figure.still.data()), figure.still.size());
   const std::string still = figure.still.empty()

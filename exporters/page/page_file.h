@@ -33,22 +33,33 @@ struct PageScheme {
   std::optional<std::array<glm::vec3, 3>> kind{};  ///< Coloring::kind
 };
 
+/// A view that readers choose by its name.
+struct PageView {
+  std::string name;
+  Camera camera;
+  std::vector<ClipPlane> clip{};  ///< cut the surface then, and no others do
+  float opacity = 1.0f;           ///< of the surface, times that of its atoms
+  bool looks_inside = false;      ///< as for hues_of()
+};
+
 /// What a page shows. Texts may come from files; what is pointed to must stay until the page is written.
 struct PageFigure {
   std::string title;
   std::string description;  ///< a sentence or two, for those who do not see the picture
   std::vector<std::pair<std::string, std::string>> facts{};  ///< rows of its table
   const SurfaceObject* surface = nullptr;                    ///< where it stands, one copy; nullptr: none
-  std::vector<ClipPlane> clip{};                             ///< cut it
+  std::vector<ClipPlane> clip{};                             ///< cut it, at first
   CapStyle cap{};                                            ///< where they do
   bool thickens = false;                                     ///< PictureObject::thickens
   const ColoredShapes* shapes = nullptr;                     ///< of atoms; nullptr: none
   std::span<const Atom> atoms{};  ///< SurfaceObject::atom and those of shapes are places here
   Camera camera;                  ///< at first
+  std::vector<PageView> views{};  ///< beside the first one
   std::span<const PlaceLabel> labels{};
   glm::ivec2 size{0};  ///< of the picture that the look was made for, pixels
   Look look;
-  std::string scheme;  ///< the name of its colours
+  bool fades_always = false;  ///< into the distance; else not where readers look inside or see through the surface
+  std::string scheme;         ///< the name of its colours
   std::vector<PageScheme> more_schemes{};
   ColorKey key;                     ///< what its colours mean
   std::vector<std::uint8_t> still;  ///< its picture as JPEG, for readers without WebGL 2; empty: none
@@ -56,8 +67,8 @@ struct PageFigure {
 
 inline constexpr std::size_t kMostPlanes = 8;
 
-/// The page's text. The same figure gives the same text. clip: at most kMostPlanes. Throws CapacityError for a figure
-/// of more records than textures of 2048 x 8192 texels hold.
+/// The page's text. The same figure gives the same text. clip: at most kMostPlanes each. Throws CapacityError for a
+/// figure of more records than textures of 2048 x 8192 texels hold.
 std::string page_text(const PageFigure& figure);
 
 }  // namespace meniscus::page

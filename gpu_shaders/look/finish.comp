@@ -6,14 +6,18 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "gpu_shaders/look/block_texels.glsl"
 #include "gpu_shaders/look/parameters.glsl"
 
-layout(binding = 2) uniform usamplerBuffer visibility_texels;  // there for AMBIENT_OCCLUSION
+layout(binding = 2) uniform usamplerBuffer shade_texels;  // visibility, depth; there for AMBIENT_OCCLUSION
 layout(binding = 3) uniform usamplerBuffer mark_texels;  // of each pixel; there if has_marks
 layout(std430, binding = 0) readonly buffer Samples { vec4 samples[]; };  // linear, premultiplied
 layout(std430, binding = 1) buffer Picture { vec4 picture[]; };
 
 layout(std140, binding = 0) uniform Parameters { FinishParameters params; };
 
-float visibility_at(ivec2 pixel) { return uintBitsToFloat(texelFetch(visibility_texels, index_of(pixel)).x); }
+float visibility_at(ivec2 pixel) { return uintBitsToFloat(texelFetch(shade_texels, 2 * index_of(pixel)).x); }
+
+float shade_depth_or_nothing(ivec2 pixel) {
+  return in_block(pixel) ? uintBitsToFloat(texelFetch(shade_texels, 2 * index_of(pixel) + 1).x) : kNothing;
+}
 
 #include "gpu_shaders/ray_cast/sheen.glsl"
 #include "gpu_shaders/look/finish.glsl"

@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shade, depth cueing and silhouettes: how they change the colour of a sample.
 //
-// GLSL and, as the body of a struct, C++: see view_space.glsl. The includer provides `params` of FinishParameters and
-// visibility_at() of a pixel that met something.
+// GLSL and, as the body of a struct, C++: see view_space.glsl. The includer provides `params` of FinishParameters,
+// shade_depth_or_nothing() of a pixel, which may lie outside of the block, and visibility_at() where that met something:
+// both of the sample whose shade this one takes.
 
-// Mean over 4 x 4 pixels, as a square of 5 x 5 whose rim counts half; pixels of other surfaces do not count.
+// Mean over 4 x 4 pixels, as a square of 5 x 5 whose rim counts half; pixels of other surfaces do not count, unless there
+// are no others.
 GEOMETRY real mean_visibility(integer2 pixel, real depth) {
   real3 p = position_at(pixel, depth);
   real3 normal = facing(hit_normal_at(pixel), to_viewer_at(p));
   real tolerance = 0.3 + 2.0 * pixel_size_at(depth);
-  real sum = real(0.0);
-  real weights = real(1e-6);
+  real sum = real(1e-9);
+  real weights = real(1e-9);
   for (int y = -2; y <= 2; ++y)
     for (int x = -2; x <= 2; ++x) {
       integer2 other = pixel + integer2(x, y);
-      real other_depth = depth_or_nothing(other);
+      real other_depth = shade_depth_or_nothing(other);
       truth counts = other_depth != real(kNothing);
       real off_plane = abs(dot(normal, position_at(other, other_depth) - p));
       float in_square = (x * x == 4 ? 0.5 : 1.0) * (y * y == 4 ? 0.5 : 1.0);
-      real weight = in_square * max(1.0 - off_plane / tolerance, 0.0);
+      real weight = in_square * max(1.0 - off_plane / tolerance, 1e-5);
       sum += select(counts, weight * visibility_at(other), real(0.0));
       weights += select(counts, weight, real(0.0));
     }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes how much of the sky each hit of a block sees.
+// Computes how much of the sky each hit of a block sees, and keeps its depth beside that.
 #version 450 core
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "gpu_shaders/look/block_texels.glsl"
 #include "gpu_shaders/look/parameters.glsl"
 
 layout(binding = 2) uniform usamplerBuffer map_texels;
-layout(std430, binding = 0) writeonly buffer Visibility { float visibility[]; };
+layout(std430, binding = 0) writeonly buffer Shade { vec2 shade[]; };  // visibility, depth
 
 layout(std140, binding = 0) uniform Parameters { OcclusionParameters occlusion; };
 
@@ -22,5 +22,5 @@ void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (!in_block(pixel)) return;
   float depth = depth_at(pixel);
-  visibility[index_of(pixel)] = depth == kNothing ? 1.0 : sky_visibility(pixel, depth);
+  shade[index_of(pixel)] = vec2(depth == kNothing ? 1.0 : sky_visibility(pixel, depth), depth);
 }

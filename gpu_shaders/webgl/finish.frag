@@ -6,7 +6,7 @@
 
 uniform usampler2D sample_texels;      // points.frag's colours
 uniform usampler2D what_texels;        // points.frag's atoms and marks
-uniform usampler2D visibility_texels;  // there for AMBIENT_OCCLUSION
+uniform usampler2D shade_texels;       // occlusion.frag's; there for AMBIENT_OCCLUSION
 uniform usampler2D sum_texels;         // of the samples before
 layout(std140) uniform Parameters { FinishParameters params; };
 layout(location = 0) out uvec4 sum;  // as bits
@@ -14,7 +14,11 @@ layout(location = 0) out uvec4 sum;  // as bits
 layout(location = 1) out uvec4 ink;
 #endif
 
-float visibility_at(ivec2 pixel) { return uintBitsToFloat(texelFetch(visibility_texels, pixel, 0).x); }
+float visibility_at(ivec2 pixel) { return uintBitsToFloat(texelFetch(shade_texels, pixel, 0).x); }
+
+float shade_depth_or_nothing(ivec2 pixel) {
+  return in_block(pixel) ? uintBitsToFloat(texelFetch(shade_texels, pixel, 0).y) : kNothing;
+}
 
 int mark_at(ivec2 pixel) { return int(texelFetch(what_texels, pixel, 0).z); }
 

@@ -1,11 +1,11 @@
 #version 300 es
 // SPDX-License-Identifier: BSD-3-Clause
-// How much of the sky each point sees.
+// How much of the sky each point sees, and its depth beside that.
 #include "gpu_shaders/webgl/sample_texels.glsl"
 
 uniform usampler2D map_texels;  // points.frag's normals and depths of the first sample
 layout(std140) uniform Parameters { OcclusionParameters occlusion; };
-layout(location = 0) out uvec4 visibility;  // as bits
+layout(location = 0) out uvec4 shade;  // visibility, depth; as bits
 
 // Outside of the map there is nothing.
 float map_depth_or_nothing(ivec2 texel) {
@@ -18,5 +18,5 @@ float map_depth_or_nothing(ivec2 texel) {
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   float depth = depth_at(pixel);
-  visibility = uvec4(floatBitsToUint(depth == kNothing ? 1.0 : sky_visibility(pixel, depth)));
+  shade = floatBitsToUint(vec4(depth == kNothing ? 1.0 : sky_visibility(pixel, depth), depth, 0.0, 0.0));
 }

@@ -140,7 +140,7 @@ CONTEXTS = {
     "bar": ["{one.pdb}", "--scale-bar", "5"], "panel": ["{one.pdb}", "--panel", "a"],
     "shiny": ["{one.pdb}", "--specular", "0.9", "--ambient", "0.1"],
     "flat": ["{one.pdb}", "--preset", "flat"],
-    "shade": ["{one.pdb}", "--ambient-occlusion", "1"], "table of atoms": ["{one.pdb}", "--csv", "a.csv"],
+    "shade": ["{one.pdb}", "--ambient-occlusion", "1"], "table of atoms": ["{one.pdb}", "--csv", "a.csv"], "summary": ["{one.pdb}", "--csv-summary", "s.csv"],
     "shadows": ["{one.pdb}", "--shadows", "1"], "patches": ["{one.pdb}", "--patches", "chain A"],
     "length": ["{one.pdb}", "--width", "10mm"],
     "pixels": ["{one.pdb}", "--tolerance-pixels", "2"], "choice": ["{one.pdb}", "--select", "chain A"],
@@ -198,7 +198,7 @@ ROWS = {
     "--time-stamp": (None, "frames"), "--curve": ("{curve.csv}", "frames"), "--curve-column": ("volume", "curve"),
     "--aovs": (None, "plain"), "--provenance": (None, "plain"), "--no-provenance": (None, "plain"),
     "--save-camera": ("saved.json", "plain"), "--scene": ("{scene.json}", "plain"), "--save-scene": ("saved.json", "plain"),
-    "--set": ("surface.probe=2", "plain"), "--json": (None, "plain"), "--csv": ("a.csv", "plain"), "--open-sky": (None, "table of atoms"), "--csv-series": ("s.csv", "frames"),
+    "--set": ("surface.probe=2", "plain"), "--json": (None, "plain"), "--csv": ("a.csv", "plain"), "--open-sky": (None, "table of atoms"), "--csv-series": ("s.csv", "frames"), "--csv-summary": ("s.csv", "plain"),
     "--csv-cavities": ("c.csv", "frames"), "--csv-residues": ("r.csv", "plain"), "--plot": ("p.svg", "frames"),
     "--gradients": ("g.csv", "plain"), "--context": ("chain B", "choice"), "--ligand": ("resid 1-9", "cup"),
     "--patches": ("chain A", "plain"), "--csv-patches": ("p.csv", "patches"), "--min-patch": ("9999", "patches"),
@@ -221,7 +221,7 @@ RARE = {
 
 # Where it takes another value or another context.
 OWN_ROWS = {
-    ("surface", "--hydrogens"): ("drop", "plain"), ("pockets", "--show"): ("chain A", "pocket figure"),
+    ("surface", "--hydrogens"): ("drop", "plain"), ("surface", "--resume"): (None, "summary"), ("pockets", "--show"): ("chain A", "pocket figure"),
     ("pockets", "--select-once"): (None, "moving"),
     **{("pockets", option): (value, "pocket run")
        for option, value in (("--superpose", "name CA"), ("--center", "name CA"))},
@@ -261,6 +261,7 @@ for export in ("povray", "blender", "mitsuba", "pbrt"):
 for shape in ("--sticks", "--balls", "--spheres", "--tube", "--bases", "--glycans"):
     OWN_ROWS["export page", shape] = (ROWS[shape][0], "covered ring" if shape in ("--bases", "--glycans") else "plain")
 OWN_ROWS["export page", "--background"] = ("black", "plain")
+OWN_ROWS["export page", "--named-view"] = ("Back={camera.json}", "plain")
 for export in ("mesh", "ply"):
     OWN_ROWS["export " + export, "--stick-radius"] = ("0.7", "mesh sticks")
     OWN_ROWS["export " + export, "--tube-radius"] = ("0.9", "mesh tube")

@@ -109,6 +109,22 @@ class RunsLikePictures(unittest.TestCase):
             self.assertTrue((self.pixels(f"f_{n}.png") == self.pixels(f"one_{n}.png")).all(), n)
         self.assertFalse((self.pixels("one_0.png") == self.pixels("one_2.png")).all())
 
+    def test_frames_without_room_for_labels_are_made_and_told(self):
+        words = ["--camera", json.dumps(CAMERA), "--size", "160x120", "--samples", "1"]
+        crowd = ["--label-size", "40px"] + [word for n in range(1, 6) for word in ("--label", f"resid {n}=A long name")]
+        alone = subprocess.run([PROGRAM, "render", "run.pdb", "-o", "one.png", *words, *crowd], cwd=self.folder, capture_output=True,
+                               text=True)
+        self.assertEqual(alone.returncode, 2, alone.stderr)
+        self.assertIn("find no places", alone.stderr)
+        self.run_program("render", "run.pdb", "--frames", "all", "-o", "bare_#.png", "-q", *words)
+        for output in ("f_#.png", "f.mp4"):
+            done = subprocess.run([PROGRAM, "render", "run.pdb", "--frames", "all", "-o", output, *words, *crowd], cwd=self.folder,
+                                  capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("3 of the pictures lack their labels (first: frame 0)", done.stderr)
+        for n in range(3):
+            self.assertTrue((self.pixels(f"f_{n}.png") == self.pixels(f"bare_{n}.png")).all(), n)
+
     def test_objects(self):
         beside = json.dumps({"representation": "surface", "selection": "resid 4-5", "color": "red"})
         words = ["--select", "resid 1-3", "--object", beside, "--camera", json.dumps(CAMERA), "-q"]

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The page of `export page` in a real browser, pixel by pixel against `render`: arguments PROGRAM CHROMIUM FREESASA_DATA.
+"""The page of `export page` in a real browser, pixel by pixel against `render`: arguments PROGRAM CHROMIUM FREESASA_DATA,
+and then perhaps names of tests (PageTest.test_turns_and_picks).
 
 With MENISCUS_SCREENSHOTS=FOLDER in the environment, pictures of the pages are left there to be looked at."""
 
 import base64
+import json
 import os
 import pathlib
 import subprocess
@@ -29,8 +31,7 @@ NOTHING = 0xffffffff
 # One sample through the middle of each pixel, with the look: words of what is met, and of the sums of colours.
 CAST = """(() => {
   const viewer = window.meniscus, caster = viewer.caster, gl = caster.gl, [width, height] = [%d, %d];
-  cancelAnimationFrame(viewer.waiting);  // the viewer's own picture is not asked for
-  caster.begin(viewer.first, width, height);
+  caster.begin(viewer.camera, width, height);
   caster.cast(0, viewer.effects);
   const text = (words) => { let all = ""; for (const byte of new Uint8Array(words.buffer)) all += String.fromCharCode(byte);
     return btoa(all); };
@@ -41,6 +42,13 @@ CAST = """(() => {
   const { forward, eye_distance, pixel_size, orthographic } = caster.frame;
   return { what, sums: text(sums), shown: [...viewer.figure.tables.shown], eye_distance, pixel_size, orthographic };
 })()""" % SIZE
+
+# Software GL is slow: the viewer draws by itself only once a test asks for that.
+HELD = """(() => {
+  const frames = window.requestAnimationFrame.bind(window);
+  window.held = true;
+  window.requestAnimationFrame = (draw) => window.held ? 1 : frames(draw);
+})()"""
 
 
 def srgb(linear):
@@ -65,24 +73,37 @@ class PageTest(unittest.IsolatedAsyncioTestCase):
         self.run_program("export", "page", molecule, "-o", self.path(name), "--force", "-q", *options)
         return self.path(name)
 
+    def part_of(self, molecule, first, last):
+        """A file with some of its residues."""
+        with open(molecule) as file, open(self.path("part.pdb"), "w") as part:
+            part.writelines(row for row in file if row.startswith("ATOM") and first <= int(row[22:26]) <= last)
+        return part.name
+
     def browser(self, size=(520, 260)):
         return Browser(CHROMIUM, size, SOFTWARE_GL)
 
-    async def open(self, page, path):
+    async def load(self, page, path):
+        """The viewer is there, and draws nothing of its own."""
+        await page.send("Page.addScriptToEvaluateOnNewDocument", source=HELD)
         await page.send("Page.navigate", url="file://" + path)
-        await page.until("document.getElementById('picture')?.dataset.rest !== undefined ||"
-                         " document.getElementById('message')?.textContent", 100)
+        await page.until("window.meniscus || document.getElementById('message')?.textContent", 100)
         fault = await page.evaluate("document.getElementById('message').textContent")
         if "WebGL 2" in fault:
             print(f"skipped: this Chromium has no WebGL 2 ({fault})")
             sys.exit(77)
         self.assertEqual(fault, "")
-        # Software GL is slow: three samples a pixel do for what is not compared.
-        await page.evaluate("(() => { const viewer = window.meniscus; cancelAnimationFrame(viewer.waiting); viewer.waiting = 0;"
-                            " viewer.figure.samples.length = 3; viewer.change(); })()")
+
+    async def open(self, page, path):
+        """The same, and it draws: three samples a pixel do for what is not compared."""
+        await self.load(page, path)
+        await page.evaluate("(() => { window.held = false; meniscus.waiting = 0; meniscus.figure.samples.length = 3;"
+                            " meniscus.change(); })()")
 
     async def shoot(self, page, name):
         if "MENISCUS_SCREENSHOTS" in os.environ:
+            if await page.evaluate("window.held"):
+                await page.evaluate("window.held = false, meniscus.waiting = 0, meniscus.change()")
+            await page.at_rest(300)
             await page.screenshot(os.path.join(os.environ["MENISCUS_SCREENSHOTS"], name))
 
     def rendered(self, molecule, *options):
@@ -112,7 +133,7 @@ class PageTest(unittest.IsolatedAsyncioTestCase):
 
     async def compare(self, page, molecule, *options):
         """At most one pixel in a thousand differs; none by more than what a neighbour shows."""
-        await self.open(page, self.export(molecule, "--size", "%dx%d" % SIZE, *options))
+        await self.load(page, self.export(molecule, "--size", "%dx%d" % SIZE, *options))
         self.check(f"{os.path.basename(molecule)} {' '.join(options)}", await self.cast(page), self.rendered(molecule, *options))
 
     def check(self, name, found, wanted):
@@ -155,22 +176,65 @@ class PageTest(unittest.IsolatedAsyncioTestCase):
             self.assertEqual(page.complaints, [])
 
     async def test_what_readers_hide_cut_and_see_through_is_that_of_render(self):
-        camera, size = self.path("camera.json"), "%dx%d" % SIZE
+        camera, size, few = self.path("camera.json"), "%dx%d" % SIZE, self.part_of(PROTEASE, 20, 60)
         async with self.browser() as page:
-            await self.open(page, self.export(PROTEASE, "--size", size, "--color", "chain", "--save-camera", camera))
+            await self.load(page, self.export(few, "--size", size, "--color", "chain", "--save-camera", camera))
             look = ["--size", size, "--color", "chain", "--camera", camera, "--depth-cue", "0"]
-            await page.evaluate("(() => { const words = meniscus.figure.finish, view = new DataView(new ArrayBuffer(4));"
-                                " words[%d] = 0; })()" % DEPTH_CUE)
+            await page.evaluate("meniscus.figure.finish[%d] = 0" % DEPTH_CUE)
             await page.evaluate("meniscus.show_chains(new Set(['A']))")
-            self.check("chain A alone", await self.cast(page), self.rendered(PROTEASE, *look, "--show", "chain A"))
+            self.check("chain A alone", await self.cast(page), self.rendered(few, *look, "--show", "chain A"))
             await page.evaluate("meniscus.set_cut(0.5)")
             plane = await page.evaluate("(() => { const [x, y, z, w] = meniscus.cut, o = meniscus.figure.origin;"
                                         " return [x, y, z, w + x * o[0] + y * o[1] + z * o[2]]; })()")
             clip = "%.9f,%.9f,%.9f<%.9f" % tuple(plane)
-            self.check("cut, chain A alone", await self.cast(page), self.rendered(PROTEASE, *look, "--show", "chain A", "--clip", clip))
-            await page.evaluate("meniscus.show_chains(new Set(['A', 'B'])), meniscus.opacity = 0.5, meniscus.set_cut(0)")
-            self.check("seen through", await self.cast(page), self.rendered(PROTEASE, *look, "--opacity", "0.5"))
+            self.check("cut, chain A alone", await self.cast(page), self.rendered(few, *look, "--show", "chain A", "--clip", clip))
+            await page.evaluate("meniscus.show_chains(new Set(meniscus.figure.names.chains)), meniscus.opacity = 0.5, meniscus.set_cut(0)")
+            self.check("seen through", await self.cast(page), self.rendered(few, *look, "--opacity", "0.5"))
             self.assertEqual(page.complaints, [])
+
+    async def test_views_are_those_of_their_files(self):
+        part, camera = self.part_of(UBIQUITIN, 1, 15), self.path("back.json")
+        inside = ["--size", "%dx%d" % SIZE, "--color", "residue", "--clip", "depth>0.4", "--view", "left", "--zoom-to", "resid 5", "--opacity", "0.6"]
+        self.run_program("render", part, "-o", self.path("back.png"), "--force", "-q", "--size", "%dx%d" % SIZE, "--view", "back", "--projection",
+                         "orthographic", "--save-camera", camera)
+        self.run_program("render", part, "-o", self.path("inside.png"), "--force", "-q", "--samples", "1", *inside)
+        async with self.browser() as page:
+            await self.load(page, self.export(part, "--size", "%dx%d" % SIZE, "--color", "residue", "--named-view", f"<b>Back</b>={camera}",
+                                              "--named-view", f"Inside={self.path('inside.png')}"))
+            names = await page.evaluate("[...document.querySelectorAll('#views button')].map((button) => button.textContent)")
+            self.assertEqual(names, ["First view", "<b>Back</b>", "Inside"])
+            first = await page.evaluate("meniscus.camera")
+            await page.evaluate("window.held = false, meniscus.waiting = 0, meniscus.figure.samples.length = 1, meniscus.change()")
+            await page.at_rest(100)
+            await page.click("#views button:nth-child(2)")
+            self.assertEqual(await page.evaluate("document.getElementById('picked').textContent"), "<b>Back</b>")
+            self.assertTrue(await page.evaluate("meniscus.camera.orthographic"))
+            await page.until("meniscus.gliding === null", 30)
+            with open(camera) as file:
+                wanted = json.load(file)
+            seen = await page.evaluate("({ ...meniscus.camera, origin: meniscus.figure.origin })")
+            for key in ("position", "target"):
+                numpy.testing.assert_allclose(numpy.add(seen[key], seen["origin"]), wanted[key], atol=1e-9)
+            self.assertEqual((seen["orthographic"], seen["height"]), (True, wanted["height"]))
+            # Half of a half turn.
+            middle = await page.evaluate("((v) => between({ ...v[0].camera }, { ...v[1].camera, orthographic: false, fov: v[0].camera.fov }, 0.5))"
+                                         "(meniscus.figure.views)")
+            ahead = numpy.subtract(middle["target"], middle["position"])
+            self.assertLess(abs(numpy.dot(ahead, numpy.subtract(first["target"], first["position"]))), 1e-6 * numpy.dot(ahead, ahead))
+            await page.send("Emulation.setEmulatedMedia", features=[{"name": "prefers-reduced-motion", "value": "reduce"}])
+            await page.evaluate("window.held = true")
+            await page.click("#views button:nth-child(3)")
+            self.assertEqual(await page.evaluate("document.getElementById('opacity').value"), "60")
+            self.check("view Inside", await self.cast(page), self.rendered(part, *inside))
+            await page.click("#reset")
+            self.assertEqual(await page.evaluate("meniscus.camera"), first)
+            self.assertEqual(page.complaints, [])
+        for bad, words in ((["--named-view", "Back"], "write NAME=FILE"), (["--named-view", f"A={camera}", "--named-view", f"A={camera}"], "choose another"),
+                           (["--named-view", "A=none.json"], "cannot be opened")):
+            done = subprocess.run([PROGRAM, "export", "page", part, "-o", self.path("bad.html"), *bad], capture_output=True, text=True)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn(words, done.stderr)
+            self.assertFalse(os.path.exists(self.path("bad.html")))
 
     async def test_turns_and_picks(self):
         async with self.browser() as page:
@@ -197,6 +261,7 @@ class PageTest(unittest.IsolatedAsyncioTestCase):
             for key in ("ArrowLeft", "+", ".", "p", "r"):
                 await page.send("Input.dispatchKeyEvent", type="keyDown", key=key)
                 await page.send("Input.dispatchKeyEvent", type="keyUp", key=key)
+            await page.until("meniscus.gliding === null", 60)
             self.assertEqual(before, await page.evaluate("window.meniscus.camera.position"))
             await page.evaluate("(() => { const cut = document.getElementById('cut'); cut.value = 50; cut.dispatchEvent(new Event('input')); })()")
             await page.at_rest(200)
@@ -243,4 +308,4 @@ class PageTest(unittest.IsolatedAsyncioTestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    unittest.main(argv=sys.argv[:1] + sys.argv[4:])

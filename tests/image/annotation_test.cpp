@@ -126,6 +126,16 @@ TEST(Annotations, LabelsLeadToTheirPlacesAndDoNotMeet) {
   EXPECT_EQ(extent(written(one)).z, 0);
 }
 
+TEST(Annotations, LabelsThatHaveNoRoomAreRefusedOrLeftOut) {
+  Annotations crowd;
+  crowd.scale_bar = true;
+  const glm::ivec4 bar = extent(written(crowd));
+  for (int n = 0; n < 40; ++n) crowd.labels.push_back({"a label that is as long as the picture", {5.0, 0.1 * n, 0.0}});
+  EXPECT_THROW(written(crowd), RequestError);
+  crowd.labels_must_fit = false;
+  EXPECT_EQ(extent(written(crowd)), bar) << "the bar alone";
+}
+
 TEST(Annotations, ACurveHasItsMarkWhereThePictureIs) {
   Annotations run;
   // Of the pixel or one above or below it.

@@ -195,6 +195,34 @@ TEST(CpuPicture, ShadeIsThatOfTheMoleculeAtAnyResolution) {
   EXPECT_LE(differences[differences.size() / 2], 1);
 }
 
+// A ball far in front of a dark seam: at its rim some samples of a pixel see the one, some the other.
+TEST(CpuPicture, ShadeThatSamplesShareIsThatOfWhatTheyMeet) {
+  const auto renderer = make_cpu_renderer();
+  const Balls seam{{{-2.2, 0, 0}, 3.0}, {{2.2, 0, 0}, 3.0}}, ball{{{0, 0, 60}, 1.5}};
+  Balls both = seam;
+  both.push_back(ball.front());
+  const auto drawn = [&](const Balls& balls) {
+    Picture picture("balls", balls, 0.0);
+    picture.coloring.atom.assign(balls.size(), glm::vec3(0.9f));
+    picture.camera = {{0, 0, 100}, {0, 0, 0}, {0, 1, 0}, Projection::orthographic, 30.0, 7.0};
+    picture.settings.aovs = false;
+    picture.settings.samples = 9;
+    picture.settings.look.ambient_occlusion = 1.0f;
+    picture.settings.look.ambient_occlusion_radius = 6.0f;
+    return picture.by(*renderer).color;
+  };
+  const std::vector<glm::vec4> behind = drawn(seam), before = drawn(ball), all = drawn(both);
+  float largest = 0.0f;
+  int rim = 0;
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    if (before[n].w == 0.0f || before[n].w == 1.0f) continue;
+    ++rim;
+    largest = std::max(largest, std::abs(all[n].x - before[n].x - (1.0f - before[n].w) * behind[n].x));
+  }
+  EXPECT_GT(rim, 100);
+  EXPECT_LT(largest, 0.02f);
+}
+
 TEST(CpuPicture, ShadeOfLargePicturesIsTheSameInBlocksAndByGl) {
   const EglContext context;
   const auto gl = make_gl_renderer(context), cpu = make_cpu_renderer();

@@ -3,12 +3,10 @@
 #include "core/render/cpu/cpu_renderer.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <span>
-#include <thread>
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -17,33 +15,12 @@
 
 #include "core/image/color_space.h"
 #include "core/queries/copies.h"
+#include "core/render/cpu/interruption.h"
 #include "core/render/linear_colors.h"
 #include "core/render/picture_block.h"
 #include "core/render/shape_packing.h"
 
 namespace meniscus {
-
-/// Whether a picture is to be given up; the one who wants it is asked on its own thread only.
-class Interruption {
- public:
-  explicit Interruption(const std::function<bool()>& stop) : stop_(stop) {}
-
-  bool came() {
-    if (stop_ && !came_ && std::this_thread::get_id() == asked_ && stop_()) came_ = true;
-    return came_;
-  }
-
-  /// How many of `samples` of this block are cast, from 0; on the thread that is asked.
-  void note(int sample, int samples) { block_share_ = static_cast<double>(sample) / samples; }
-  double block_share() const { return block_share_; }
-
- private:
-  double block_share_ = 0.0;
-  const std::function<bool()>& stop_;
-  const std::thread::id asked_ = std::this_thread::get_id();
-  std::atomic<bool> came_ = false;
-};
-
 namespace {
 
 /// Formulas of the shared sources.
@@ -58,38 +35,6 @@ constexpr ray_cast::Hit kNoHit{glm::vec3(0.0f), 0.0f, ray_cast::kNoPrimitive, ra
 /// In whole tiles.
 int block_edge(const RenderSettings& settings) {
   return std::max(settings.block_edge / kTileEdge * kTileEdge, kTileEdge);
-}
-
-/// Tells how far a picture is that is cast block by block.
-class BlockProgress {
- public:
-  BlockProgress(const RenderSettings& settings, std::size_t blocks) : blocks_(static_cast<double>(blocks)) {
-    if (!settings.progress) return;
-    tell_ = [this, &settings] {
-      settings.progress(std::min((done_ + interruption_.block_share()) / blocks_, 1.0));
-      return false;
-    };
-  }
-
-  /// Of the block at work.
-  Interruption& interruption() { return interruption_; }
-  void end_block() {
-    ++done_;
-    interruption_.note(0, 1);
-  }
-
- private:
-  double blocks_, done_ = 0.0;
-  std::function<bool()> tell_;
-  Interruption interruption_{tell_};
-};
-
-/// Calls work(n) for n < count on all threads until an interruption comes.
-template <typename Work>
-void for_each_until(Interruption& interruption, int count, const Work& work) {
-  tbb::parallel_for(0, count, [&](int n) {
-    if (!interruption.came()) work(n);
-  });
 }
 
 }  // namespace
@@ -472,15 +417,25 @@ void CpuRenderer::look_at(int sample, const RenderSettings& settings, bool has_m
   task.finish = finish_parameters(look, scene_.placement, settings.size, sample, has_marks);
   task.samples = samples_.lanes(look.traces_sky());
   task.shade_map = shade_map_.data();
-  task.visibility = samples_.visibility.data();
   task.sums = sums_.data();
-  if (has_front) look_at_front(task, settings, interruption);
-  if (look.ambient_occlusion > 0.0f && !look.traces_sky())
-    for_each_until(interruption, task.view.size.y, [&](int y) { kernels_.occlude_row(task, y); });
+  if (has_front) look_at_front(sample, task, settings, interruption);
+  find_shade(samples_, sample, look, task, interruption);
   for_each_until(interruption, task.view.size.y, [&](int y) { kernels_.finish_row(task, y); });
 }
 
-void CpuRenderer::look_at_front(LaneLook task, const RenderSettings& settings, Interruption& interruption) {
+void CpuRenderer::find_shade(BlockSamples& samples, int sample, const Look& look, LaneLook& task,
+                             Interruption& interruption) {
+  task.visibility = samples.visibility.data();
+  task.shade_depth = samples.depth.data();
+  if (look.ambient_occlusion == 0.0f || look.traces_sky()) return;
+  if (sample == shade_sample(sample)) {
+    samples.shade_depth = samples.depth;
+    for_each_until(interruption, task.view.size.y, [&](int y) { kernels_.occlude_row(task, y); });
+  }
+  task.shade_depth = samples.shade_depth.data();
+}
+
+void CpuRenderer::look_at_front(int sample, LaneLook task, const RenderSettings& settings, Interruption& interruption) {
   const glm::ivec2 size = task.view.size;
   const std::size_t pixel_count = static_cast<std::size_t>(size.x) * size.y;
   front_sums_.assign(pixel_count, glm::vec4(0.0f));
@@ -488,11 +443,9 @@ void CpuRenderer::look_at_front(LaneLook task, const RenderSettings& settings, I
   task.samples = front_.lanes(settings.look.traces_sky());
   task.finish.specular = 0.0f;  // highlights are in what is cast
   task.shade_map = front_shade_map_.data();
-  task.visibility = front_.visibility.data();
   task.sums = front_sums_.data();
   task.ink = front_ink_.data();
-  if (settings.look.ambient_occlusion > 0.0f && !settings.look.traces_sky())
-    for_each_until(interruption, size.y, [&](int y) { kernels_.occlude_row(task, y); });
+  find_shade(front_, sample, settings.look, task, interruption);
   for_each_until(interruption, size.y, [&](int y) { kernels_.finish_row(task, y); });
   const int reach = static_cast<int>(std::ceil(0.5f * settings.look.widest_line() + 0.5f));
   for_each_until(interruption, size.y, [&](int y) {

@@ -67,6 +67,7 @@ class CpuRenderer final : public SurfaceRenderer {
   struct BlockSamples {
     std::vector<glm::vec4> color, over;
     std::vector<float> depth, normal[3], mark, visibility;
+    std::vector<float> shade_depth;  ///< depth of the sample whose visibility it is, if several share it
 
     void resize(std::size_t pixel_count, bool has_marks, bool has_layers);
     LaneSamples lanes(bool has_visibility);
@@ -99,9 +100,11 @@ class CpuRenderer final : public SurfaceRenderer {
   void cast_samples(int first, int count, const BlockTask& task, Interruption& interruption);
   void cast_tile(std::size_t tile, LaneTile task);
   void look_at(int sample, const RenderSettings& settings, bool has_marks, bool has_front, Interruption& interruption);
+  /// Sets what a sample's shade is made of; finds it, if the sample has its own.
+  void find_shade(BlockSamples& samples, int sample, const Look& look, LaneLook& task, Interruption& interruption);
   /// Finishes what is seen through and first along its ray: its shade, air and lines go into samples_.over, each as
   /// opaque as it is.
-  void look_at_front(LaneLook task, const RenderSettings& settings, Interruption& interruption);
+  void look_at_front(int sample, LaneLook task, const RenderSettings& settings, Interruption& interruption);
   void present(const RenderSettings& settings);
 
   const LaneKernels& kernels_;

@@ -172,7 +172,8 @@ struct LaneLook {
   kernel::OcclusionParameters occlusion{};
   kernel::FinishParameters finish{};
   LaneSamples samples;
-  const float* shade_map = nullptr;  ///< depths of the whole picture, for occlude_row
+  const float* shade_map = nullptr;    ///< depths of the whole picture, for occlude_row
+  const float* shade_depth = nullptr;  ///< of the sample whose visibility this is
   float* visibility = nullptr;
   glm::vec4* sums = nullptr;  ///< gets the finished colours added
   float* ink = nullptr;       ///< gets the share of each pixel that lines cover; or nullptr

@@ -36,6 +36,7 @@ struct LookedAtBlock {
         texel.x >= integer(0) && texel.y >= integer(0) && texel.x < integer(size.x) && texel.y < integer(size.y);
     return gather(look_.shade_map, select(inside, texel.y * integer(size.x) + texel.x, integer(size.x * size.y)));
   }
+  real shade_depth_or_nothing(integer2 pixel) { return fetch(look_.shade_depth, pixel); }
   real visibility_at(integer2 pixel) { return fetch(look_.visibility, pixel); }
   integer mark_at(integer2 pixel) { return to_whole(fetch(look_.samples.mark, pixel)); }
   real3 hit_normal_at(integer2 pixel) {
@@ -58,6 +59,32 @@ struct LookedAtBlock {
   struct Ink {
     real covered, depth, patched;
   };
+
+  /// No line reaches the pixels from here on: what is around each is one part without a step, or nothing. False where
+  /// the block ends nearby.
+  bool has_no_ink(int x, int y) {
+    const int reach = farthest_neighbor();
+    if (x < reach || y < reach || x + kLanes + reach > view.size.x || y + reach >= view.size.y) return false;
+    const float *const depths = look_.samples.depth, *const marks = look_.samples.mark;
+    const std::ptrdiff_t width = view.size.x, first = y * width + x;
+    real nearest = load(depths + first), farthest = nearest;
+    real least_mark(0.0f), greatest_mark(0.0f);
+    if (params.has_marks != 0u) least_mark = greatest_mark = load(marks + first);
+    for (int row = -reach; row <= reach; ++row)
+      for (int column = -reach; column <= reach; ++column) {
+        const std::ptrdiff_t at = first + row * width + column;
+        const real depth = load(depths + at);
+        nearest = min(nearest, depth);
+        farthest = max(farthest, depth);
+        if (params.has_marks == 0u) continue;
+        const real mark = load(marks + at);
+        least_mark = min(least_mark, mark);
+        greatest_mark = max(greatest_mark, mark);
+      }
+    const truth nothing = nearest == real(kNothing);
+    const truth steps = farthest == real(kNothing) || farthest - nearest > least_step(nearest);
+    return !some(!nothing && (steps || least_mark != greatest_mark));
+  }
 
   Ink ink_on(integer2 pixel, real depth) {
     const int reach = farthest_neighbor();
@@ -117,7 +144,7 @@ struct LookedAtBlock {
         alpha = alpha * left;
       }
     }
-    if (params.widest_line > 0.0f) {
+    if (params.widest_line > 0.0f && !has_no_ink(x, y)) {
       const Ink ink = ink_on(pixel, depth);
       const real patched = ink.patched * clarity(depth);
       color = mix(color, real3(params.patch_line_color), patched);

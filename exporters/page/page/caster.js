@@ -215,13 +215,13 @@ class Caster {
 
   make_pixels() {
     const { gl } = this, wide = () => this.wide();
-    return { found: this.texture(gl.RG32UI), visibility: this.texture(gl.R32UI), color: wide(), normal: wide(), what: wide(),
+    return { found: this.texture(gl.RG32UI), shade: this.texture(gl.RG32UI), color: wide(), normal: wide(), what: wide(),
       first_normal: wide(), first_what: wide(), sum: wide(), other_sum: wide() };
   }
 
   make_targets(pixels) {
     return { found: this.target(pixels.found), first: this.target(pixels.color, pixels.first_normal, pixels.first_what),
-      points: this.target(pixels.color, pixels.normal, pixels.what), visibility: this.target(pixels.visibility),
+      points: this.target(pixels.color, pixels.normal, pixels.what), shade: this.target(pixels.shade),
       sum: this.target(pixels.sum), other_sum: this.target(pixels.other_sum) };
   }
 
@@ -319,20 +319,21 @@ class Caster {
       { Parameters: { words: this.figure.cast, values: { color_by_kind: this.by_kind, ...values } } });
   }
 
-  /// map: the depths of the first sample.
-  shade(normal, map, sample) {
+  /// map: the depths of the first sample; shared: by how many samples.
+  shade(normal, map, sample, shared = this.figure.samples_of_shade) {
+    if (sample % shared) return;
     const [width, height] = this.size;
-    this.draw_whole(this.targets.visibility, this.program("whole.vert", "occlusion.frag"), { normal_texels: normal, map_texels: map }, {},
+    this.draw_whole(this.targets.shade, this.program("whole.vert", "occlusion.frag"), { normal_texels: normal, map_texels: map }, {},
       { Parameters: { words: this.figure.occlusion, values: { map_middle: [width / 2 - 0.5, height / 2 - 0.5], map_size: this.size,
-        texel_edge: 1, near_reach: 0, longest_reach: Math.hypot(width, height), sample_index: sample } } });
+        texel_edge: 1, near_reach: 0, longest_reach: Math.hypot(width, height), sample_index: sample / shared } } });
   }
 
   /// The look of some points, which is added to the sum if this is not the first sample.
   finish(target, { normal, what, color, sum }, effects, values, defines = []) {
     const wanted = [...(effects.shade ? ["AMBIENT_OCCLUSION"] : []), ...(effects.lines ? ["SILHOUETTES"] : []), ...defines];
     this.draw_whole(target, this.program("whole.vert", "finish.frag", wanted), { normal_texels: normal, sample_texels: color, what_texels: what,
-      ...(effects.shade ? { visibility_texels: this.pixels.visibility } : {}), sum_texels: sum }, {},
-      { Parameters: { words: this.figure.finish, values: { ...this.depth_range, ...this.line_widths(), ...values } } });
+      ...(effects.shade ? { shade_texels: this.pixels.shade } : {}), sum_texels: sum }, {},
+      { Parameters: { words: this.figure.finish, values: { ...this.depth_range, ...this.line_widths(), ...(this.fades ? {} : { depth_cue: 0 }), ...values } } });
   }
 
   /// Footprints of some primitives or balls, in their order. kind: of a program's vertex shader.

@@ -11,11 +11,12 @@ class Viewer {
   constructor(figure) {
     this.figure = figure;
     this.canvas = element("picture");
-    this.camera = this.first = figure.camera;
+    this.view = figure.views[0];
+    this.camera = this.view.camera;
     this.background = figure.background;
     this.effects = { shade: figure.has_shade, lines: figure.has_lines };
-    this.opacity = 1;
-    this.cut = null;  // a plane beside those of the figure
+    this.opacity = this.view.opacity;
+    this.cut = null;  // a plane beside those of the view
     this.hidden = [];  // atoms
     this.draft_scale = 1;
     this.sample = -1;  // the last one cast of the picture at rest
@@ -36,7 +37,7 @@ class Viewer {
     this.caster = new (this.figure.layers ? LayeredCaster : Caster)(this.canvas, this.figure);
     this.caster.hidden = this.hidden;
     this.caster.set_scheme(this.scheme ?? 0);
-    if (this.figure.layers) this.caster.set_layers(this.planes(), this.opacity);
+    this.lay();
   }
 
   set_scheme(scheme) {
@@ -46,10 +47,14 @@ class Viewer {
     this.change();
   }
 
-  planes() { return [...this.figure.layers.planes, ...(this.cut ? [this.cut] : [])]; }
+  lay() {
+    const { planes, hatching, looks_inside } = this.view, cut = this.cut ? [this.cut] : [];
+    this.caster.fades = this.figure.fades_always || !(looks_inside || this.opacity < 1);
+    this.caster.set_layers?.([...planes, ...cut], [...hatching, ...cut.map(() => [0, 0, 0, 0])], this.opacity);
+  }
 
   set_layers() {
-    this.caster.set_layers(this.planes(), this.opacity);
+    this.lay();
     this.change(true);
   }
 
@@ -109,7 +114,11 @@ class Viewer {
     if (moving) this.rest = setTimeout(() => this.change(), 150);
   }
 
-  move(camera) { this.camera = camera; this.change(true); }
+  move(camera, moving = true) {
+    this.gliding = null;
+    this.camera = camera;
+    this.change(moving);
+  }
 
   draw() {
     this.waiting = 0;
@@ -292,7 +301,7 @@ function follow_pointer(viewer) {
   canvas.addEventListener("pointercancel", release);
   canvas.addEventListener("dblclick", (event) => {
     const picked = viewer.pick(event.clientX, event.clientY);
-    if (picked) { viewer.camera = centered(viewer.camera, picked.point); viewer.change(); }
+    if (picked) viewer.move(centered(viewer.camera, picked.point), false);
   });
   canvas.addEventListener("wheel", (event) => {
     event.preventDefault();
@@ -320,32 +329,25 @@ function follow_keys(viewer) {
 }
 
 function set_projection(viewer, orthographic) {
-  viewer.camera = projected(viewer.camera, orthographic, viewer.caster.radius);
-  element("projection").value = orthographic ? "orthographic" : "perspective";
-  viewer.change();
+  viewer.move(projected(viewer.camera, orthographic, viewer.caster.radius), false);
+  element("projection").value = projection_of(viewer.camera);
 }
+
+const projection_of = (camera) => (camera.orthographic ? "orthographic" : "perspective");
 
 function follow_controls(viewer) {
   const hex = viewer.background.map((c) => Math.round(255 * c).toString(16).padStart(2, "0")).join("");
   element("background").value = `#${hex}`;
-  element("projection").value = viewer.camera.orthographic ? "orthographic" : "perspective";
+  element("projection").value = projection_of(viewer.camera);
   for (const name of ["shade", "lines"]) {
     element(name).checked = viewer.effects[name];
     element(name).parentElement.hidden = !viewer.effects[name];
     element(name).addEventListener("change", () => { viewer.effects[name] = element(name).checked; viewer.change(); });
   }
   follow_layers(viewer);
+  follow_views(viewer);
   viewer.figure.schemes.forEach(({ name }, n) => element("scheme").append(new Option(name, n)));
   element("scheme").addEventListener("change", () => viewer.set_scheme(Number(element("scheme").value)));
-  element("reset").addEventListener("click", () => {
-    viewer.camera = viewer.first;
-    element("projection").value = viewer.camera.orthographic ? "orthographic" : "perspective";
-    Object.assign(viewer, { cut: null, opacity: 1 });
-    Object.assign(element("cut"), { value: 0 });
-    Object.assign(element("opacity"), { value: 100 });
-    if (viewer.figure.layers) viewer.set_layers();
-    viewer.change();
-  });
   element("projection").addEventListener("change", () => set_projection(viewer, element("projection").value === "orthographic"));
   element("background").addEventListener("input", () => {
     viewer.background = [1, 3, 5].map((n) => parseInt(element("background").value.slice(n, n + 2), 16) / 255);
@@ -362,9 +364,9 @@ function follow_controls(viewer) {
 
 /// What of the surface is shown.
 function follow_layers(viewer) {
-  const { layers, names, some_hidden } = viewer.figure;
+  const { layers, names, views } = viewer.figure;
   // Where the figure hides atoms, their patches are not in it, and nothing tells what is solid.
-  const cuts = layers && layers.planes.length < kMostPlanes && !some_hidden;
+  const cuts = layers?.whole && views.every(({ planes }) => planes.length < kMostPlanes);
   for (const [name, there] of [["cut", cuts], ["opacity", layers]]) element(name).parentElement.hidden = !there;
   element("cut").addEventListener("input", () => viewer.set_cut(Number(element("cut").value) / 100));
   element("opacity").addEventListener("input", () => { viewer.opacity = Number(element("opacity").value) / 100; viewer.set_layers(); });

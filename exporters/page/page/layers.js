@@ -7,17 +7,15 @@ const kOnPlane = 0xfffffffe;
 class LayeredCaster extends Caster {
   constructor(canvas, figure) {
     super(canvas, figure);
-    this.layers = { ...figure.layers };
+    this.layers = { ...figure.layers, planes: [], hatching: [] };
     this.queries = [];
     this.tables.balls = this.table("balls");
     this.surface_atoms = Uint32Array.from({ length: this.layers.surface_atoms }, (_, n) => n);
   }
 
-  /// planes: [x, y, z, w] each, kept is where dot(xyz, x) < w; opacity: times that of the atoms.
-  set_layers(planes, opacity) {
-    const { layers } = this.figure, more = planes.length - layers.planes.length;
-    const hatching = [...layers.hatching, ...Array(Math.max(more, 0)).fill([0, 0, 0, 0])];
-    Object.assign(this.layers, { planes, hatching, opacity, seen_through: layers.seen_through || opacity < 1 ? 1 : 0 });
+  /// planes: [x, y, z, w] each, kept is where dot(xyz, x) < w; hatching: of each; opacity: times that of the atoms.
+  set_layers(planes, hatching, opacity) {
+    Object.assign(this.layers, { planes, hatching, opacity, seen_through: this.figure.layers.seen_through || opacity < 1 ? 1 : 0 });
   }
 
   /// Whether the surface is cut or seen through; else it is cast at once.
@@ -95,10 +93,10 @@ class LayeredCaster extends Caster {
       if (effects.shade) this.shade(opaque_normal, pixels.opaque_first_normal, sample);
       this.finish(targets[to], { ...on_behind, sum: pixels[from] }, effects, { sample_index: sample });
     } else {
-      if (effects.shade) this.shade(seen_normal, pixels.first_normal, sample);
+      if (effects.shade) this.shade(seen_normal, pixels.first_normal, sample, 1);
       this.finish(targets.front, { normal: seen_normal, what: seen_what, color: pixels.seen_color, sum: pixels[from] }, effects,
         { sample_index: 0, specular: 0 }, ["LAYERS"]);
-      if (effects.shade) this.shade(opaque_normal, pixels.opaque_first_normal, sample);
+      if (effects.shade) this.shade(opaque_normal, pixels.opaque_first_normal, sample, 1);
       this.finish(targets.behind, { ...on_behind, sum: pixels[from] }, effects, { sample_index: 0 });
       this.draw_whole(targets[to], this.program("whole.vert", "layer_sum.frag"), { over_texels: pixels[this.over], first_texels: pixels.seen_color,
         front_texels: pixels.front, ink_texels: pixels.ink, behind_texels: pixels.behind, sum_texels: pixels[from] }, {},

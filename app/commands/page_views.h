@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Views that readers of a page choose by their names, as --named-view asks for them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/options/scene_options.h"
+#include "core/camera/camera.h"
+#include "core/scene/figure.h"
+#include "exporters/page/page_file.h"
+
+namespace meniscus {
+
+/// NAME=FILE each: a camera as --camera takes it, or a scene or a picture that carries one, of which the camera, the
+/// cuts and one opacity of all atoms are taken.
+class NamedViews {
+ public:
+  /// Reads the files, which no output replaces. trusts_scenes: they may name any files. Throws UsageError, and what
+  /// reading them throws.
+  NamedViews(const std::vector<std::string>& texts, const SceneCommand& page, bool trusts_scenes);
+
+  /// Aimed at the molecule of the page; figure: with its objects. Throws as ViewAim and cut_atoms() do, the view named.
+  std::vector<page::PageView> aimed(const Scene& page, const Figure& figure) const;
+
+ private:
+  struct View {
+    std::string name;
+    Scene scene;  ///< with the page's size
+    std::optional<Camera> camera;
+  };
+  std::vector<View> views_;
+};
+
+}  // namespace meniscus
