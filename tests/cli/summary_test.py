@@ -93,7 +93,8 @@ class SummaryTest(unittest.TestCase):
         with open(self.folder / "atoms.csv.part", "a", encoding="ascii") as file:
             file.write("m199.xyzr,0,1,,,")
         self.assertIn("--resume", self.run_program(*words, code=2).stderr)
-        self.assertIn("other options", self.run_program(*words, "--resume", "--probe", "1.5", code=2).stderr)
+        for more in (["--probe", "1.5"], ["--csv-residues", "late.csv"]):
+            self.assertIn("other options", self.run_program(*words, "--resume", *more, code=2).stderr)
         self.assertIn(" of 200 files are there", self.run_program(*words[:-3], "--resume").stderr)
         for made, whole in (("all.csv", "whole.csv"), ("atoms.csv", "whole_atoms.csv")):
             self.assertEqual(sorted((self.folder / made).read_text().splitlines()), sorted((self.folder / whole).read_text().splitlines()))
