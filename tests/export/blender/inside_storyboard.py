@@ -205,9 +205,9 @@ class Storyboard(unittest.TestCase):
         cases = [("text", "no JSON"), ([1], "not a storyboard"), ({**good, "format": "meniscus surface sequence"}, "not a storyboard"),
                  ({**good, "version": 2}, "newer"), ({**good, "version": "1"}, "does not exist"), ({**good, "fps": 0}, "fps"),
                  ({**good, "scale": "0.1"}, "scale"), ({**good, "origin": [0, 0]}, "origin"), ({**good, "ease": "bounce"}, "ease"),
-                 ({**good, "scenes": good["scenes"][:1]}, "no two scenes"), ({**good, "scenes": [1, 2]}, "scene 1"),
+                 ({**good, "scenes": good["scenes"][:1]}, "fewer than two scenes"), ({**good, "scenes": [1, 2]}, "scene 1"),
                  (scene(first=1), "scene 2 begins"), (scene(last=0), "cannot last"), (scene(first=True), "cannot last"),
-                 (scene(file="../scene_1.mns"), "no plain text"), (scene(file="absent.mns"), "absent.mns"), (scene(name=3), "no plain text"),
+                 (scene(file="../scene_1.mns"), "not a plain text"), (scene(file="absent.mns"), "absent.mns"), (scene(name=3), "not a plain text"),
                  (scene(background=[0, 0, 2]), "background"), (scene(camera={"projection": "fisheye"}), "scene 2"),
                  (scene(camera=None), "camera"), (scene(camera={**good["scenes"][1]["camera"], "vertical_fov": 0}), "vertical_fov")]
         stores = (bpy.data.objects, bpy.data.meshes, bpy.data.materials, bpy.data.collections, bpy.data.cameras, bpy.data.actions,

@@ -72,7 +72,7 @@ def set_up_time(scene, board):
 
 
 def set_up_background(scene, board, name):
-    """Keys of the colour that the camera sees behind everything, if a scene of the storyboard has one: where others have none it is
+    """Keys of the colour that the camera sees where there is no object, if a scene of the storyboard has one: where others have none it is
     white. What lights the objects stays as it was."""
     colors = [each.background for each in board.scenes]
     scene.render.film_transparent = not any(colors)
