@@ -49,10 +49,9 @@ constexpr auto kTable = of_commands(
             .in_short_help()
             .of(kForFigures)
             .excludes("camera.from|camera.view|camera.zoom_to"),
-        text(
-            "camera.named_views", "--named-view", "NAME=FILE",
-            "View that readers choose by this name: a camera, or a scene or picture with its camera, cuts and opacity. "
-            "Repeatable; FILE is as for --camera")
+        text("camera.named_views", "--named-view", "NAME=FILE",
+             "View that readers of the page choose by its name. FILE: a camera as for --camera, or a scene or picture, "
+             "with its cuts and opacity. Repeatable")
             .in(kCamera, repeatable)
             .of(for_page),
         file("camera.path", "--camera-path", "FILE", "JSON file of key frames (frame, camera) of a moving camera")

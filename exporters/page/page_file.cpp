@@ -449,7 +449,7 @@ std::string page_text(const PageFigure& figure) {
   const std::string packed = data.deflated(description_of(figure, tables));
   const auto file = [](std::string_view path) { return template_text(page_templates(), path); };
   std::string script = "// SPDX-License-Identifier: BSD-3-Clause\n\"use strict\";\n";
-  for (const char* const part : {"data.js", "camera.js", "caster.js", "layers.js", "views.js", "controls.js"})
+  for (const char* const part : {"data.js", "camera.js", "caster.js", "layers.js", "views.js", "png.js", "controls.js"})
     script += without_comments(file(part));
   const std::string style = "\n" + std::string(file("page.css"));
   const std::string_view picture(reinterpret_cast<const char*>(figure.still.data()), figure.still.size());

@@ -267,10 +267,12 @@ class Caster {
 
   is_cut_away() { return false; }
 
-  /// Begins a picture of so many pixels.
-  begin(camera, width, height) {
-    this.resize(width, height);
-    this.frame = frame_of(camera, width, height);
+  /// Begins a picture of so many pixels. part: {size, left, top} of it, or all of it in pixels `edge` times as large.
+  begin(camera, width, height, { size = [width, height], left = 0, top = 0, edge = 1 } = {}) {
+    this.resize(...size);
+    this.whole = [width, height];
+    const frame = frame_of(camera, width, height), middle = edge === 1 ? [width, height] : size;
+    this.frame = { ...frame, size, pixel_size: edge * frame.pixel_size, first_offset: [0.5 - middle[0] / 2 + left, 0.5 - middle[1] / 2 + top] };
     this.depths();
     this.sort();
   }
@@ -282,7 +284,7 @@ class Caster {
     this.find(this.groups);
     this.color_points(first ? targets.first : targets.points, { found_texels: pixels.found });
     const normal = first ? pixels.first_normal : pixels.normal, what = first ? pixels.first_what : pixels.what;
-    if (effects.shade) this.shade(normal, pixels.first_normal, sample);
+    if (effects.shade) this.shade(normal, "first_normal", sample);
     const { to, from } = this.sums(sample);
     this.finish(targets[to], { normal, what, color: pixels.color, sum: pixels[from] }, effects, { sample_index: sample });
     this.summed = { texture: pixels[to], samples: sample + 1 };
@@ -319,13 +321,14 @@ class Caster {
       { Parameters: { words: this.figure.cast, values: { color_by_kind: this.by_kind, ...values } } });
   }
 
-  /// map: the depths of the first sample; shared: by how many samples.
-  shade(normal, map, sample, shared = this.figure.samples_of_shade) {
+  /// name: of the depths of the first sample, which are the map of shade where the picture has no other; shared: by how
+  /// many samples.
+  shade(normal, name, sample, shared = this.figure.samples_of_shade) {
     if (sample % shared) return;
-    const [width, height] = this.size;
-    this.draw_whole(this.targets.shade, this.program("whole.vert", "occlusion.frag"), { normal_texels: normal, map_texels: map }, {},
-      { Parameters: { words: this.figure.occlusion, values: { map_middle: [width / 2 - 0.5, height / 2 - 0.5], map_size: this.size,
-        texel_edge: 1, near_reach: 0, longest_reach: Math.hypot(width, height), sample_index: sample / shared } } });
+    const { size, edge } = this.map ?? { size: this.size, edge: 1 };
+    this.draw_whole(this.targets.shade, this.program("whole.vert", "occlusion.frag"), { normal_texels: normal, map_texels: (this.map?.kept ?? this.pixels)[name] }, {},
+      { Parameters: { words: this.figure.occlusion, values: { map_middle: [size[0] / 2 - 0.5, size[1] / 2 - 0.5], map_size: size,
+        texel_edge: edge, near_reach: edge > 1 ? Math.floor(8 * edge) : 0, longest_reach: Math.hypot(...this.whole), sample_index: sample / shared } } });
   }
 
   /// The look of some points, which is added to the sum if this is not the first sample.
@@ -369,7 +372,7 @@ class Caster {
 
   /// Lines grow with the picture, as those of presets do.
   line_widths() {
-    const { figure, size } = this, shorter = Math.min(...size), growth = shorter / Math.min(...figure.size);
+    const { figure, whole } = this, shorter = Math.min(...whole), growth = shorter / Math.min(...figure.size);
     const view = new Float32Array(Uint32Array.from(figure.finish).buffer), widths = {};
     for (const [name, word] of Object.entries(kLineWords)) widths[name] = Math.min(16, view[word] * growth);
     const step = figure.line_step * shorter;
@@ -377,16 +380,15 @@ class Caster {
   }
 
   /// background: linear. The canvas may have other pixels than the picture, as a draft has fewer.
-  present(background) {
+  present(background, target = null, size = [this.canvas.width, this.canvas.height]) {
     const gl = this.gl;
-    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, target);
     gl.bindVertexArray(null);
     gl.disable(gl.DEPTH_TEST);
-    gl.viewport(0, 0, this.canvas.width, this.canvas.height);
+    gl.viewport(0, 0, ...size);
     const present = this.program("whole.vert", "present.frag");
     this.use(present, { sum_texels: this.summed.texture });
-    this.set_block(present, "Parameters", [], { background, per_sample: 1 / this.summed.samples,
-      size: [this.canvas.width, this.canvas.height] });
+    this.set_block(present, "Parameters", [], { background, per_sample: 1 / this.summed.samples, size });
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 

@@ -109,7 +109,7 @@ class Viewer {
     this.moving = moving;
     this.sample = -1;
     this.canvas.dataset.rest = "false";
-    if (!this.waiting && this.caster) this.waiting = requestAnimationFrame(() => this.draw());
+    if (!this.waiting && this.caster && !this.saving) this.waiting = requestAnimationFrame(() => this.draw());
     clearTimeout(this.rest);
     if (moving) this.rest = setTimeout(() => this.change(), 150);
   }
@@ -122,7 +122,7 @@ class Viewer {
 
   draw() {
     this.waiting = 0;
-    if (!this.caster) return;
+    if (!this.caster || this.saving) return;
     const [width, height] = this.pixels();
     if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
     try {
@@ -138,7 +138,7 @@ class Viewer {
   /// Where points are seen, CSS pixels from the top left; nothing for those behind the camera.
   places(points) {
     const { right, up, forward, eye_distance, pixel_size, orthographic, pivot } = this.caster.frame;
-    const scale = this.canvas.clientHeight / this.caster.size[1], { clientWidth, clientHeight } = this.canvas;
+    const scale = this.canvas.clientHeight / this.caster.whole[1], { clientWidth, clientHeight } = this.canvas;
     return points.map((point) => {
       const from = minus(point, pivot), depth = eye_distance + dot(from, forward);
       if (!orthographic && depth <= 0) return null;
@@ -179,7 +179,7 @@ class Viewer {
   }
 
   pick(x, y) {
-    if (!this.caster) return null;
+    if (!this.caster || this.saving) return null;
     if (this.sample < 0) { this.moving = false; const [width, height] = this.pixels(); this.draw_sample(width, height); }
     const box = this.canvas.getBoundingClientRect();
     return this.caster.pick(Math.floor((x - box.left) * this.canvas.width / box.width),
@@ -220,11 +220,9 @@ class Viewer {
     return `${this.atom_name(picked.atom)} – concave patch of ${contacts.join(", ")}`;
   }
 
-  /// The picture with its labels.
-  with_labels() {
-    const { width, height } = this.canvas, page = Object.assign(document.createElement("canvas"), { width, height });
-    const context = page.getContext("2d"), style = getComputedStyle(element("labels")), scale = width / this.canvas.clientWidth;
-    context.drawImage(this.canvas, 0, 0);
+  /// Labels on a picture so many pixels wide.
+  paint_labels(context, width) {
+    const style = getComputedStyle(element("labels")), scale = width / this.canvas.clientWidth;
     context.scale(scale, scale);
     Object.assign(context, { font: `600 ${style.fontSize} ${style.fontFamily}`, textAlign: "center", textBaseline: "middle", lineWidth: 3, lineJoin: "round" });
     this.places(this.figure.labels.map(({ point }) => point)).forEach((place, n) => {
@@ -234,18 +232,6 @@ class Viewer {
       context.strokeText(this.figure.labels[n].text, ...place);
       context.fillText(this.figure.labels[n].text, ...place);
     });
-    return page;
-  }
-
-  /// A PNG of the view as it is at rest.
-  async png() {
-    const [width, height] = this.pixels();
-    this.moving = false;
-    this.sample = -1;
-    do this.draw_sample(width, height); while (this.sample + 1 < this.figure.samples.length);
-    cancelAnimationFrame(this.waiting);
-    this.waiting = 0;
-    return new Promise((done) => this.with_labels().toBlob(done, "image/png"));
   }
 }
 
@@ -315,7 +301,7 @@ function follow_pointer(viewer) {
 function follow_keys(viewer) {
   const step = 1 / 36, steps = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] };
   viewer.canvas.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (viewer.saving || event.ctrlKey || event.metaKey || event.altKey) return;
     const camera = viewer.camera, way = steps[event.key];
     if (way) viewer.move((event.shiftKey ? panned : orbited)(camera, ...way));
     else if (event.key === "+" || event.key === "=") viewer.move(zoomed(camera, 1.1));
@@ -353,13 +339,7 @@ function follow_controls(viewer) {
     viewer.background = [1, 3, 5].map((n) => parseInt(element("background").value.slice(n, n + 2), 16) / 255);
     viewer.change();
   });
-  element("save").addEventListener("click", async () => {
-    const link = document.createElement("a");
-    link.href = URL.createObjectURL(await viewer.png());
-    link.download = `${(viewer.figure.title.match(/[\w-]+/g) ?? ["figure"]).join("_")}.png`;
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
-  });
+  follow_png(viewer);
 }
 
 /// What of the surface is shown.

@@ -90,13 +90,13 @@ class LayeredCaster extends Caster {
     this.walk(seen, opaque, !seen_through ? 1 : effects.draft ? kDraftLayers : this.layers_there(sample), first && !effects.draft);
     const { to, from } = this.sums(sample), on_behind = { normal: opaque_normal, what: pixels.opaque_what, color: pixels.opaque_color };
     if (!seen_through) {
-      if (effects.shade) this.shade(opaque_normal, pixels.opaque_first_normal, sample);
+      if (effects.shade) this.shade(opaque_normal, "opaque_first_normal", sample);
       this.finish(targets[to], { ...on_behind, sum: pixels[from] }, effects, { sample_index: sample });
     } else {
-      if (effects.shade) this.shade(seen_normal, pixels.first_normal, sample, 1);
+      if (effects.shade) this.shade(seen_normal, "first_normal", sample, 1);
       this.finish(targets.front, { normal: seen_normal, what: seen_what, color: pixels.seen_color, sum: pixels[from] }, effects,
         { sample_index: 0, specular: 0 }, ["LAYERS"]);
-      if (effects.shade) this.shade(opaque_normal, pixels.opaque_first_normal, sample, 1);
+      if (effects.shade) this.shade(opaque_normal, "opaque_first_normal", sample, 1);
       this.finish(targets.behind, { ...on_behind, sum: pixels[from] }, effects, { sample_index: 0 });
       this.draw_whole(targets[to], this.program("whole.vert", "layer_sum.frag"), { over_texels: pixels[this.over], first_texels: pixels.seen_color,
         front_texels: pixels.front, ink_texels: pixels.ink, behind_texels: pixels.behind, sum_texels: pixels[from] }, {},
