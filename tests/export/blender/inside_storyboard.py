@@ -205,9 +205,9 @@ class Storyboard(unittest.TestCase):
         cases = [("text", "no JSON"), ([1], "not a storyboard"), ({**good, "format": "meniscus surface sequence"}, "not a storyboard"),
                  ({**good, "version": 2}, "newer"), ({**good, "version": "1"}, "does not exist"), ({**good, "fps": 0}, "fps"),
                  ({**good, "scale": "0.1"}, "scale"), ({**good, "origin": [0, 0]}, "origin"), ({**good, "ease": "bounce"}, "ease"),
-                 ({**good, "scenes": good["scenes"][:1]}, "no two scenes"), ({**good, "scenes": [1, 2]}, "scene 1"),
+                 ({**good, "scenes": good["scenes"][:1]}, "fewer than two scenes"), ({**good, "scenes": [1, 2]}, "scene 1"),
                  (scene(first=1), "scene 2 begins"), (scene(last=0), "cannot last"), (scene(first=True), "cannot last"),
-                 (scene(file="../scene_1.mns"), "no plain text"), (scene(file="absent.mns"), "absent.mns"), (scene(name=3), "no plain text"),
+                 (scene(file="../scene_1.mns"), "not a plain text"), (scene(file="absent.mns"), "absent.mns"), (scene(name=3), "not a plain text"),
                  (scene(background=[0, 0, 2]), "background"), (scene(camera={"projection": "fisheye"}), "scene 2"),
                  (scene(camera=None), "camera"), (scene(camera={**good["scenes"][1]["camera"], "vertical_fov": 0}), "vertical_fov")]
         stores = (bpy.data.objects, bpy.data.meshes, bpy.data.materials, bpy.data.collections, bpy.data.cameras, bpy.data.actions,
@@ -239,7 +239,7 @@ class Storyboard(unittest.TestCase):
         storyboard.import_file(os.path.join(FOLDER, "titled", "story.json"))
         self.assertEqual([marker.name for marker in bpy.context.scene.timeline_markers], [title, "story_side"])
 
-    def test_scenes_of_runs_are_refused(self):
+    def test_what_cannot_be_is_refused(self):
         path = os.path.join(FOLDER, "story_run.json")
         molecule = os.path.join(FOLDER, "1d3z.pdb")
         shutil.copy(os.path.join(os.path.dirname(UBIQUITIN), "1d3z.pdb"), molecule)
@@ -247,6 +247,24 @@ class Storyboard(unittest.TestCase):
         said = run("film", path, scene_file("side"), *FILM, "--to", "blender", "-o", os.path.join(FOLDER, "never"), code=2).stderr
         self.assertIn("this is one of a run of frames", said)
         self.assertFalse(os.path.exists(os.path.join(FOLDER, "never")))
+        two = [scene_file("side"), scene_file("cut")]
+        said = run("film", *two, *FILM, "--to", "blender", "-o", os.path.join(FOLDER, "never.mp4"), code=2).stderr
+        self.assertIn("--to blender writes a folder", said)
+        written(("side", "cut"))
+        self.assertIn("exists already", run("film", *two, *FILM, "--to", "blender", "-o", written(("side", "cut")), code=6).stderr)
+
+    def test_scale_and_centre(self):
+        plain = self.imported(("side", "cut"))
+        names = ("side", "cut")
+        origin = np.array(read_story(written(names))["origin"])
+        places = [np.array(each.matrix_world.translation) for each in (plain.camera, plain.camera.parent)]
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        moved = self.imported(names, scale=1.0, center=True)
+        for each, place in zip((moved.camera, moved.camera.parent), places):
+            np.testing.assert_allclose(each.matrix_world.translation, place * 10.0 - origin, atol=1e-3)
+        corners = np.array(moved.items[0][0].bound_box)
+        middle = 0.5 * (corners.min(axis=0) + corners.max(axis=0)) + np.array(moved.items[0][0].matrix_world.translation)
+        self.assertLess(np.abs(middle).max(), 1.0)
 
     def test_a_picture_between_two_scenes_is_the_blend_of_both(self):
         """By Cycles, in the middle of a transition that takes half of the residues away: it covers what the film's picture does."""

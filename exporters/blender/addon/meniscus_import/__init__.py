@@ -154,7 +154,7 @@ class IMPORT_SCENE_OT_meniscus_storyboard(Looks, bpy.types.Operator, ImportHelpe
         name="Set frame range and rate", description="The scene gets the range and the rate of the film, and a marker for each of its "
         "scenes", default=True)
     set_background: bpy.props.BoolProperty(
-        name="Background", description="The camera sees the colours of the film behind everything; what lights the scene stays",
+        name="Background", description="The camera sees the colours of the film where there is no object; what lights the scene stays",
         default=True)
 
     def execute(self, context):

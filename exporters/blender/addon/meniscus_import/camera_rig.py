@@ -13,7 +13,7 @@ TURN, SIZE = 0.2, 1e-3
 
 
 def add(collection, board, name, scale, origin, made):
-    """The camera, whose parent stands at the target. Both are added to `made` as soon as they are there."""
+    """The camera, whose parent is at the target. Both are added to `made` as soon as they are there."""
     poses = camera_path.complete([camera_path.pose_of(scene.camera) for scene in board.scenes])
     target = bpy.data.objects.new(f"{name}.target", None)
     made.append(target)
@@ -40,13 +40,13 @@ def add(collection, board, name, scale, origin, made):
         key(board, data, "ortho_scale", [(pose.height * scale,) for pose in poses], None, _grown, _tolerance_of_size)
     if len({pose.is_flat for pose in poses}) > 1:
         _step(board, data, "type", [float(pose.is_flat) for pose in poses])
-    if any(pose.behind for pose in poses):
-        _step(board, item, "delta_location", [pose.behind * scale for pose in poses], 2)
+    if any(pose.extra for pose in poses):
+        _step(board, item, "delta_location", [pose.extra * scale for pose in poses], 2)
     return item
 
 
 def reach_all(item, board, points_of_scenes, scale):
-    """Clips nothing that any scene shows. points_of_scenes: (n, 3) Å for each."""
+    """Has the camera see all that any scene shows. points_of_scenes: (n, 3) Å for each."""
     reach = max(float(np.linalg.norm(points - np.array(scene.camera["position"]), axis=1).max())
                 for scene, points in zip(board.scenes, points_of_scenes)) * scale
     item.data.clip_start, item.data.clip_end = max(1e-4 * reach, 1e-6), 4.0 * reach

@@ -36,7 +36,7 @@ def import_file(path, context=None, scale=None, center=False, import_camera=True
     story = _Story(path, board, files, options, _origin(context.scene, board, files, center))
     made = Imported()
     before = {store: set(store) for store in (bpy.data.objects, bpy.data.meshes, bpy.data.cameras, bpy.data.collections,
-                                              bpy.data.materials, bpy.data.worlds, bpy.data.actions)}
+                                              bpy.data.materials, bpy.data.node_groups, bpy.data.actions)}
     try:
         made.collection = bpy.data.collections.new(story.name)
         made.items = story.add_scenes(made.collection)
@@ -72,7 +72,7 @@ def set_up_time(scene, board):
 
 
 def set_up_background(scene, board, name):
-    """Keys of the colour that the camera sees behind everything, if a scene of the storyboard has one: where others have none it is
+    """Keys of the colour that the camera sees where there is no object, if a scene of the storyboard has one: where others have none it is
     white. What lights the objects stays as it was."""
     colors = [each.background for each in board.scenes]
     scene.render.film_transparent = not any(colors)
