@@ -38,6 +38,9 @@ std::string first_cell(const std::string& row) {
   return row.substr(0, row.find(',', begin));
 }
 
+/// Of a summary: of a file that was computed.
+bool is_whole(const std::string& row) { return row.ends_with(",yes,\n"); }
+
 /// A table whose rows are kept as they come, and that a later call can go on with.
 class LastingTable {
  public:
@@ -48,21 +51,16 @@ class LastingTable {
   bool is_wanted() const { return !path_.empty(); }
   bool has_part() const { return is_wanted() && fs::exists(part_); }
 
-  /// Begins with the rows that are there and whose files are `kept`.
+  /// Begins with those of its rows, with their ends, that are `kept`.
   template <typename Kept>
   void begin(const Kept& kept) {
     if (!is_wanted()) return;
-    std::vector<std::string> rows;  // of a summary; of atoms they are many, but they were in memory before, too
+    OutputFile begun(part_, Existing::replace);
+    begun.write(note_.empty() ? header_ : note_ + "\n" + header_);
     std::ifstream old(part_, std::ios::binary);
     for (std::string line; std::getline(old, line) && !old.eof();)
-      if (kept(line)) rows.push_back(std::move(line));
-    old.close();
-    {
-      OutputFile begun(part_, Existing::replace);
-      begun.write(note_.empty() ? header_ : note_ + "\n" + header_);
-      for (const std::string& row : rows) begun.write(row + "\n");
-      begun.commit();
-    }
+      if (line += "\n"; line != header_ && kept(line)) begun.write(line);
+    begun.commit();
     file_.open(part_, std::ios::binary | std::ios::app);
     check();
   }
@@ -115,7 +113,10 @@ class Summary {
   Summary(const SurfaceCommand& command, std::vector<std::string> files)
       : command_(command),
         files_(std::move(files)),
-        summary_(command.summary_csv, "#" + made_of(command.scene), summary_header()),
+        summary_(command.summary_csv,
+                 fmt::format("#{}{}{}", made_of(command.scene), command.atom_csv.empty() ? "" : " atoms",
+                             command.residue_csv.empty() ? "" : " residues"),
+                 summary_header()),
         atoms_(command.atom_csv, "", "file," + atom_csv_header(columns_of({}))),
         residues_(command.residue_csv, "", "file," + residue_csv_header(columns_of({}))) {
     command_.scene.molecule.surface.cpu = true;  // a context for each file would cost more than most of them
@@ -166,7 +167,7 @@ class Summary {
             "out and add --force to begin again",
             escaped(summary_.part())));
       while (std::getline(old, line) && !old.eof())
-        if (line.ends_with(",yes,")) done.insert(first_cell(line));
+        if (is_whole(line + "\n")) done.insert(first_cell(line));
     } else if (summary_.has_part() && !command_.force) {
       throw UsageError(
           fmt::format("{} is there, of a call that did not come to its end; add --resume to go on with it, or --force "
@@ -176,7 +177,7 @@ class Summary {
     const auto is_done = [&](const std::string& row) { return done.contains(first_cell(row)); };
     atoms_.begin(is_done);
     residues_.begin(is_done);
-    summary_.begin([&](const std::string& row) { return row.ends_with(",yes,") && is_done(row); });
+    summary_.begin(is_whole);
     if (!command_.resumes) return;
     const std::size_t all = files_.size();
     std::erase_if(files_, [&](const std::string& file) { return done.contains(csv_cell(file)); });

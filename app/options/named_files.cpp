@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tells inputs from outputs by the names of options.
+// Tells inputs from outputs by the table of properties.
 #include "app/options/named_files.h"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,15 +13,18 @@
 #include "app/process/program_error.h"
 #include "core/base/output_file.h"
 #include "core/base/text.h"
+#include "core/properties/properties.h"
 
 namespace meniscus {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 14> kOutputs{
-    "--output",       "--save-scene",  "--save-camera", "--legend-file", "--csv",  "--csv-series", "--csv-cavities",
-    "--csv-residues", "--csv-patches", "--plot",        "--gradients",   "--mesh", "--figure",     "--record"};
+bool names_output(const std::string& option) {
+  return std::ranges::any_of(properties(), [&](const Property* property) {
+    return property->type == ValueType::new_file && property->long_option() == option;
+  });
+}
 
 /// Of a bundle the files that it was made of, too.
 void protect(const fs::path& path) {
@@ -47,7 +48,7 @@ bool are_one_file(const std::string& a, const std::string& b) {
 NamedFiles::NamedFiles(const CLI::App& command) {
   for (const CLI::Option* const option : command.get_options()) {
     if (option->empty() || !takes_path(*option)) continue;
-    const bool writes = std::ranges::find(kOutputs, option->get_name()) != kOutputs.end();
+    const bool writes = names_output(option->get_name());
     for (const std::string& path : option->results()) writes ? write(option->get_name(), path) : read(path);
   }
 }

@@ -93,12 +93,15 @@ class SummaryTest(unittest.TestCase):
         with open(self.folder / "atoms.csv.part", "a", encoding="ascii") as file:
             file.write("m199.xyzr,0,1,,,")
         self.assertIn("--resume", self.run_program(*words, code=2).stderr)
-        self.assertIn("other options", self.run_program(*words, "--resume", "--probe", "1.5", code=2).stderr)
+        for more in (["--probe", "1.5"], ["--csv-residues", "late.csv"]):
+            self.assertIn("other options", self.run_program(*words, "--resume", *more, code=2).stderr)
         self.assertIn(" of 200 files are there", self.run_program(*words[:-3], "--resume").stderr)
         for made, whole in (("all.csv", "whole.csv"), ("atoms.csv", "whole_atoms.csv")):
             self.assertEqual(sorted((self.folder / made).read_text().splitlines()), sorted((self.folder / whole).read_text().splitlines()))
         self.assertEqual(sorted(name for name in os.listdir(self.folder) if name.endswith(".part")), [])
         self.assertIn("all.csv", self.run_program(*words, code=6).stderr)  # it is there
+        self.run_program(*words[:3], *words[200:], "--force")
+        self.assertEqual([row["file"] for row in self.rows("all.csv")], names[:3])
 
     def test_what_is_for_one_molecule_is_refused(self):
         for words in (["--json"], ["--frames", "all"], ["--frames", "all", "--csv-series", "s.csv"], ["--gradients", "g.csv"], ["--context", "resid 1"]):

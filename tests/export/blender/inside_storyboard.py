@@ -18,7 +18,7 @@ from mathutils import Vector
 FOLDER, _, HERE, _, PROGRAM = sys.argv[sys.argv.index("--") + 1:][:5]
 sys.path.insert(0, HERE)
 
-from meniscus_import import compat, storyboard  # noqa: E402
+from meniscus_import import compat, fading, mesh_arrays, mns_reader, storyboard  # noqa: E402
 
 UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
 SIZE = (240, 180)
@@ -31,7 +31,8 @@ SCENES = {
     "cut": ["--color", "#3060c0", "--background", "#406080", "--view", "y", "--clip", "depth>0.5"],
     "flat": ["--color", "#3060c0", "--background", "#406080", "--view", "y", "--clip", "depth>0.5", "--projection", "orthographic"],
 }
-FILM = ["--fps", "10", "--hold", "0.4", "--transition", "0.7", "--device", "cpu", "-q"]
+SCENES["all"], SCENES["half"] = (["--color", "#3060c0", "--view", "x", "--silhouettes", "0", *more] for more in ((), ("--show", "resi 1-15")))
+FILM = ["--fps", "10", "--hold", "0.4", "--device", "cpu", "-q"]
 HELD, BETWEEN = 4, 7
 #: What a camera may be off, in pixels of a picture of 1,080 rows.
 LIMIT = 1.5
@@ -57,7 +58,8 @@ def written(names, *options, to="blender"):
     """The folder with the film of these scenes."""
     folder = os.path.join(FOLDER, "_".join((to, *names, *(option.strip("-") for option in options))))
     if not os.path.exists(folder):
-        run("film", *(scene_file(name) for name in names), *FILM, *options, "--to", to, "-o", folder)
+        time = [] if "--transition" in options else ["--transition", "0.7"]
+        run("film", *(scene_file(name) for name in names), *FILM, *time, *options, "--to", to, "-o", folder)
     return folder
 
 
@@ -96,6 +98,14 @@ class FilmCameras:
 def read_story(folder):
     with open(os.path.join(folder, "story.json"), encoding="ascii") as file:
         return json.load(file)
+
+
+def pixels(path):
+    """(rows from the bottom, columns, 4), as Blender reads a picture."""
+    image = bpy.data.images.load(path)
+    values = np.array(image.pixels[:]).reshape(image.size[1], image.size[0], 4)
+    bpy.data.images.remove(image)
+    return values
 
 
 def points_of(item, scale=0.1):
@@ -146,6 +156,141 @@ class Storyboard(unittest.TestCase):
         self.assertEqual(set(counts.values()), {4}, counts)
         held = [curve for curve in compat.action_curves(made.camera.parent) if curve.data_path == "location"]
         self.assertEqual([point.co[0] for point in held[0].keyframe_points], [HELD, HELD + BETWEEN + 1, 2 * HELD + BETWEEN, 2 * (HELD + BETWEEN) + 1])
+
+    def test_objects_fade_at_the_pace_of_the_film(self):
+        """What only one of two scenes shows; at the start, in the middle and at the end; what both show stays."""
+        names = ("side", "one", "cut")
+        for options, share in ((), lambda time: time * time * (3 - 2 * time)), (("--ease", "even"), lambda time: time):
+            bpy.ops.wm.read_factory_settings(use_empty=True)
+            made = self.imported(names, *options)
+            (whole,), (cut,) = made.items[0], made.items[2]
+            for frame in range(1, bpy.context.scene.frame_end + 1):
+                bpy.context.scene.frame_set(frame)
+                part = share(max(0.0, min(1.0, (frame - 2 * HELD - BETWEEN) / (BETWEEN + 1))))
+                self.assertAlmostEqual(whole.color[3], 1.0 + part, delta=1e-4)
+                self.assertAlmostEqual(cut.color[3], part, delta=1e-4)
+            self.assertEqual({counted for (_, path, _), counted in self.counts(whole, cut).items() if path == "color"}, {3})
+            for item in whole, cut:
+                self.assertTrue(any(node.type == "GROUP" and node.node_tree.name == fading.NAME for node in item.data.materials[0].node_tree.nodes))
+
+    def test_the_background_is_that_of_the_film(self):
+        """In linear light; a cut changes it at once, and without one pictures have none."""
+        def color():
+            node = bpy.context.scene.world.node_tree.nodes["Seen"]
+            return np.array(node.inputs["Color"].default_value[:3])
+        self.imported(("side", "blue"))
+        scene = bpy.context.scene
+        ends = [mesh_arrays.linear(color) for color in ((1.0, 1.0, 1.0), (0x40 / 255, 0x60 / 255, 0x80 / 255))]
+        for frame in range(1, scene.frame_end + 1):
+            scene.frame_set(frame)
+            time = max(0.0, min(1.0, (frame - HELD) / (BETWEEN + 1)))
+            np.testing.assert_allclose(color(), ends[0] + (ends[1] - ends[0]) * time * time * (3 - 2 * time), atol=1e-4)
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        made = self.imported(("side", "cut"), "--transition", "0")
+        for frame, end in ((HELD, 0), (HELD + 0.9, 0), (HELD + 1, 1)):
+            bpy.context.scene.frame_set(int(frame), subframe=frame % 1)
+            np.testing.assert_allclose(color(), ends[end], atol=1e-6)
+            self.assertEqual([items[0].hide_render for items in made.items], [end == 1, end == 0])
+            np.testing.assert_allclose(made.camera.matrix_world.translation, np.array(read_story(written(("side", "cut"), "--transition", "0"))[
+                "scenes"][end]["camera"]["position"]) * 0.1, atol=1e-4)
+
+    def test_a_damaged_storyboard_is_one_sentence_and_leaves_nothing(self):
+        good = read_story(written(("side", "cut")))
+        folder = os.path.join(FOLDER, "damaged")
+        shutil.copytree(written(("side", "cut")), folder)
+        path = os.path.join(folder, "story.json")
+
+        def scene(**changes):
+            return {**good, "scenes": [good["scenes"][0], {**good["scenes"][1], **changes}]}
+        cases = [("text", "no JSON"), ([1], "not a storyboard"), ({**good, "format": "meniscus surface sequence"}, "not a storyboard"),
+                 ({**good, "version": 2}, "newer"), ({**good, "version": "1"}, "does not exist"), ({**good, "fps": 0}, "fps"),
+                 ({**good, "scale": "0.1"}, "scale"), ({**good, "origin": [0, 0]}, "origin"), ({**good, "ease": "bounce"}, "ease"),
+                 ({**good, "scenes": good["scenes"][:1]}, "fewer than two scenes"), ({**good, "scenes": [1, 2]}, "scene 1"),
+                 (scene(first=1), "scene 2 begins"), (scene(last=0), "cannot last"), (scene(first=True), "cannot last"),
+                 (scene(file="../scene_1.mns"), "not a plain text"), (scene(file="absent.mns"), "absent.mns"), (scene(name=3), "not a plain text"),
+                 (scene(background=[0, 0, 2]), "background"), (scene(camera={"projection": "fisheye"}), "scene 2"),
+                 (scene(camera=None), "camera"), (scene(camera={**good["scenes"][1]["camera"], "vertical_fov": 0}), "vertical_fov")]
+        stores = (bpy.data.objects, bpy.data.meshes, bpy.data.materials, bpy.data.collections, bpy.data.cameras, bpy.data.actions,
+                  bpy.data.worlds, bpy.data.node_groups)
+        before = [len(store) for store in stores]
+        for content, said in cases:
+            with open(path, "w", encoding="ascii") as file:
+                file.write(content if isinstance(content, str) else json.dumps(content))
+            with self.assertRaisesRegex((mns_reader.MnsError, OSError), said):
+                storyboard.import_file(path)
+        with open(path, "w", encoding="ascii") as file:
+            json.dump(good, file)
+        with open(os.path.join(folder, good["scenes"][1]["file"]), "r+b") as file:
+            file.seek(-1000, os.SEEK_END)
+            file.write(b"?")
+        with self.assertRaisesRegex(RuntimeError, "checksum"):
+            bpy.ops.import_scene.meniscus_storyboard(filepath=path)
+        self.assertEqual([len(store) for store in stores], before)
+
+    def test_text_of_files_stays_text(self):
+        """A title is the name of a marker, whatever it holds."""
+        title = "'); import os; os.abort() #"
+        path = os.path.join(FOLDER, "story_titled.json")
+        scene_file("side")
+        run("render", os.path.join(FOLDER, os.path.basename(UBIQUITIN)), "-o", os.path.join(FOLDER, "titled.png"), "--save-scene", path,
+            *LOOK, "--title", title)
+        said = run("film", path, scene_file("side"), *FILM[:-1], "--to", "blender", "-o", os.path.join(FOLDER, "titled")).stderr
+        self.assertIn("note: titles, labels, legends", said)
+        storyboard.import_file(os.path.join(FOLDER, "titled", "story.json"))
+        self.assertEqual([marker.name for marker in bpy.context.scene.timeline_markers], [title, "story_side"])
+
+    def test_what_cannot_be_is_refused(self):
+        path = os.path.join(FOLDER, "story_run.json")
+        molecule = os.path.join(FOLDER, "1d3z.pdb")
+        shutil.copy(os.path.join(os.path.dirname(UBIQUITIN), "1d3z.pdb"), molecule)
+        run("render", molecule, "-o", os.path.join(FOLDER, "run_#.png"), "--frames", "1-2", "--save-scene", path, *LOOK)
+        said = run("film", path, scene_file("side"), *FILM, "--to", "blender", "-o", os.path.join(FOLDER, "never"), code=2).stderr
+        self.assertIn("this is one of a run of frames", said)
+        self.assertFalse(os.path.exists(os.path.join(FOLDER, "never")))
+        two = [scene_file("side"), scene_file("cut")]
+        said = run("film", *two, *FILM, "--to", "blender", "-o", os.path.join(FOLDER, "never.mp4"), code=2).stderr
+        self.assertIn("--to blender writes a folder", said)
+        written(("side", "cut"))
+        self.assertIn("exists already", run("film", *two, *FILM, "--to", "blender", "-o", written(("side", "cut")), code=6).stderr)
+
+    def test_scale_and_centre(self):
+        plain = self.imported(("side", "cut"))
+        names = ("side", "cut")
+        origin = np.array(read_story(written(names))["origin"])
+        places = [np.array(each.matrix_world.translation) for each in (plain.camera, plain.camera.parent)]
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        moved = self.imported(names, scale=1.0, center=True)
+        for each, place in zip((moved.camera, moved.camera.parent), places):
+            np.testing.assert_allclose(each.matrix_world.translation, place * 10.0 - origin, atol=1e-3)
+        corners = np.array(moved.items[0][0].bound_box)
+        middle = 0.5 * (corners.min(axis=0) + corners.max(axis=0)) + np.array(moved.items[0][0].matrix_world.translation)
+        self.assertLess(np.abs(middle).max(), 1.0)
+
+    def test_a_picture_between_two_scenes_is_the_blend_of_both(self):
+        """By Cycles, in the middle of a transition that takes half of the residues away: it covers what the film's picture does."""
+        names = ("all", "half")
+        made = self.imported(names)
+        frame = HELD + (BETWEEN + 1) // 2
+        run("film", *(scene_file(name) for name in names), *FILM, "--transition", "0.7", "--samples", "16", "-o", os.path.join(FOLDER, "blend_##.png"))
+        film = pixels(os.path.join(FOLDER, f"blend_{frame - 1:02d}.png"))[:, :, 3]
+        scene = bpy.context.scene
+        scene.frame_set(frame)
+        self.assertEqual([items[0].hide_render for items in made.items], [False, False])
+        self.assertTrue(scene.render.film_transparent)
+        scene.render.engine, scene.cycles.samples, scene.cycles.use_denoising = "CYCLES", 64, False
+        scene.render.filepath = os.path.join(FOLDER, "blend.png")
+        compat.set_format(scene.render.image_settings, "PNG")
+        scene.render.image_settings.color_mode = "RGBA"
+        bpy.ops.render.render(write_still=True)
+        ours = pixels(scene.render.filepath)[:, :, 3]
+        off, aside = (float(np.abs(other - ours).mean() / film.mean()) for other in (film, np.roll(film, 2, axis=1)))
+        halves = float(((film > 0.4) & (film < 0.6)).mean())
+        print(f"coverage in the middle: {film.mean():.4f} in the film, {ours.mean():.4f} by Cycles; off by {100 * off:.2f} % a pixel, "
+              f"two pixels aside {100 * aside:.2f} %; half covered {100 * halves:.1f} %")
+        self.assertGreater(halves, 0.02)
+        self.assertLess(abs(ours.mean() / film.mean() - 1.0), 0.01)
+        self.assertLess(off, 0.04)
+        self.assertGreater(aside, 2.0 * off)
 
     def test_every_scene_is_a_collection_and_shares_what_is_the_same(self):
         made = self.imported(("one", "side", "cut", "one"))

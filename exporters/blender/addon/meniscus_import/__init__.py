@@ -153,10 +153,13 @@ class IMPORT_SCENE_OT_meniscus_storyboard(Looks, bpy.types.Operator, ImportHelpe
     set_time: bpy.props.BoolProperty(
         name="Set frame range and rate", description="The scene gets the range and the rate of the film, and a marker for each of its "
         "scenes", default=True)
+    set_background: bpy.props.BoolProperty(
+        name="Background", description="The camera sees the colours of the film where there is no object; what lights the scene stays",
+        default=True)
 
     def execute(self, context):
         options = {name: getattr(self, name) for name in ("crisp_colors", "own_materials", "center", "import_camera",
-                                                          "use_camera", "set_time")}
+                                                          "use_camera", "set_time", "set_background")}
         try:
             storyboard.import_file(self.filepath, context, scale=self.scale or None, **options)
         except (mns_reader.MnsError, OSError) as error:

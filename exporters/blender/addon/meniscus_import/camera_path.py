@@ -39,10 +39,10 @@ def quaternion(matrix):
 def complete(poses):
     """Gives poses, in their order, what their projections lack, as the film has it: on the way to another projection the first one
     stays, and ends with what the second shows in the plane of its target. So an orthographic pose gets the angle of the one before
-    and the distance from which that shows as much. `behind`: how much farther away its camera is in truth."""
+    and the distance from which that shows as much. `extra`: how much farther away its camera is in truth."""
     lens = next((pose.tangent for pose in poses if not pose.is_flat), math.tan(math.radians(15.0)))
     for number, pose in enumerate(poses):
-        pose.behind = 0.0
+        pose.extra = 0.0
         if not pose.is_flat:
             pose.height = 2.0 * pose.distance * pose.tangent
             lens = pose.tangent
@@ -50,7 +50,7 @@ def complete(poses):
         pose.tangent = lens
         if number and not poses[number - 1].is_flat:
             own, pose.distance = pose.distance, pose.height / (2.0 * lens)
-            pose.behind = own - pose.distance
+            pose.extra = own - pose.distance
     for before, pose in zip(poses, poses[1:]):  # the short way round
         if np.dot(before.turn, pose.turn) < 0.0:
             pose.turn = -pose.turn

@@ -13,7 +13,7 @@ TURN, SIZE = 0.2, 1e-3
 
 
 def add(collection, board, name, scale, origin, made):
-    """The camera, whose parent stands at the target. Both are added to `made` as soon as they are there."""
+    """The camera, whose parent is at the target. Both are added to `made` as soon as they are there."""
     poses = camera_path.complete([camera_path.pose_of(scene.camera) for scene in board.scenes])
     target = bpy.data.objects.new(f"{name}.target", None)
     made.append(target)
@@ -29,22 +29,24 @@ def add(collection, board, name, scale, origin, made):
         collection.objects.link(each)
     half = 0.5 * data.sensor_height
     places = [(pose.target - origin) * scale for pose in poses]
-    _key(board, target, "location", places, lambda before, after, share: share, lambda *_: 1e-6)
-    _key(board, target, "rotation_quaternion", [pose.turn for pose in poses], camera_path.turned, _tolerance_of_turn)
-    _key(board, item, "location", [(pose.distance * scale,) for pose in poses], _grown, _tolerance_of_size, indices=(2,))
+    key(board, target, "location", places, target.location)
+    key(board, target, "rotation_quaternion", [pose.turn for pose in poses], target.rotation_quaternion, camera_path.turned,
+        _tolerance_of_turn)
+    key(board, item, "location", [(0.0, 0.0, pose.distance * scale) for pose in poses], item.location, _grown, _tolerance_of_size, (2,))
+    data.lens, data.ortho_scale = half / poses[0].tangent, poses[0].height * scale
+    key(board, data, "lens", [(half / pose.tangent,) for pose in poses], None,
+        lambda before, after, share: camera_path.grown_lens(before[0] / half, after[0] / half, share), _tolerance_of_size)
     if any(pose.is_flat for pose in poses):
-        _key(board, data, "ortho_scale", [(pose.height * scale,) for pose in poses], _grown, _tolerance_of_size, indices=(-1,))
-    _key(board, data, "lens", [(half / pose.tangent,) for pose in poses],
-         lambda before, after, share: camera_path.grown_lens(before[0] / half, after[0] / half, share), _tolerance_of_size, indices=(-1,))
+        key(board, data, "ortho_scale", [(pose.height * scale,) for pose in poses], None, _grown, _tolerance_of_size)
     if len({pose.is_flat for pose in poses}) > 1:
         _step(board, data, "type", [float(pose.is_flat) for pose in poses])
-    if any(pose.behind for pose in poses):
-        _step(board, item, "delta_location", [pose.behind * scale for pose in poses], 2)
+    if any(pose.extra for pose in poses):
+        _step(board, item, "delta_location", [pose.extra * scale for pose in poses], 2)
     return item
 
 
 def reach_all(item, board, points_of_scenes, scale):
-    """Clips nothing that any scene shows. points_of_scenes: (n, 3) Å for each."""
+    """Has the camera see all that any scene shows. points_of_scenes: (n, 3) Å for each."""
     reach = max(float(np.linalg.norm(points - np.array(scene.camera["position"]), axis=1).max())
                 for scene, points in zip(board.scenes, points_of_scenes)) * scale
     item.data.clip_start, item.data.clip_end = max(1e-4 * reach, 1e-6), 4.0 * reach
@@ -68,29 +70,26 @@ def transitions(board):
     return [(before, after, after.first > before.last + 1) for before, after in zip(board.scenes, board.scenes[1:])]
 
 
-def _key(board, owner, path, values, way, tolerance, indices=None):
-    """Keys of some channels of a property. values: of each scene, those of all channels. way(before, after, share): how much of the
-    straight way between the values of two scenes is done."""
-    indices = range(len(values[0])) if indices is None else indices
-    values = [[float(part) for part in value] for value in values]
+def key(board, owner, path, values, now, way=lambda before, after, share: share, tolerance=lambda before, after: 1e-6, channels=None):
+    """Keys of a property of a data block. values: of each scene, those of all channels. now: the property, which gets those of the
+    first; None: it has no channels, and its value. way(before, after, share): how much of the straight way between the values of two
+    scenes is done. tolerance(before, after): keys.follow. channels: those to be keyed, if not all."""
+    channels = tuple(range(len(values[0]))) if channels is None else channels
+    values = [[float(value[channel]) for channel in channels] for value in values]
     ways = [keys.Way(board.scenes[0].last, part) for part in values[0]]
     start = curves.SMOOTH if board.is_smooth else curves.EVEN
     for (before, after, dissolves), one, other in zip(transitions(board), values, values[1:]):
-        for channel, part in zip(ways, one):
-            channel.go_on(before.last, part)
+        for each, part in zip(ways, one):
+            each.go_on(before.last, part)
         if dissolves and one != other:
             keys.follow(ways, (before.last, after.first), (one, other), lambda time: way(one, other, board.share(time)),
                         tolerance(one, other), start)
-        for channel, part in zip(ways, other):
-            channel.go_on(after.first, part, keys.LINEAR if dissolves else keys.CONSTANT)
-    current = getattr(owner, path)
-    if indices == (-1,):
-        setattr(owner, path, values[0][0])
-    else:
-        for index, part in zip(indices, values[0]):
-            current[index] = part
-    for index, channel in zip(indices, ways):
-        channel.insert(owner, path, index)
+        for each, part in zip(ways, other):
+            each.go_on(after.first, part, keys.LINEAR if dissolves else keys.CONSTANT)
+    for channel, each in zip(channels, ways):
+        if now is not None:
+            now[channel] = each.points[0][1]
+        each.insert(owner, path, -1 if now is None else channel)
 
 
 def _step(board, owner, path, values, index=-1):

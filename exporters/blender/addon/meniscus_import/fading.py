@@ -8,6 +8,8 @@ NAME = "Meniscus fade"
 STRIPES = (7.31, 3.17)
 #: Of a picture, in pixels, for which they are so fine; in larger ones they are wider.
 WIDTH, HEIGHT = 4096.0, 4096.0
+#: Å: an object that fades takes no light from what lies so near below it, where two scenes have nearly the same surface.
+NEAR = 0.1
 
 
 def add(material):
@@ -52,9 +54,14 @@ def _group():
     come = compat.math_node(tree, "LESS_THAN", stripe, there)
     stays = compat.math_node(tree, "SUBTRACT", 1.0, compat.math_node(tree, "LESS_THAN", stripe, past))
     seen = compat.math_node(tree, "MULTIPLY", come, stays)
-    direct = tree.nodes.new("ShaderNodeLightPath").outputs["Is Camera Ray"]
-    rest = compat.math_node(tree, "SUBTRACT", 1.0, direct)
-    of_cycles = compat.math_node(tree, "MULTIPLY_ADD", seen, direct, compat.math_node(tree, "MULTIPLY", opacity, rest))
+    path = tree.nodes.new("ShaderNodeLightPath").outputs
+    scale = tree.nodes.new("ShaderNodeAttribute")
+    scale.attribute_type, scale.attribute_name = "OBJECT", "meniscus_scale"
+    far = compat.math_node(tree, "GREATER_THAN", path["Ray Length"], compat.math_node(tree, "MULTIPLY", scale.outputs["Fac"], NEAR))
+    blocks = compat.math_node(tree, "MAXIMUM", far, compat.math_node(tree, "GREATER_THAN", opacity, 0.9999))
+    other = compat.math_node(tree, "MULTIPLY", opacity, blocks)
+    other = compat.math_node(tree, "MULTIPLY", other, compat.math_node(tree, "SUBTRACT", 1.0, path["Is Camera Ray"]))
+    of_cycles = compat.math_node(tree, "MULTIPLY_ADD", seen, path["Is Camera Ray"], other)
     nothing = tree.nodes.new("ShaderNodeBsdfTransparent").outputs[0]
     for share, name in ((opacity, "Shader"), (of_cycles, "Shader of Cycles")):
         mix = tree.nodes.new("ShaderNodeMixShader")

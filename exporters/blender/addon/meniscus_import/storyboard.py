@@ -8,12 +8,12 @@ import os
 import bpy
 import numpy as np
 
-from . import build, camera_rig, compat, curves, frames, keys, mns_reader, storyboard_reader
+from . import build, camera_rig, compat, curves, frames, keys, mesh_arrays, mns_reader, storyboard_reader
 from .mesh_arrays import names_of
 
 #: What of the header of a surface changes how it looks.
 LOOKS = ("copies", "mesh", "kind_colors", "film_opacity", "caps", "material")
-#: Å by which a mesh is larger than one of the same place.
+#: Å by which each mesh is larger than the one before: what they have in common would lie in the same place.
 NUDGE = 0.002
 
 
@@ -25,7 +25,8 @@ class Imported:
         self.items = []
 
 
-def import_file(path, context=None, scale=None, center=False, import_camera=True, use_camera=True, set_time=True, **options):
+def import_file(path, context=None, scale=None, center=False, import_camera=True, use_camera=True, set_time=True, set_background=True,
+                **options):
     """Reads a story.json and its surfaces into a new collection. scale: Blender units per Å, None: as the file says. Others: as of
     build.Options and sequence.Run. After MnsError or OSError it leaves nothing in the scene."""
     context = context or bpy.context
@@ -35,7 +36,7 @@ def import_file(path, context=None, scale=None, center=False, import_camera=True
     story = _Story(path, board, files, options, _origin(context.scene, board, files, center))
     made = Imported()
     before = {store: set(store) for store in (bpy.data.objects, bpy.data.meshes, bpy.data.cameras, bpy.data.collections,
-                                              bpy.data.materials, bpy.data.worlds, bpy.data.actions)}
+                                              bpy.data.materials, bpy.data.node_groups, bpy.data.actions)}
     try:
         made.collection = bpy.data.collections.new(story.name)
         made.items = story.add_scenes(made.collection)
@@ -50,6 +51,8 @@ def import_file(path, context=None, scale=None, center=False, import_camera=True
         raise
     if set_time:
         set_up_time(context.scene, board)
+    if set_background:
+        set_up_background(context.scene, board, story.name)
     if made.camera is not None and use_camera:
         context.scene.camera = made.camera
         build.use_picture_size(context.scene, board.scenes[0].camera)
@@ -66,6 +69,35 @@ def set_up_time(scene, board):
     scene.render.fps, scene.render.fps_base = compat.frame_rate(board.fps)
     for each in board.scenes:
         scene.timeline_markers.new(each.title or each.name, frame=each.first)
+
+
+def set_up_background(scene, board, name):
+    """Keys of the colour that the camera sees where there is no object, if a scene of the storyboard has one: where others have none it is
+    white. What lights the objects stays as it was."""
+    colors = [each.background for each in board.scenes]
+    scene.render.film_transparent = not any(colors)
+    if not any(colors):
+        return
+    old = scene.world
+    world = bpy.data.worlds.new(f"{name}.world")
+    tree = compat.node_tree(world)
+    light = compat.find_or_add(tree, "BACKGROUND", "ShaderNodeBackground")
+    light.inputs["Color"].default_value = (*(old.color if old is not None else (0.0, 0.0, 0.0)), 1.0)
+    if old is not None and old.node_tree is not None:
+        shown = next((node for node in old.node_tree.nodes if node.type == "BACKGROUND"), None)
+        if shown is not None:
+            for socket in ("Color", "Strength"):
+                light.inputs[socket].default_value = shown.inputs[socket].default_value
+    seen = tree.nodes.new("ShaderNodeBackground")
+    seen.name = seen.label = "Seen"
+    mix = tree.nodes.new("ShaderNodeMixShader")
+    tree.links.new(tree.nodes.new("ShaderNodeLightPath").outputs["Is Camera Ray"], mix.inputs[0])
+    tree.links.new(light.outputs[0], mix.inputs[1])
+    tree.links.new(seen.outputs[0], mix.inputs[2])
+    tree.links.new(mix.outputs[0], compat.find_or_add(tree, "OUTPUT_WORLD", "ShaderNodeOutputWorld").inputs["Surface"])
+    linear = [mesh_arrays.linear(color or (1.0, 1.0, 1.0)) for color in colors]
+    camera_rig.key(board, tree, 'nodes["Seen"].inputs[0].default_value', linear, seen.inputs[0].default_value)
+    scene.world = world
 
 
 def _origin(scene, board, files, center):
@@ -91,7 +123,6 @@ class _Story:
         self.name = os.path.basename(os.path.dirname(os.path.abspath(path))) or board.stem
         self.made = {}  # digest of a surface -> its objects, one for each copy
         self.new_materials = []
-        self.places = {}  # hash of where the vertices of a mesh are -> how many meshes are there
 
     def add_scenes(self, parent):
         """A collection in `parent` for each; objects that several show are in each of theirs. The objects, scene by scene."""
@@ -116,22 +147,16 @@ class _Story:
         file = self.files[scene.path]
         name = f"{stem}.{surface.name if len(file.objects) > 1 else 'surface'}"
         mesh = build.build_mesh(surface, name, self.options, self.new_materials, self.board.fps, names_of(*file.objects), fades=True)
-        self.nudge(mesh, surface)
+        nudge(mesh, surface["mesh.normal"], NUDGE * len(self.made) * self.options.scale)
         self.made[key] = [build.add_copy(mesh, copy, surface, scene.path, file, self.options, self.origin) for copy in surface.copies]
         return self.made[key]
 
-    def nudge(self, mesh, surface):
-        """Moves a mesh outwards by next to nothing if an earlier one lies where it does: behind one surface that a ray passes,
-        Cycles does not see another in the same place."""
-        place = np.ascontiguousarray(surface["mesh.position"]).tobytes()
-        others = self.places.setdefault(hash(place), 0)
-        self.places[hash(place)] += 1
-        if others:
-            co = np.empty((len(mesh.vertices), 3), dtype=np.float32)
-            mesh.vertices.foreach_get("co", co.ravel())
-            co += surface["mesh.normal"] * np.float32(others * NUDGE * self.options.scale)
-            mesh.vertices.foreach_set("co", co.ravel())
-            mesh.update()
+def nudge(mesh, normals, distance):
+    """Moves vertices outwards. Behind a surface that a ray passes Cycles does not see another that lies where it does."""
+    co = np.empty(3 * len(mesh.vertices), dtype=np.float32)
+    mesh.vertices.foreach_get("co", co)
+    mesh.vertices.foreach_set("co", co + (normals * np.float32(distance)).ravel())
+    mesh.update()
 
 
 def fade(item, board, shows):

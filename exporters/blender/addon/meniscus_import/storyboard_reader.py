@@ -64,7 +64,7 @@ def read(path):
         raise mns_reader.MnsError(f"{path}: origin, scale, fps or ease is missing or not valid")
     entries = header.get("scenes")
     if not isinstance(entries, list) or len(entries) < 2:
-        raise mns_reader.MnsError(f"{path}: it lists no two scenes")
+        raise mns_reader.MnsError(f"{path}: it lists fewer than two scenes")
     scenes = [_scene(path, entry, number) for number, entry in enumerate(entries, 1)]
     for number, (before, after) in enumerate(zip(scenes, scenes[1:]), 2):
         if after.first <= before.last:
@@ -83,7 +83,7 @@ def _scene(path, entry, number):
         title, background = entry.get("title", ""), entry.get("background")
         plain = isinstance(file, str) and file == os.path.basename(file) and "\\" not in file and file not in ("", ".", "..")
         if not plain or not isinstance(name, str) or not isinstance(title, str):
-            raise ValueError("name, title or file is no plain text")
+            raise ValueError("name, title or file is not a plain text")
         if type(first) is not int or type(last) is not int or not 1 <= first <= last <= MOST_FRAMES:
             raise ValueError(f"it cannot last from frame {first!r} to {last!r}")
         if background is not None and not (_are_numbers(background, 3) and 0.0 <= min(background) <= max(background) <= 1.0):
