@@ -25,7 +25,7 @@ TOXIN = "/usr/share/pymol/data/demo/1tii.pdb"
 UBIQUITIN = f"{FREESASA}/1ubq.pdb"
 PROTEASE = "/usr/share/pymol/data/tut/1hpv.pdb"
 DEPTH_CUE = 21  # the word of FinishParameters (gpu_shaders/look/parameters.glsl)
-SIZE = (320, 240)
+SIZE = (240, 180)
 SOFTWARE_GL = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 NOTHING = 0xffffffff
 
