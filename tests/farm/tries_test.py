@@ -128,7 +128,7 @@ class Pause(WorkCase):
         time.sleep(2)
         self.assertEqual({path: path.stat().st_mtime_ns for path in folder.rglob("*.*") if "workers" not in path.parts}, before)
         self.assertEqual(list((folder / "state").rglob("*claim*")), [])
-        self.assertIn("paused, 2 workers wait; meniscus farm resume", self.meniscus("farm", "status", folder).stdout)
+        self.assertIn("paused, 2 workers wait; to go on: meniscus farm resume", self.meniscus("farm", "status", folder).stdout)
         self.assertTrue(json.loads(self.meniscus("farm", "status", folder, "--json").stdout)["paused"])
         second.send_signal(signal.SIGTERM)
         self.assertEqual(second.wait(20), 9)
