@@ -46,7 +46,7 @@ void check(Storyboard& storyboard) {
   }
 }
 
-void tell_what_is_left_out(Storyboard& storyboard) {
+void tell_what_blender_leaves_out(Storyboard& storyboard) {
   const FilmCommand& command = storyboard.command();
   if (storyboard.leaves_writing_out())
     say(command,
@@ -74,7 +74,7 @@ class BlenderFilm {
         progress_(progress_on_stderr(command_), "film", storyboard.size()) {}
 
   void write() {
-    tell_what_is_left_out(storyboard_);
+    tell_what_blender_leaves_out(storyboard_);
     story_.is_smooth = command_.pace == Pace::smooth;
     story_.fps = command_.scene.film.frames_per_second;
     std::uint64_t frame = 1;

@@ -132,6 +132,7 @@ class ServedSession {
     if (waiting_.empty() || !view_.fault().empty()) return;
     if (!is_current() && !draw()) return;
     if (!somebody_lacks_the_picture()) return;
+    picture_.message["state"] = question("state");  // commands that make no picture may have come since it was drawn
     std::set<ClientNumber> still_waiting;
     for (const ClientNumber client : waiting_) {
       if (!lacks_the_picture(client)) {

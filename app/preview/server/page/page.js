@@ -11,6 +11,7 @@ const canvas = $("picture"), stage = $("stage");
 const numbered = new Set();  // colour schemes that take a map
 const strengths = [];  // keys of the look that have a slider
 let state = null;      // what the server shows
+let told_states = 0;   // how many states were asked for and told
 let controls = false;  // does this page decide?
 let shown = null;      // the message of the picture in the canvas
 let full_picture = null;  // its PNG, if it is full
@@ -61,7 +62,7 @@ async function command(word, values = {}, refuse = (text) => say(text, true)) {
   if (!reply.ok && reply.error) refuse(sentence_of(reply.error, word));
   else if (reply.ok && word !== "resize") forget_errors();
   if (reply.ok && reply.revision === undefined && changes_state.has(word))
-    server.ask({ command: "state" }).then((next) => { if (next.ok) apply_state(next); });  // there is no new picture
+    server.ask({ command: "state" }).then((next) => { if (next.ok) { ++told_states; apply_state(next); } });  // there is no new picture
   return reply.ok ? reply : null;
 }
 
@@ -150,7 +151,7 @@ function allow_controls() { $("controls").disabled = !controls || !state; }
 // Pictures
 
 async function show_picture(message, bytes) {
-  const blob = new Blob([bytes], { type: message.type });
+  const blob = new Blob([bytes], { type: message.type }), before = told_states;
   const bitmap = await createImageBitmap(blob, { colorSpaceConversion: "none" });
   const { width, height } = message.state;
   if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
@@ -170,7 +171,8 @@ async function show_picture(message, bytes) {
   note_rest();
   canvas.dataset.pictures = String(Number(canvas.dataset.pictures ?? 0) + 1);
   show_stats(message.stats, message.full);
-  apply_state(message.state);
+  // What was told while the picture was being decoded is newer.
+  if (told_states === before || message.state.revision > state.revision) apply_state(message.state);
 }
 
 let moving = "";  // pictures a second, of the last one that was not full
