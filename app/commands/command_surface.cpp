@@ -36,7 +36,7 @@ void check_outputs(const SurfaceCommand& command) {
   if (command.plot == "-" || (!command.plot.empty() && !command.plot.ends_with(".svg")))
     throw UsageError(
         fmt::format("--plot {}: plots are written as files whose names end in .svg", in_quotes(command.plot)));
-  if (command.resumes) throw UsageError("--resume goes on with a table of many files; add --csv-summary FILE");
+  if (command.resumes) throw UsageError("--resume continues a table of many files; add --csv-summary FILE");
   std::vector<std::string> paths = tables_of(command);
   if (std::ranges::count_if(paths, is_stdout) + command.json > 1)
     throw UsageError(

@@ -13,8 +13,8 @@
 
 namespace meniscus {
 
-/// NAME=FILE each: a camera as --camera takes it, or a scene or a picture that carries one, of which the camera, the
-/// cuts and one opacity of all atoms are taken.
+/// The views that --named-view NAME=FILE asks for. FILE is a camera, as for --camera, or a scene, whose camera, cuts
+/// and opacity of all atoms are taken.
 class NamedViews {
  public:
   /// Reads the files, which no output replaces. trusts_scenes: they may name any files. Throws UsageError, and what

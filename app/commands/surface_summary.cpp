@@ -168,16 +168,20 @@ class Summary {
             escaped(summary_.part())));
       while (std::getline(old, line) && !old.eof())
         if (is_whole(line + "\n")) done.insert(first_cell(line));
+      std::error_code ignored;  // what is not there has failed, or will
+      const fs::file_time_type written = fs::last_write_time(summary_.part(), ignored);
+      for (const std::string& file : files_)
+        if (fs::last_write_time(file, ignored) > written) done.erase(csv_cell(file));
     } else if (summary_.has_part() && !command_.force) {
       throw UsageError(
-          fmt::format("{} is there, of a call that did not come to its end; add --resume to go on with it, or --force "
+          fmt::format("{} is there, of a call that did not come to its end; add --resume to continue it, or --force "
                       "to begin anew",
                       escaped(summary_.part())));
     }
     const auto is_done = [&](const std::string& row) { return done.contains(first_cell(row)); };
     atoms_.begin(is_done);
     residues_.begin(is_done);
-    summary_.begin(is_whole);
+    summary_.begin([&](const std::string& row) { return is_whole(row) && is_done(row); });
     if (!command_.resumes) return;
     const std::size_t all = files_.size();
     std::erase_if(files_, [&](const std::string& file) { return done.contains(csv_cell(file)); });
@@ -267,7 +271,7 @@ void check_summary(const SurfaceCommand& command) {
   for (const std::string& path : {command.summary_csv, command.atom_csv, command.residue_csv})
     if (path == "-")
       throw UsageError(
-          "--csv-summary and the tables beside it are files, which --resume can go on with; name one instead of -");
+          "--csv-summary and the tables beside it are files, which --resume can continue; name one instead of -");
     else if (!path.empty())
       check_output(path, command.existing());
 }

@@ -42,7 +42,7 @@ constexpr auto kTable = std::to_array<Property>({
         "computed have a row that says why")
         .in(kOutput),
     flag("report.resume", "--resume",
-         "Go on with a --csv-summary that did not come to its end. Files that failed are tried again")
+         "Continue a --csv-summary that was stopped. Files that failed or have changed are computed again")
         .in(kOutput),
     text("report.context", "--context", "EXPR", "Report the area of --select that these atoms bury").in(kOutput),
     new_file("report.csv_pockets", "--csv", "FILE", "Write one row per pocket. -: to standard output")

@@ -95,6 +95,22 @@ class SummaryTest(unittest.TestCase):
         self.assertIn("--resume", self.run_program(*words, code=2).stderr)
         for more in (["--probe", "1.5"], ["--csv-residues", "late.csv"]):
             self.assertIn("other options", self.run_program(*words, "--resume", *more, code=2).stderr)
+        # A file that has changed since.
+        first = next(row["file"] for row in csv.DictReader((self.folder / "all.csv.part").read_text().splitlines()[1:]) if row["closed"] == "yes")
+        old = (self.folder / first).read_text()
+        (self.folder / first).write_text("0 0 0 1.7\n")
+        os.utime(self.folder / first, (time.time() + 60, time.time() + 60))
+        (self.folder / "changed").mkdir()
+        for part in ("all.csv.part", "atoms.csv.part"):
+            (self.folder / "changed" / part).write_bytes((self.folder / part).read_bytes())
+        self.run_program(*words, "--resume")
+        self.assertEqual([row["atoms"] for row in self.rows("all.csv") if row["file"] == first], ["1"])
+        self.assertEqual(len([row for row in self.rows("atoms.csv") if row["file"] == first]), 1)
+        (self.folder / first).write_text(old)
+        os.utime(self.folder / first, (0, 0))
+        for part in ("all.csv.part", "atoms.csv.part"):
+            (self.folder / "changed" / part).rename(self.folder / part)
+            (self.folder / part.removesuffix(".part")).unlink()
         self.assertIn(" of 200 files are there", self.run_program(*words[:-3], "--resume").stderr)
         for made, whole in (("all.csv", "whole.csv"), ("atoms.csv", "whole_atoms.csv")):
             self.assertEqual(sorted((self.folder / made).read_text().splitlines()), sorted((self.folder / whole).read_text().splitlines()))

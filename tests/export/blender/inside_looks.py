@@ -19,7 +19,7 @@ from meniscus_import import attributes, compat, looks  # noqa: E402
 SIZE = 48
 WAX_GRAIN = 0.14  # standard deviation of a channel, of the mean
 #: Shares of the pixels that show glass.
-GLASS_EDGES, GLASS_DOTS = 0.004, 0.002  # in a room that is bright everywhere no pixel is dark; in 4.5 they are 0.0085, in 5.0 0.029
+GLASS_EDGES, GLASS_DOTS = 0.006 if bpy.app.version[0] == 4 else 0.01, 0.002  # 4.2: 0.0087, 4.5: 0.0085; in a room that is bright everywhere: 0
 
 
 def pixel_of(_item):
@@ -198,7 +198,9 @@ class Looks(unittest.TestCase):
         values = np.array(image.pixels[:]).reshape(120, 160, 4)[:, :, :3]
         border = np.concatenate([values[0], values[-1], values[:, 0], values[:, -1]])
         self.assertEqual(np.median(border), 1.0)
-        self.assertGreater(border.mean(), 0.99)  # the denoiser of 4.2 changes corners
+        self.assertGreater(border.mean(), 0.99)  # the denoiser since 4.2 changes corners
+        if bpy.app.version < (4, 0, 0):
+            self.assertEqual([values[row, column].min() for row in (0, -1) for column in (0, -1)], [1.0] * 4)
         light = values.mean(axis=2)
         around = np.max([np.roll(light, step, axis) for axis in (0, 1) for step in (1, -1)], axis=0)
         glass = light < 0.96
