@@ -116,11 +116,15 @@ class Pause(WorkCase):
         folder = self.povray_bundle("paused")
         self.meniscus("work", folder, "--step", "surface")
         # Its share is one batch, which is cut off.
-        worker = subprocess.Popen([MENISCUS, "work", folder, "--step", "render", "--chunk", "1/1"], stderr=subprocess.PIPE, text=True)
+        said = self.folder / "said"
+        with said.open("w") as messages:
+            worker = subprocess.Popen([MENISCUS, "work", folder, "--step", "render", "--chunk", "1/1"], stderr=messages)
         wait_until(lambda: self.records(folder, "render"), what="a frame")
         for _ in range(2):
             self.meniscus("farm", "pause", folder)
-        wait_until(lambda: not processes_in(folder), what="an end of the work")
+        # It says so after it has given back the frames that it did not make.
+        wait_until(lambda: "paused; " in said.read_text(), what="an end of the work")
+        self.assertEqual(processes_in(folder), [])
         second = self.start(folder)
         wait_until(lambda: len(list((folder / "state" / "workers").glob("[!.]*.json"))) == 2, what="the second worker")
         before = {path: path.stat().st_mtime_ns for path in folder.rglob("*.*") if "workers" not in path.parts}
@@ -135,9 +139,8 @@ class Pause(WorkCase):
         self.assertIsNone(worker.poll())
         for _ in range(2):
             self.meniscus("farm", "resume", folder)
-        said = worker.communicate(timeout=240)[1]
-        self.assertEqual(worker.returncode, 0, said)
-        self.assertTrue(re.search(r"paused; to go on: meniscus farm resume \S+", said), said)
+        self.assertEqual(worker.wait(240), 0, said.read_text())
+        self.assertTrue(re.search(r"paused; to go on: meniscus farm resume \S+", said.read_text()), said.read_text())
         self.meniscus("farm", "verify", folder)
         self.assert_equals_reference(folder)
         self.assert_nothing_unfinished(folder)
