@@ -112,7 +112,7 @@ void export_to_povray(const SceneCommand& command) {
     sequence.emplace(sequence_of(run, options));
     render_command = sequence->write_shared().command;
   }
-  save_camera(command, run.camera(0));
+  run.save_cameras();
   bool noted = false;
   const auto finish = [&](const povray::SceneReport& report, std::uint64_t number) {
     if (!sequence) {
