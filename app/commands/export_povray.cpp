@@ -71,6 +71,7 @@ povray::SequenceScene sequence_of(FigureRun& run, povray::SceneOptions options) 
   shared.caps = shared.surface && !figure.cuts.empty();
   shared.translucent = std::ranges::any_of(scheme.opacities, sees_through);
   shared.map = scheme.volume;
+  shared.maps_change = scheme.by == ColorScheme::By::lipophilicity;
   for (const FigureObjectRequest& object : figure.objects) {
     shared.objects.push_back({!object.shapes, false});
     if (!object.material.empty()) shared.materials.push_back(object.material);
