@@ -205,7 +205,7 @@ void export_page(const PageCommand& asked, std::span<const std::string> left_out
       return [] { return MadeFrame{}; };
     };
   });
-  save_camera(command, run.camera(0));
+  run.save_cameras();
   std::cout << escaped(command.scene.output) << "\n";
 }
 

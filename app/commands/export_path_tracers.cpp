@@ -123,7 +123,7 @@ void run(const PathTracerCommand& command) {
   FigureRun run(command);
   run.aim(command.scene.picture, true);
   const Scene& asked = run.scene();
-  if (run.is_run()) save_camera(command, run.camera(0));
+  if (run.is_run()) run.save_cameras();
   const auto make = [&](FigureFrame frame) -> FinishFrame {
     Figure& figure = frame.figure;
     const std::vector<Ball> balls = run.is_run() ? standing_balls(run.structure()) : figure.balls();
@@ -144,7 +144,7 @@ void run(const PathTracerCommand& command) {
   run.make({kMeshBytesPerAtom}, [&]() -> FigureRun::Sink { return make; });
   if (std::ranges::any_of(asked.figure.objects, [](const auto& object) { return !object.material.empty(); }))
     say(command, "note: materials of --object are those of render; here they are all --material");
-  if (!run.is_run()) save_camera(command, run.camera(0));
+  if (!run.is_run()) run.save_cameras();
   std::cout << escaped(render_command(command, run.is_run())) << "\n";
 }
 
