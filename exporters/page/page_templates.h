@@ -9,8 +9,8 @@
 namespace meniscus {
 
 /// page.html; marks: TITLE, STYLE, STYLE_HASH, SCRIPT, SCRIPT_HASH, DESCRIPTION, FACTS, LEGEND, STILL, BYTES, DATA,
-/// VERSION. page.css. The script: data.js, camera.js, caster.js, layers.js, views.js, png.js, controls.js, in this
-/// order.
+/// VERSION. page.css. The script: data.js, camera.js, caster.js, layers.js, views.js, frames.js, png.js, controls.js,
+/// in this order.
 std::span<const TemplateFile> page_templates();
 
 }  // namespace meniscus
