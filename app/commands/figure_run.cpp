@@ -80,6 +80,16 @@ void FigureRun::tell_idle_cuts() const {
     say(command_, fmt::format("note: --clip {}, in the first frame of the run", sentence));
 }
 
+Camera FigureRun::camera_for(const ViewRequest& picture, const std::optional<Camera>& given) {
+  if (frames_) return run_cameras(picture, {}, {given, std::nullopt}, *shown_).front();
+  const ViewAim aim(picture, scene().molecule.show, figure_->molecule.structure);
+  return aim.camera(picture, given, figure_->molecule.objects);
+}
+
+void FigureRun::measure(ColorScheme& color) {
+  if (frames_) measure_colors(color, *shown_);
+}
+
 ColorKey FigureRun::key() const {
   return frames_ ? color_key(frames_->reach(), color_of(scene().molecule), {}) : key_of(figure_->molecule);
 }

@@ -6,12 +6,11 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <map>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
-#include <openssl/evp.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -225,14 +224,6 @@ json description_of(const PageFigure& figure, const Tables& tables) {
           {"names", names_of(figure.atoms)}};
 }
 
-std::string hash_source(std::string_view text) {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned size = 0;
-  if (EVP_Digest(text.data(), text.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1)
-    throw Error("OpenSSL has no SHA-256");
-  return fmt::format("'sha256-{}'", base64({reinterpret_cast<const char*>(digest.data()), size}));
-}
-
 std::string facts_of(const PageFigure& figure) {
   std::string text;
   for (const auto& [name, value] : figure.facts)
@@ -241,19 +232,11 @@ std::string facts_of(const PageFigure& figure) {
 }
 
 std::string still_of(const PageFigure& figure) {
-  if (figure.still.empty()) return {};
-  const std::string_view picture(reinterpret_cast<const char*>(figure.still.data()), figure.still.size());
-  return fmt::format("<img id=\"still\" src=\"data:image/jpeg;base64,{}\" alt=\"{}\">", base64(picture),
+  const std::vector<std::uint8_t>& bytes = figure.still.bytes;
+  if (bytes.empty()) return {};
+  return fmt::format("<img id=\"still\" src=\"data:{};base64,{}\" alt=\"{}\">", figure.still.type,
+                     base64({reinterpret_cast<const char*>(bytes.data()), bytes.size()}),
                      markup_text(figure.description));
-}
-
-/// The page's own script, its parts in their order.
-std::string script_text() {
-  std::string script = "// SPDX-License-Identifier: BSD-3-Clause\n\"use strict\";\n";
-  for (const char* const part :
-       {"data.js", "camera.js", "caster.js", "layers.js", "views.js", "frames.js", "png.js", "controls.js"})
-    script += compact(template_text(page_templates(), part));
-  return script;
 }
 
 }  // namespace
@@ -301,17 +284,13 @@ std::string PageWriter::text() const {
   description["moments"] = moments_;
   description["shaders"] = shaders();
   const std::string packed = data_.bytes(deflated(description));
-  const std::string script = script_text();
-  const std::string style = "\n" + compact(template_text(page_templates(), "page.css"));
   std::vector<Filling> texts = first_.texts;
-  for (Filling& filling : std::vector<Filling>{{"VERSION", MENISCUS_VERSION},
-                                               {"STYLE", style},
-                                               {"STYLE_HASH", hash_source(style)},
-                                               {"SCRIPT", script},
-                                               {"SCRIPT_HASH", hash_source(script)},
-                                               {"BYTES", std::to_string(packed.size())},
-                                               {"DATA", text_of_bytes(packed)}})
-    texts.push_back(std::move(filling));
+  const auto fill = [&](const char* mark, std::string text) { texts.push_back({mark, std::move(text)}); };
+  fill("VERSION", MENISCUS_VERSION);
+  fill("STYLE", std::string(template_text(page_templates(), "page.css")));
+  fill("SCRIPT", std::string(template_text(page_templates(), "page.js")));
+  fill("BYTES", std::to_string(packed.size()));
+  fill("DATA", text_of_bytes(packed));
   return filled(template_text(page_templates(), "page.html"), texts);
 }
 

@@ -45,7 +45,14 @@ struct PageView {
   bool looks_inside = false;      ///< as for hues_of()
 };
 
-/// What a page shows, or what it shows at one frame of a run. Texts may come from files; what is pointed to must stay until the page is written.
+/// A picture's file.
+struct StillPicture {
+  std::string type;  ///< "image/jpeg"
+  std::vector<std::uint8_t> bytes;
+};
+
+/// What a page shows, or what it shows at one frame of a run. Texts may come from files; what is pointed to must stay
+/// until the page is written.
 struct PageFigure {
   std::string title;
   std::string description;  ///< a sentence or two, for those who do not see the picture
@@ -64,9 +71,9 @@ struct PageFigure {
   bool fades_always = false;  ///< into the distance; else not where readers look inside or see through the surface
   std::string scheme;         ///< the name of its colours
   std::vector<PageScheme> more_schemes{};
-  ColorKey key;                     ///< what its colours mean
-  std::vector<std::uint8_t> still;  ///< its picture as JPEG, for readers without WebGL 2; empty: none
-  std::string moment;               ///< which frame it is, such as "frame 3", "2.500 ns"
+  ColorKey key;                        ///< what its colours mean
+  StillPicture still;                  ///< for readers without WebGL 2; empty: none
+  std::string moment;                  ///< which frame it is, such as "frame 3", "2.500 ns"
   std::optional<glm::dvec3> origin{};  ///< from where the records count, Å: of a run one; nothing: in its middle
 };
 
@@ -80,8 +87,8 @@ struct PackedFrame {
   std::vector<Filling> texts;  ///< of page.html
 };
 
-/// clip: at most kMostPlanes each. Throws CapacityError for a figure of more records than textures of 2048 x 8192 texels
-/// hold.
+/// clip: at most kMostPlanes each. Throws CapacityError for a figure of more records than textures of 2048 x 8192
+/// texels hold.
 PackedFrame pack_frame(const PageFigure& figure);
 
 /// Puts a page together. The same frames give the same text.
