@@ -14,7 +14,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
-#include <openssl/evp.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -425,14 +424,6 @@ json description_of(const PageFigure& figure, const Tables& tables) {
           {"shaders", shaders()}};
 }
 
-std::string hash_source(std::string_view text) {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned size = 0;
-  if (EVP_Digest(text.data(), text.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1)
-    throw Error("OpenSSL has no SHA-256");
-  return fmt::format("'sha256-{}'", base64({reinterpret_cast<const char*>(digest.data()), size}));
-}
-
 std::string facts_of(const PageFigure& figure) {
   std::string text;
   for (const auto& [name, value] : figure.facts)
@@ -448,21 +439,15 @@ std::string page_text(const PageFigure& figure) {
   tables.add_to(data);
   const std::string packed = data.deflated(description_of(figure, tables));
   const auto file = [](std::string_view path) { return template_text(page_templates(), path); };
-  std::string script = "// SPDX-License-Identifier: BSD-3-Clause\n\"use strict\";\n";
-  for (const char* const part : {"data.js", "camera.js", "caster.js", "layers.js", "views.js", "png.js", "controls.js"})
-    script += without_comments(file(part));
-  const std::string style = "\n" + std::string(file("page.css"));
-  const std::string_view picture(reinterpret_cast<const char*>(figure.still.data()), figure.still.size());
-  const std::string still = figure.still.empty()
-                                ? std::string()
-                                : fmt::format("<img id=\"still\" src=\"data:image/jpeg;base64,{}\" alt=\"{}\">",
-                                              base64(picture), markup_text(figure.description));
+  const StillPicture& drawn = figure.still;
+  const std::string_view picture(reinterpret_cast<const char*>(drawn.bytes.data()), drawn.bytes.size());
+  const std::string still = picture.empty() ? std::string()
+                                            : fmt::format("<img id=\"still\" src=\"data:{};base64,{}\" alt=\"{}\">",
+                                                          drawn.type, base64(picture), markup_text(figure.description));
   return filled(file("page.html"), {{"TITLE", markup_text(figure.title)},
                                     {"VERSION", MENISCUS_VERSION},
-                                    {"STYLE", style},
-                                    {"STYLE_HASH", hash_source(style)},
-                                    {"SCRIPT", script},
-                                    {"SCRIPT_HASH", hash_source(script)},
+                                    {"STYLE", std::string(file("page.css"))},
+                                    {"SCRIPT", std::string(file("page.js"))},
                                     {"DESCRIPTION", markup_text(figure.description)},
                                     {"FACTS", facts_of(figure)},
                                     {"LEGEND", legend_of(figure.key)},

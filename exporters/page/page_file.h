@@ -42,6 +42,12 @@ struct PageView {
   bool looks_inside = false;      ///< as for hues_of()
 };
 
+/// A picture's file.
+struct StillPicture {
+  std::string type;  ///< "image/jpeg"
+  std::vector<std::uint8_t> bytes;
+};
+
 /// What a page shows. Texts may come from files; what is pointed to must stay until the page is written.
 struct PageFigure {
   std::string title;
@@ -61,8 +67,8 @@ struct PageFigure {
   bool fades_always = false;  ///< into the distance; else not where readers look inside or see through the surface
   std::string scheme;         ///< the name of its colours
   std::vector<PageScheme> more_schemes{};
-  ColorKey key;                     ///< what its colours mean
-  std::vector<std::uint8_t> still;  ///< its picture as JPEG, for readers without WebGL 2; empty: none
+  ColorKey key;        ///< what its colours mean
+  StillPicture still;  ///< for readers without WebGL 2; empty: none
 };
 
 inline constexpr std::size_t kMostPlanes = 8;
