@@ -261,6 +261,7 @@ void PageWriter::add(PackedFrame frame) {
   frame.tables.clear();
   if (frames_.empty()) {
     first_ = std::move(frame);
+    described_ = deflated(first_.description).size();
     frames_.push_back(0);
     return;
   }
@@ -272,10 +273,10 @@ void PageWriter::add(PackedFrame frame) {
 
 std::size_t PageWriter::bytes() const {
   constexpr double kLettersPerByte = 16.0 / 13.0 * 1.0005;  // text_of_bytes(), and ends of lines
-  constexpr std::size_t kOthers = 75'000;                   // scripts, style, shaders
+  constexpr std::size_t kOthers = 85'000;                   // scripts, style, shaders
   std::size_t texts = kOthers;
   for (const Filling& filling : first_.texts) texts += filling.text.size();
-  return texts + static_cast<std::size_t>(kLettersPerByte * static_cast<double>(data_.size()));
+  return texts + static_cast<std::size_t>(kLettersPerByte * static_cast<double>(data_.size() + described_));
 }
 
 std::string PageWriter::text() const {

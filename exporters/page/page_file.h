@@ -105,6 +105,7 @@ class PageWriter {
  private:
   PageData data_;
   PackedFrame first_;
+  std::size_t described_ = 0;  ///< bytes of its description
   std::vector<std::string> moments_;
   std::vector<std::size_t> frames_;  ///< parts of the data: descriptions of what differs from the first
 };
