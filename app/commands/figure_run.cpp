@@ -93,6 +93,16 @@ void FigureRun::save_cameras() const {
                          frames_ ? std::span(frames_->numbers()) : std::span<const std::uint64_t>());
 }
 
+Camera FigureRun::camera_for(const ViewRequest& picture, const std::optional<Camera>& given) {
+  if (frames_) return run_cameras(picture, {}, {given, std::nullopt}, *shown_).front();
+  const ViewAim aim(picture, scene().molecule.show, figure_->molecule.structure);
+  return aim.camera(picture, given, figure_->molecule.objects);
+}
+
+void FigureRun::measure(ColorScheme& color) {
+  if (frames_) measure_colors(color, *shown_);
+}
+
 ColorKey FigureRun::key() const {
   return frames_ ? color_key(frames_->reach(), color_of(scene().molecule), {}) : key_of(figure_->molecule);
 }

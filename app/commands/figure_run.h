@@ -56,6 +56,11 @@ class FigureRun {
   /// has the box around all frames. Throws as run_cameras does.
   void aim(const ViewRequest& picture, bool extent);
 
+  /// The camera for another picture of the same, of a run for all its frames. given: by a file. Throws as aim().
+  Camera camera_for(const ViewRequest& picture, const std::optional<Camera>& given);
+  /// Takes from all frames what the colours of a scheme mean in each; of one molecule nothing changes.
+  void measure(ColorScheme& color);
+
   bool is_run() const { return frames_ != nullptr; }
   /// The command with its selections settled, the atoms beside the surface asked for, and colours measured.
   const SceneCommand& command() const { return command_; }
@@ -70,6 +75,8 @@ class FigureRun {
   const Figure& figure() const { return *figure_; }
   /// Of the molecule, or at the first frame of the run; as it is shown.
   const Structure& structure() const { return frames_ ? shown_->first_shown() : figure_->molecule.structure; }
+  /// With all atoms that any frame may have.
+  const Structure& reach() const { return frames_ ? frames_->reach() : figure_->molecule.structure; }
   /// What the colours of all figures mean.
   ColorKey key() const;
 

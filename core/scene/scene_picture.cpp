@@ -10,7 +10,6 @@
 #include "core/base/text.h"
 #include "core/scene/scene_values.h"
 #include "core/scene/settled_selections.h"
-#include "core/scene/view_aim.h"
 
 namespace meniscus {
 
@@ -63,19 +62,24 @@ Framebuffer finished_picture(Framebuffer molecule, const Annotations& annotation
   return layout.legend ? layout.legend->add_to(molecule, background) : molecule;
 }
 
-Framebuffer scene_picture(const Scene& asked, SurfaceRenderer& renderer, const EglContext* context) {
+SceneFigure made_figure(const Scene& asked, const EglContext* context) {
   if (asked.frames.asked())
     throw RequestError("frames: this makes the picture of one molecule; `meniscus render` makes those of a run");
   if (asked.image.extent)
     throw RequestError("image.extent: this draws the complete surface; `meniscus render` draws without it");
-  check_legend(asked);
   Scene scene = readied(asked);
   settle_selections(scene.molecule, scene.frames, {.figure = &scene.figure, .view = &scene.picture});
   scene.molecule.surface.cpu = context == nullptr;
   const GivenCameras given = given_cameras(scene.picture, scene.run_camera);
   Structure structure = read_molecule(scene.molecule);
-  const ViewAim aim(scene.picture, scene.molecule.show, structure);
+  ViewAim aim(scene.picture, scene.molecule.show, structure);
   Figure figure = make_figure(MoleculeBuilder(scene.molecule, context).build(std::move(structure)), scene.figure);
+  return {std::move(scene), given, std::move(aim), std::move(figure)};
+}
+
+Framebuffer scene_picture(const Scene& asked, SurfaceRenderer& renderer, const EglContext* context) {
+  check_legend(asked);
+  auto [scene, given, aim, figure] = made_figure(asked, context);
   const PictureLayout layout(scene, key_of(figure.molecule));
   const Camera camera = aim.camera(layout.size, given.still, figure.molecule.objects);
   const Annotations annotations = annotations_of(scene.annotations, figure.molecule.structure);

@@ -9,7 +9,10 @@
 #include "core/render/legend.h"
 #include "core/render/picture.h"
 #include "core/render/surface_renderer.h"
+#include "core/scene/figure.h"
+#include "core/scene/run_cameras.h"
 #include "core/scene/scene.h"
+#include "core/scene/view_aim.h"
 
 namespace meniscus {
 
@@ -41,10 +44,21 @@ Framebuffer finished_picture(Framebuffer molecule, const Annotations& annotation
                              const Camera& camera, const std::optional<glm::vec3>& background,
                              bool* lacks_labels = nullptr);
 
+/// What a scene of one molecule comes to before anything is drawn.
+struct SceneFigure {
+  Scene scene;  ///< its selections settled
+  GivenCameras given;
+  ViewAim aim;
+  Figure figure;
+};
+
+/// Reads and computes. scene: complete(). context: in which surfaces are computed; nullptr: on the CPU. Throws
+/// RequestError for a run of frames and for a picture of a part of the surface, else what reading and computing throw.
+SceneFigure made_figure(const Scene& scene, const EglContext* context);
+
 /// The picture of a scene, as `meniscus render` makes it of one molecule: read, computed, seen and drawn. scene:
-/// complete(). context: of the renderer, in which surfaces are computed, too; nullptr: on the CPU. Throws RequestError
-/// for a run of frames and for the ways of `meniscus render` that need no complete surface, else what reading,
-/// computing and drawing throw.
+/// complete(). context: of the renderer, in which surfaces are computed, too; nullptr: on the CPU. Throws as
+/// made_figure(), check_legend() and drawing do.
 Framebuffer scene_picture(const Scene& scene, SurfaceRenderer& renderer, const EglContext* context);
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The page's own files, exporters/page/page: its text, its style, and its script in parts.
+// The page's own files as join_page.cmake makes them of exporters/page/page: its text, its style, and its script.
 #pragma once
 
 #include <span>
@@ -8,9 +8,8 @@
 
 namespace meniscus {
 
-/// page.html; marks: TITLE, STYLE, STYLE_HASH, SCRIPT, SCRIPT_HASH, DESCRIPTION, FACTS, LEGEND, STILL, BYTES, DATA,
-/// VERSION. page.css. The script: data.js, camera.js, caster.js, layers.js, views.js, png.js, controls.js, in this
-/// order.
+/// page.html, which has the digests of the others; marks: TITLE, STYLE, SCRIPT, DESCRIPTION, FACTS, LEGEND, STILL,
+/// BYTES, DATA, VERSION. page.css and page.js, to the byte as the page has to have them.
 std::span<const TemplateFile> page_templates();
 
 }  // namespace meniscus

@@ -27,7 +27,7 @@ Projection projection_of(std::int32_t word) {
   return word == MENISCUS_PERSPECTIVE ? Projection::perspective : Projection::orthographic;
 }
 
-Camera camera_of(const meniscus_camera* given) {
+Camera camera_from(const meniscus_camera* given) {
   const meniscus_camera from = read_struct(given, meniscus_camera{}, "meniscus_camera");
   require_zero(from.reserved, "meniscus_camera.reserved");
   Camera camera;
@@ -80,6 +80,21 @@ RenderSettings settings_of(const Scene& scene) {
 }
 
 }  // namespace
+
+SurfacePicture surface_picture(const meniscus_surface* surface, const meniscus_scene* scene,
+                               const meniscus_camera* camera, const float* atom_colors) {
+  require(surface, "surface");
+  if (scene) require(scene, "scene");
+  const meniscus_scene usual;
+  SurfacePicture wanted{completed(scene ? *scene : usual), {}, {}};
+  check_of_surface(wanted.scene);
+  const std::vector<Ball>& atoms = surface->finished->surface.atoms;
+  wanted.camera = camera ? camera_from(camera)
+                         : frame_camera(atoms, wanted.scene.picture.aspect(), wanted.scene.picture.projection);
+  wanted.coloring = coloring_for(wanted.scene, atom_colors, atoms.size());
+  return wanted;
+}
+
 }  // namespace meniscus::c_api
 
 meniscus_status meniscus_surface_camera(const meniscus_surface* surface, double aspect, meniscus_projection projection,
@@ -114,22 +129,15 @@ meniscus_status meniscus_render(meniscus_renderer* renderer, const meniscus_surf
   using namespace meniscus::c_api;
   return guarded([&] {
     require(renderer, "renderer");
-    require(surface, "surface");
-    if (scene) require(scene, "scene");
-    const meniscus_scene usual;
-    const meniscus::Scene wanted = completed(scene ? *scene : usual);
-    check_of_surface(wanted);
-    require_room(wanted, rgba, rgba_size);
+    const SurfacePicture wanted = surface_picture(surface, scene, camera, atom_colors);
+    require_room(wanted.scene, rgba, rgba_size);
     const FinishedSurface& finished = *surface->finished;
-    const meniscus::Camera seen_by =
-        camera ? camera_of(camera)
-               : meniscus::frame_camera(finished.surface.atoms, wanted.picture.aspect(), wanted.picture.projection);
-    const meniscus::Coloring coloring = coloring_for(wanted, atom_colors, finished.surface.atoms.size());
     meniscus::Framebuffer drawn;
     renderer->run([&](meniscus::SurfaceRenderer& draws, const meniscus::EglContext*) {
-      run_on_threads(finished.threads,
-                     [&] { drawn = draws.render(finished.surface, coloring, seen_by, settings_of(wanted)); });
+      run_on_threads(finished.threads, [&] {
+        drawn = draws.render(finished.surface, wanted.coloring, wanted.camera, settings_of(wanted.scene));
+      });
     });
-    write_pixels(drawn, wanted, rgba);
+    write_pixels(drawn, wanted.scene, rgba);
   });
 }

@@ -7,6 +7,8 @@
 #include <optional>
 
 #include "core/base/error.h"
+#include "core/camera/camera.h"
+#include "core/color/coloring.h"
 #include "core/gpu/egl_context.h"
 #include "core/image/color_space.h"
 #include "core/render/surface_renderer.h"
@@ -42,6 +44,17 @@ inline void write_pixels(const Framebuffer& drawn, const Scene& scene, std::uint
   else
     layout_bytes(drawn.color, rgba);
 }
+
+/// What a caller asks of a picture of a surface of its own.
+struct SurfacePicture {
+  Scene scene;
+  Camera camera;
+  Coloring coloring;
+};
+
+/// As meniscus_render() takes it. Refuses what such a picture cannot have.
+SurfacePicture surface_picture(const meniscus_surface* surface, const meniscus_scene* scene,
+                               const meniscus_camera* camera, const float* atom_colors);
 
 }  // namespace meniscus::c_api
 

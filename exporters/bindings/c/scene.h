@@ -52,4 +52,8 @@ bool is_of_surface(const Property& property);
 /// A copy with all values that depend on each other. Refuses those that contradict each other.
 Scene completed(const meniscus_scene& scene);
 
+/// The same of a molecule from a file, which is not the standard input of the caller's process. Where this build has
+/// readers.
+Scene drawable(const meniscus_scene& scene);
+
 }  // namespace meniscus::c_api

@@ -35,7 +35,8 @@ Scene scene_of(std::string_view json, const std::string& file, const std::option
   return scene;
 }
 
-/// Of a molecule from a file, which is not the standard input of the caller's process.
+}  // namespace
+
 Scene drawable(const meniscus_scene& scene) {
   Scene drawn = completed(scene);
   std::string& file = drawn.molecule.file;
@@ -45,7 +46,6 @@ Scene drawable(const meniscus_scene& scene) {
   return drawn;
 }
 
-}  // namespace
 }  // namespace meniscus::c_api
 
 meniscus_status meniscus_scene_read(const char* path, meniscus_scene** scene) {

@@ -12,6 +12,7 @@
 #include "exporters/bindings/c/counted.h"
 #include "exporters/bindings/c/guard.h"
 #include "exporters/bindings/c/read_file.h"
+#include "exporters/bindings/c/structure.h"
 #include "exporters/bindings/c/structure_colors.h"
 #include "exporters/bindings/c/caller_memory.h"
 
@@ -133,6 +134,9 @@ meniscus_read_report report_of(const meniscus_structure& of) {
 }
 
 }  // namespace
+
+const Structure& structure_of(const meniscus_structure& handle) { return handle.structure; }
+
 }  // namespace meniscus::c_api
 
 meniscus_status meniscus_default_read_options(meniscus_read_options* options) {

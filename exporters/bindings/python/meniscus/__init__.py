@@ -25,6 +25,7 @@ from ._errors import (CapacityError, Error, GpuError, InputError, InternalError,
                       UsageError)
 from ._library import library_path, version
 from ._mesh import Mesh
+from ._page import Page, page
 from ._picture import Camera, Picture
 from ._pockets import Pocket
 from ._radii import radii_of
@@ -36,9 +37,10 @@ from ._adapters import (frames, from_ase, from_biopython, from_biotite, from_gem
 
 __all__ = [
     "Camera", "CapacityError", "Error", "GpuError", "InputError", "InternalError", "Mesh", "NotClosedError",
-    "OutputError", "Patches", "Picture", "Pocket", "Property", "Scene", "Structure", "Surface", "UsageError", "frames",
-    "from_ase", "from_biopython", "from_biotite", "from_gemmi", "from_mdanalysis", "from_mdtraj", "from_openmm",
-    "from_prody", "from_rdkit", "library_path", "properties", "radii_of", "read", "series", "surface", "version",
+    "OutputError", "Page", "Patches", "Picture", "Pocket", "Property", "Scene", "Structure", "Surface", "UsageError",
+    "frames", "from_ase", "from_biopython", "from_biotite", "from_gemmi", "from_mdanalysis", "from_mdtraj",
+    "from_openmm", "from_prody", "from_rdkit", "library_path", "page", "properties", "radii_of", "read", "series",
+    "surface", "version",
 ]
 
 

@@ -266,12 +266,15 @@ _CALLS: dict[str, list[Any]] = {
     "scene_json": [c_void_p, c_char_p, POINTER(c_char_p)],
     "scene_size": [c_void_p, POINTER(c_int32), POINTER(c_int32)],
     "scene_properties": [POINTER(Array)],
+    "scene_page": [c_void_p, POINTER(c_void_p)],
+    "surface_page": [c_void_p, c_void_p, c_void_p, POINTER(CameraStruct), c_void_p, POINTER(c_void_p)],
+    "page_html": [c_void_p, POINTER(c_char_p), POINTER(c_size_t)],
     "renderer_new": [c_int32, POINTER(c_void_p)],
     "render_scene": [c_void_p, c_void_p, c_void_p, c_size_t],
     "render": [c_void_p, c_void_p, c_void_p, POINTER(CameraStruct), c_void_p, c_void_p, c_size_t],
 }
 _RELEASES = ("computer_release", "structure_release", "surface_release", "pockets_release", "mesh_release",
-             "renderer_release", "scene_release")
+             "page_release", "renderer_release", "scene_release")
 
 
 def _place() -> str:

@@ -127,13 +127,17 @@ def blank(scene: Handle) -> Picture:
     return Picture(np.zeros((height.value, width.value, 4), dtype=np.uint8))
 
 
+def of_picture(colors: Any, atom_count: int, camera: Optional[Camera]) -> tuple[Any, Optional[CameraStruct]]:
+    """As meniscus_render() takes them."""
+    if camera is not None and not isinstance(camera, Camera):
+        raise InputError(f"camera is a {type(camera).__name__}, not a meniscus.Camera")
+    return None if colors is None else atom_colors(colors, atom_count), None if camera is None else camera._struct()
+
+
 def painted(surface: Handle, atom_count: int, scene: Handle, colors: Any, camera: Optional[Camera],
             device: str) -> Picture:
     """See Surface.render."""
-    of_atoms = None if colors is None else atom_colors(colors, atom_count)
-    if camera is not None and not isinstance(camera, Camera):
-        raise InputError(f"camera is a {type(camera).__name__}, not a meniscus.Camera")
-    seen_by = None if camera is None else camera._struct()
+    of_atoms, seen_by = of_picture(colors, atom_count, camera)
     picture = blank(scene)
     call("render", renderer(device).pointer, surface.pointer, scene.pointer, ctypes.byref(seen_by) if seen_by else None,
          None if of_atoms is None else of_atoms.ctypes.data, picture.pixels.ctypes.data, picture.pixels.nbytes)

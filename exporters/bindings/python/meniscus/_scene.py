@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _library as lib
 from ._errors import InputError, UsageError
+from ._page import Page, made
 from ._picture import Picture, blank, renderer
 from ._types import Device, Path
 from ._units import plain
@@ -80,6 +81,10 @@ def _text_of(name: str, value: Any) -> bytes:
     if not isinstance(number, (float, np.floating)):
         raise InputError(f"{name} is {value!r}, neither a text nor a number")
     return repr(float(number)).encode()
+
+
+#: Bytes of a page that a scene shows unasked.
+_MOST_IN_NOTEBOOK = 15_000_000
 
 
 class Scene:
@@ -202,6 +207,22 @@ class Scene:
         lib.call("render_scene", renderer(device).pointer, self._handle.pointer, picture.pixels.ctypes.data,
                  picture.pixels.nbytes)
         return picture
+
+    def show(self, height: int = 480) -> Page:
+        """The page that `meniscus export page` makes of it: a notebook shows it in a frame of `height` CSS pixels, in which
+        it turns. UsageError for what pages do not show.
+
+        >>> scene.show().save("turns.html", replace=True)"""
+        return made("scene_page", self._handle.pointer, height=height)
+
+    def _repr_html_(self) -> Optional[str]:
+        if self["file"] is None:
+            return None
+        try:
+            shown = self.show()
+        except UsageError:
+            return None  # the picture will do
+        return shown._repr_html_() if len(shown.html) <= _MOST_IN_NOTEBOOK else None
 
     def _repr_png_(self) -> Optional[bytes]:
         return None if self["file"] is None else self.render().png()

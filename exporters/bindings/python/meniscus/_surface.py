@@ -12,7 +12,8 @@ from . import _library as lib
 from ._arrays import doubles, numbers, real_array, view
 from ._errors import GpuError, InputError
 from ._mesh import Mesh
-from ._picture import Camera, Picture, framed, painted
+from ._page import Page, made
+from ._picture import Camera, Picture, framed, of_picture, painted
 from ._pockets import Pocket, pockets_of
 from ._scene import Scene
 from ._structure import Structure
@@ -370,6 +371,25 @@ class Surface:
         for name, value in values.items():
             scene[name] = value
         return painted(handle, summary.atoms, scene._handle, colors, camera, device)
+
+    def show(self, *, structure: Optional[Structure] = None, colors: Optional[Any] = None,
+             camera: Optional[Camera] = None, height: int = 480, **values: Unpack[SurfaceValues]) -> Page:
+        """A page in which it turns, as Scene.show() makes it; a notebook shows it. structure: what names the atoms that
+        readers pick, in the same order, such as read() gave; its schemes of colours can be chosen there, too. The rest is
+        that of render(): color="#80c0ff", colors=structure.colors("chain").
+
+        >>> s.show(color="teal").title
+        'Surface of 4 atoms'
+        >>> helix = meniscus.read("helix.pdb")
+        >>> meniscus.surface(helix).show(structure=helix, colors=helix.colors("residue")).title
+        'helix.pdb'"""
+        if structure is not None and structure._handle is None:
+            raise InputError("structure: one that was read, not one that was unpickled; read the file again")
+        asked = Scene(**values)
+        of_atoms, seen_by = of_picture(colors, len(self), camera)
+        return made("surface_page", self._handle.pointer, structure._handle.pointer if structure else None,
+                    asked._handle.pointer, ctypes.byref(seen_by) if seen_by else None,
+                    None if of_atoms is None else of_atoms.ctypes.data, height=height)
 
     def _repr_png_(self) -> Optional[bytes]:
         try:

@@ -690,6 +690,30 @@ MENISCUS_API meniscus_status meniscus_render(meniscus_renderer* renderer, const 
                                              const meniscus_scene* scene, const meniscus_camera* camera,
                                              const float* atom_colors, uint8_t* rgba, size_t rgba_size);
 
+/* ---- Pages --------------------------------------------------------------------------------------------------- */
+
+/* A web page of one file in which readers turn the exact surface: it fetches nothing, and casts the patches in their
+ * browser by WebGL 2; others see a still picture that is in it. Its colours, views, cut, chains and PNGs are chosen
+ * there (see docs/how-to/pages.md). */
+typedef struct meniscus_page meniscus_page;
+
+/* The page of a scene, as `meniscus export page` makes it: reads its molecule, and computes its surface and the shapes
+ * beside it, on the CPU. The scene's `output`, legend, title and scale bar are not used. *page is overwritten. Errors
+ * are those of meniscus_render_scene(); MENISCUS_USAGE for what pages do not show, such as `object`. */
+MENISCUS_API meniscus_status meniscus_scene_page(const meniscus_scene* scene, meniscus_page** page);
+
+/* The page of an exact surface of the caller. structure: NULL, or what names its atoms, in the same order; readers can
+ * then choose its schemes of colours, too. scene, camera, atom_colors: as for meniscus_render(). */
+MENISCUS_API meniscus_status meniscus_surface_page(const meniscus_surface* surface, const meniscus_structure* structure,
+                                                   const meniscus_scene* scene, const meniscus_camera* camera,
+                                                   const float* atom_colors, meniscus_page** page);
+MENISCUS_API meniscus_page* meniscus_page_retain(meniscus_page* page);
+MENISCUS_API void meniscus_page_release(meniscus_page* page);
+
+/* The text of the page, UTF-8, which lives as long as the page. size: NULL, or its bytes without the zero at its end.
+ */
+MENISCUS_API meniscus_status meniscus_page_html(const meniscus_page* page, const char** html, size_t* size);
+
 #ifdef __cplusplus
 }
 #endif

@@ -14,9 +14,9 @@
 //
 // Errors. Whatever fails throws an Error with the library's sentence; what was to be changed is as before.
 //
-// Ownership. Computer, Structure, Surface, Mesh, Scene and Renderer own one object each, and move; of what was moved
-// from only assignment and the end are left. Spans and rows of a surface or a mesh are its own memory, seen without a
-// copy: they end with it, and with Computer::recompute(atoms, surface), which computes it again.
+// Ownership. Computer, Structure, Surface, Mesh, Scene, Renderer and Page own one object each, and move; of what was
+// moved from only assignment and the end are left. Spans and rows of a surface or a mesh are its own memory, seen
+// without a copy: they end with it, and with Computer::recompute(atoms, surface), which computes it again.
 //
 // Threads. As in meniscus.h: const functions of one object from any number of threads at once; a Computer and a
 // Renderer serve one call after the other.
@@ -640,6 +640,18 @@ class Scene {
   detail::Handle<meniscus_scene, meniscus_scene_release> scene_;
 };
 
+namespace detail {
+
+// NULL for none. UsageError where there are not three an atom.
+inline const float* channels(const Surface& surface, std::span<const float> atom_colors) {
+  if (!atom_colors.empty() && atom_colors.size() != 3 * surface.atoms().size())
+    throw UsageError("there are " + std::to_string(atom_colors.size()) + " channels for " +
+                     std::to_string(surface.atoms().size()) + " atoms; give three an atom");
+  return atom_colors.empty() ? nullptr : atom_colors.data();
+}
+
+}  // namespace detail
+
 // On the CPU, or on GL in a context of its own with its kernels, on a thread of its own.
 class Renderer {
  public:
@@ -661,13 +673,9 @@ class Renderer {
   // or sRGB in [0, 1], three per atom.
   Picture render(const Surface& surface, const Scene& scene = {}, const Camera* camera = nullptr,
                  std::span<const float> atom_colors = {}) const {
-    if (!atom_colors.empty() && atom_colors.size() != 3 * surface.atoms().size())
-      throw UsageError("there are " + std::to_string(atom_colors.size()) + " channels for " +
-                       std::to_string(surface.atoms().size()) + " atoms; give three an atom");
     Picture picture = scene.blank();
-    check(meniscus_render(renderer_.get(), surface.get(), scene.get(), camera,
-                          atom_colors.empty() ? nullptr : atom_colors.data(), picture.rgba.data(),
-                          picture.rgba.size()));
+    check(meniscus_render(renderer_.get(), surface.get(), scene.get(), camera, detail::channels(surface, atom_colors),
+                          picture.rgba.data(), picture.rgba.size()));
     return picture;
   }
 
@@ -679,6 +687,44 @@ class Renderer {
 };
 
 inline Picture Scene::render(meniscus_device device) const { return Renderer(device).render(*this); }
+
+// ---- Pages ----
+
+// A web page of one file in which readers turn the exact surface; it fetches nothing.
+class Page {
+ public:
+  // As `meniscus export page` makes it. UsageError for what pages do not show.
+  explicit Page(const Scene& scene)
+      : page_(made([&](meniscus_page** to) { return meniscus_scene_page(scene.get(), to); })) {}
+  // Of an exact surface, with the look of a scene. structure: nullptr, or what names its atoms, in the same order. The
+  // rest as for Renderer::render().
+  explicit Page(const Surface& surface, const Structure* structure = nullptr, const Scene& scene = {},
+                const Camera* camera = nullptr, std::span<const float> atom_colors = {})
+      : page_(made([&](meniscus_page** to) {
+          return meniscus_surface_page(surface.get(), structure ? structure->get() : nullptr, scene.get(), camera,
+                                       detail::channels(surface, atom_colors), to);
+        })) {}
+
+  // Its text, which ends with it.
+  std::string_view html() const {
+    const char* html = nullptr;
+    std::size_t size = 0;
+    check(meniscus_page_html(page_.get(), &html, &size));
+    return {html, size};
+  }
+
+  // For the functions of meniscus.h; owned by this.
+  meniscus_page* get() const noexcept { return page_.get(); }
+
+ private:
+  template <typename Make>
+  static meniscus_page* made(const Make& make) {
+    meniscus_page* page = nullptr;
+    check(make(&page));
+    return page;
+  }
+  detail::Handle<meniscus_page, meniscus_page_release> page_;
+};
 
 }  // namespace v0
 }  // namespace meniscus

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Makes pages in which readers turn a scene or a surface.
+#include "exporters/bindings/c/page.h"
+
+#include <string>
+
+#include "exporters/bindings/c/renderer.h"
+#include "exporters/bindings/c/scene.h"
+#include "exporters/bindings/c/structure.h"
+#include "exporters/bindings/c/surface.h"
+#include "exporters/page/scene_page.h"
+
+meniscus_status meniscus_scene_page(const meniscus_scene* scene, meniscus_page** page) {
+  using namespace meniscus::c_api;
+  return guarded([&] {
+    require(scene, "scene");
+    require(page, "page");
+    const meniscus::Scene wanted = drawable(*scene);
+    std::string html;
+    run_on_threads(wanted.molecule.surface.threads, [&] { html = meniscus::page::scene_page(wanted); });
+    *page = new meniscus_page(std::move(html));
+  });
+}
+
+meniscus_status meniscus_surface_page(const meniscus_surface* surface, const meniscus_structure* structure,
+                                      const meniscus_scene* scene, const meniscus_camera* camera,
+                                      const float* atom_colors, meniscus_page** page) {
+  using namespace meniscus::c_api;
+  return guarded([&] {
+    require(page, "page");
+    const SurfacePicture wanted = surface_picture(surface, scene, camera, atom_colors);
+    const FinishedSurface& finished = *surface->finished;
+    const meniscus::Structure* const names = structure ? &structure_of(*structure) : nullptr;
+    if (names && names->atoms.size() != finished.surface.atoms.size())
+      refuse(MENISCUS_USAGE, "structure has {} atoms, and the surface is of {}", names->atoms.size(),
+             finished.surface.atoms.size());
+    std::string html;
+    run_on_threads(finished.threads, [&] {
+      html = meniscus::page::surface_page(finished.surface, wanted.coloring, names, wanted.scene, wanted.camera,
+                                          meniscus::page::png_still);
+    });
+    *page = new meniscus_page(std::move(html));
+  });
+}
