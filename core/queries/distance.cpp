@@ -129,8 +129,8 @@ struct Tables {
   void end(std::size_t table) { first[table + 1] = static_cast<std::uint32_t>(boxes.size()); }
 };
 
-/// What is asked of the feet of a point: the nearest within `limit` is searched for, and `wanted` tells from the nearest
-/// so far how near another has to be to count.
+/// What is asked of the feet of a point: the nearest within `limit` is searched for, and `wanted` tells from the
+/// nearest so far how near another has to be to count.
 template <typename Wanted>
 struct Search {
   double limit;
