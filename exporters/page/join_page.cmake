@@ -21,7 +21,7 @@ function(digest_of variable file)
 endfunction()
 
 set(script "")
-foreach(part data camera caster layers views png controls)
+foreach(part data camera caster layers views png messages controls)
   file(READ ${FOLDER}/${part}.js text)
   string(APPEND script "${text}")
 endforeach()

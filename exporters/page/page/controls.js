@@ -109,6 +109,7 @@ class Viewer {
     this.moving = moving;
     this.sample = -1;
     this.canvas.dataset.rest = "false";
+    this.changed?.();
     if (!this.waiting && this.caster && !this.saving) this.waiting = requestAnimationFrame(() => this.draw());
     clearTimeout(this.rest);
     if (moving) this.rest = setTimeout(() => this.change(), 150);
@@ -279,6 +280,7 @@ function follow_pointer(viewer) {
     if (event.type === "pointerup" && drag && drag.button === 0 && drag.wandered < kClick) {
       const picked = viewer.pick(event.clientX, event.clientY);
       element("picked").textContent = viewer.tell(picked);
+      viewer.picked?.(picked);
     }
     if (pointers.size === 0) drag = null;
     else drag.wandered = kClick;
@@ -371,6 +373,7 @@ async function main() {
     follow_pointer(viewer);
     follow_keys(viewer);
     follow_controls(viewer);
+    follow_messages(viewer);
     viewer.change();
     window.meniscus = viewer;
   } catch (error) {
