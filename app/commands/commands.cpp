@@ -16,6 +16,8 @@ constexpr Command kFormats[] = {
     {"pbrt", "Write a pbrt-v4 scene: meshes as fine as the picture needs, exact spheres and cylinders",
      add_export_pbrt},
     {"mesh", "Write a closed triangle mesh: STL, 3MF, OBJ, OFF, GLB, VTP, TetGen, DMS, PLY or USD", add_export_mesh},
+    {"mvs", "Write a view for Mol* and other viewers of MolViewSpec (.mvsx): mesh, colours, caps, camera",
+     add_export_mvs},
     {"page", "Write one HTML file in which readers turn the exact surface, in any browser with WebGL 2",
      add_export_page},
     {"ply", "Write a closed triangle mesh as binary PLY: the same as export mesh --format ply", add_export_ply},

@@ -35,6 +35,7 @@ void add_completion(CLI::App& command);
 void add_export_atoms(CLI::App& command);
 void add_export_blender(CLI::App& command);
 void add_export_mesh(CLI::App& command);
+void add_export_mvs(CLI::App& command);
 void add_export_page(CLI::App& command);
 void add_export_mitsuba(CLI::App& command);
 void add_export_pbrt(CLI::App& command);

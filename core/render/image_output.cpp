@@ -6,10 +6,8 @@
 #include <array>
 #include <cctype>
 #include <cerrno>
-#include <charconv>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <span>
@@ -37,6 +35,7 @@
 #include "core/image/color_space.h"
 #include "core/image/image_codec.h"
 #include "core/image/png_file.h"
+#include "core/image/source_date.h"
 
 namespace meniscus {
 namespace {
@@ -78,16 +77,9 @@ std::string extension_of(const std::filesystem::path& path) {
   return extension;
 }
 
-/// EXR and TIFF always have a date. So that the same command gives the same bytes it is that of SOURCE_DATE_EPOCH
-/// (reproducible-builds.org), in UTC, or else the first second of 1970.
+/// EXR and TIFF always have a date, in UTC.
 std::string date_of_pictures() {
-  std::int64_t seconds = 0;
-  if (const char* const text = std::getenv("SOURCE_DATE_EPOCH")) {
-    const std::string_view digits(text);
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), seconds);
-    if (error != std::errc() || end != digits.data() + digits.size()) seconds = 0;
-  }
-  const std::time_t time = seconds;
+  const std::time_t time = source_date();
   std::tm parts{};
   std::array<char, 32> date{};
   if (!::gmtime_r(&time, &parts) || std::strftime(date.data(), date.size(), "%Y:%m:%d %H:%M:%S", &parts) != 19)

@@ -50,10 +50,12 @@ struct World {
   StructureOf structure = structure_of(molecule());
   SceneOf scene = scene_with({{"size", "2x2"}, {"samples", "1"}});
   SceneOf whole = scene_with({{"size", "2x2"}, {"file", molecule().c_str()}});
+  PageOf page = made<meniscus_page>([&](auto** to) { return meniscus_scene_page(whole.get(), to); });
   std::vector<double> numbers = std::vector<double>(64, 1.0);
   double* const n = numbers.data();
   std::int32_t word = 0;
   const char* text = nullptr;
+  std::size_t size = 0;
   meniscus_array array{};
   meniscus_summary summary = sized<meniscus_summary>();
   meniscus_camera camera = sized<meniscus_camera>();
@@ -103,6 +105,13 @@ struct World {
   meniscus_status paint(const meniscus_camera* from = nullptr, const float* colors = nullptr) const {
     return meniscus_render(renderer.get(), surface.get(), scene.get(), from, colors, reinterpret_cast<std::uint8_t*>(n),
                            16);
+  }
+  meniscus_status show(const meniscus_structure* names, const meniscus_scene* look,
+                       const meniscus_camera* from = nullptr, const float* colors = nullptr) const {
+    meniscus_page* fresh = nullptr;
+    const meniscus_status status = meniscus_surface_page(surface.get(), names, look, from, colors, &fresh);
+    meniscus_page_release(fresh);
+    return status;
   }
   meniscus_status save() const { return meniscus_mesh_save(mesh.get(), path.c_str(), &file); }
 };
@@ -327,6 +336,30 @@ const Pointer kPointers[] = {
      [](World& w, const void* p) {
        return meniscus_render_scene(w.renderer.get(), w.whole.get(), as<std::uint8_t>(p), 16);
      }, true},
+    {"meniscus_scene_page scene", false,
+     [](World&, const void* p) {
+       return refused<meniscus_page>([&](auto** to) { return meniscus_scene_page(as<meniscus_scene>(p), to); });
+     }},
+    ARGUMENT(meniscus_scene_page, page, false, w.whole.get(), as<meniscus_page*>(p)),
+    {"meniscus_surface_page surface", false,
+     [](World& w, const void* p) {
+       return refused<meniscus_page>([&](auto** to) {
+         return meniscus_surface_page(as<meniscus_surface>(p), nullptr, w.scene.get(), nullptr, nullptr, to);
+       });
+     }},
+    {"meniscus_surface_page structure", true,
+     [](World& w, const void* p) { return w.show(as<meniscus_structure>(p), w.scene.get()); }},
+    {"meniscus_surface_page scene", true,
+     [](World& w, const void* p) { return w.show(nullptr, as<meniscus_scene>(p)); }},
+    {"meniscus_surface_page camera", true,
+     [](World& w, const void* p) { return w.show(nullptr, w.scene.get(), as<meniscus_camera>(p)); }},
+    {"meniscus_surface_page atom_colors", true,
+     [](World& w, const void* p) { return w.show(nullptr, w.scene.get(), nullptr, as<float>(p)); }},
+    ARGUMENT(meniscus_surface_page, page, false, w.surface.get(), nullptr, w.scene.get(), nullptr, nullptr,
+             as<meniscus_page*>(p)),
+    ARGUMENT(meniscus_page_html, page, false, as<meniscus_page>(p), &w.text, &w.size),
+    ARGUMENT(meniscus_page_html, html, false, w.page.get(), as<const char*>(p), &w.size),
+    ARGUMENT(meniscus_page_html, size, true, w.page.get(), &w.text, as<std::size_t>(p)),
 };
 #undef ARGUMENT
 #undef FIELD

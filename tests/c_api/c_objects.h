@@ -23,6 +23,7 @@ struct Release {
   void operator()(meniscus_mesh* mesh) const { meniscus_mesh_release(mesh); }
   void operator()(meniscus_renderer* renderer) const { meniscus_renderer_release(renderer); }
   void operator()(meniscus_scene* scene) const { meniscus_scene_release(scene); }
+  void operator()(meniscus_page* page) const { meniscus_page_release(page); }
 };
 using Computer = std::unique_ptr<meniscus_computer, Release>;
 using StructureOf = std::unique_ptr<meniscus_structure, Release>;
@@ -31,6 +32,7 @@ using Pockets = std::unique_ptr<meniscus_pockets, Release>;
 using Mesh = std::unique_ptr<meniscus_mesh, Release>;
 using Renderer = std::unique_ptr<meniscus_renderer, Release>;
 using SceneOf = std::unique_ptr<meniscus_scene, Release>;
+using PageOf = std::unique_ptr<meniscus_page, Release>;
 
 inline meniscus_options default_options() {
   meniscus_options options{};

@@ -38,4 +38,19 @@ TEST(CppApiPictures, ScenesHoldWhatTheyAreGiven) {
   EXPECT_GT(meniscus::Scene::properties().size(), 90U);
 }
 
+TEST(CppApiPictures, PagesAreTexts) {
+  const std::vector<meniscus::Ball> balls = {{{1.0, 2.0, 3.0}, 2.0}, {{1.0, 2.0, 6.0}, 2.0}};
+  const meniscus::Surface surface = meniscus::Computer().compute({balls});
+  meniscus::Scene look;
+  look.set("size", "32x24").set("color", "red");
+  const meniscus::Page page(surface, nullptr, look);
+  EXPECT_TRUE(page.html().starts_with("<!DOCTYPE html>"));
+  EXPECT_TRUE(page.html().ends_with("</html>\n"));
+  EXPECT_NE(page.html().find("Surface of 2 atoms"), std::string_view::npos);
+  const std::vector<float> colors = {1, 0, 0, 0, 0, 1};
+  EXPECT_NE(meniscus::Page(surface, nullptr, look, nullptr, colors).html(), page.html());
+  EXPECT_THROW(meniscus::Page(surface, nullptr, look, nullptr, std::vector<float>(4)), meniscus::UsageError);
+  EXPECT_THROW(meniscus::Page(meniscus::Scene()), meniscus::UsageError);  // of no molecule
+}
+
 }  // namespace

@@ -256,7 +256,7 @@ OWN_ROWS = {
     **{("farm bundle", option): (value, "bundled film")
        for option, value in (("--fps", "10"), ("--codec", "h265"), ("--crf", "40"), ("--bits", "10"), ("--chroma", "444"))},
 }
-for export in ("povray", "blender", "mitsuba", "pbrt"):
+for export in ("povray", "blender", "mitsuba", "pbrt", "mvs"):
     OWN_ROWS["export " + export, "--dpi"] = ("90", "length")
 for shape in ("--sticks", "--balls", "--spheres", "--tube", "--bases", "--glycans"):
     OWN_ROWS["export page", shape] = (ROWS[shape][0], "covered ring" if shape in ("--bases", "--glycans") else "plain")
@@ -276,7 +276,7 @@ SMALL = {"render": ["--size", "32x24", "--samples", "1", "--no-provenance"], "pr
          "export page": ["--size", "32x24"],
          "panels": ["--size", "200x100", "--samples", "1"],
          "film": ["--size", "32x24", "--samples", "1", "--hold", "0", "--transition", "0.08"]}
-MESHES = {"export blender", "export mitsuba", "export pbrt", "export mesh", "export ply"}
+MESHES = {"export blender", "export mitsuba", "export pbrt", "export mvs", "export mesh", "export ply"}
 EXCLUDES = {"--tolerance-pixels": "--tolerance", "--density": "--tolerance", "--width": "--size", "--height": "--size",
             "--provenance": "--no-provenance", "--no-provenance": "--no-provenance"}
 
@@ -284,7 +284,7 @@ EXCLUDES = {"--tolerance-pixels": "--tolerance", "--density": "--tolerance", "--
 def output_of(command, context):
     of_run = "--frames" in CONTEXTS[context] or "--trajectory" in CONTEXTS[context]
     return {"film": "a.mp4" if context == "story film" else "a_#.png", "render": "a.mp4" if context == "film" else "a.exr" if context == "exr" else "a_#.png" if of_run else "a.png", "export mesh": "a.usda" if context == "usd" else "a_#.glb" if of_run else "a.glb",
-            "panels": "a.png", "morph": "a.pdb", "export ply": "a_#.ply" if of_run else "a.ply", "export atoms": "a.atoms", "export vdb": "a_#.vdb" if of_run else "a.vdb", "export page": "a.html", "export blender": "a" if of_run else "a.mns"}.get(command, "a")
+            "panels": "a.png", "morph": "a.pdb", "export ply": "a_#.ply" if of_run else "a.ply", "export atoms": "a.atoms", "export vdb": "a_#.vdb" if of_run else "a.vdb", "export page": "a.html", "export mvs": "a.mvsx", "export blender": "a" if of_run else "a.mns"}.get(command, "a")
 
 
 def options_of(command):
@@ -419,13 +419,14 @@ class OptionUse(unittest.TestCase):
 
 
 TESTED = ["surface", "pockets", "info", "render", "film", "panels", "morph", "preview", "export povray", "export blender", "export mitsuba", "export pbrt",
-          "export mesh", "export ply", "export vdb", "export atoms", "export page", "formats", "farm bundle"]
+          "export mvs", "export mesh", "export ply", "export vdb", "export atoms", "export page", "formats", "farm bundle"]
 # What it is for is nothing that the command can do, or not with an output of that name.
 REFUSED = {("pockets", "--instances"), ("export vdb", "--instances"), ("render", "--frames"), ("render", "--trajectory"),
            *((f"export {mesh}", option) for mesh in ("mesh", "ply", "vdb") for option in ("--frames", "--trajectory")),
            ("preview", "--color-map-file"), ("preview", "--map-offset"), ("export atoms", "--color-map-file"), ("export atoms", "--map-offset"), ("export pbrt", "--color-map-file"),
            ("export pbrt", "--map-offset"), ("export mitsuba", "--cap-hatching"), ("export mitsuba", "--film-opacity"),
-           ("export pbrt", "--cap-hatching"), ("export pbrt", "--film-opacity"), ("export page", "--object")}
+           ("export pbrt", "--cap-hatching"), ("export pbrt", "--film-opacity"), ("export page", "--object"),
+           ("export mvs", "--cap-hatching"), ("export mvs", "--film-opacity"), ("export mvs", "--material")}
 # There are no pockets in what is made whole, a cavity is not seen from outside, and copies that stand apart look the same.
 SILENT = {("pockets", "--whole"), ("render", "--instances"), ("render", "--cavities")}
 

@@ -31,6 +31,7 @@ ORDER = [
     ["exporters/mesh_files"],
     ["exporters/povray", "exporters/blender", "exporters/path_tracers", "exporters/msms", "exporters/vdb",
      "exporters/page"],
+    ["exporters/mvs"],
     ["exporters/bindings/c"],
     ["exporters/bindings/cpp"],
     ["app/process"],

@@ -52,7 +52,7 @@ class Pages(unittest.TestCase):
         cls.molecule = cls.folder / 'a<b>&".pdb'
         cls.molecule.write_text("\n".join(atoms).replace("MET A", '<b" A') + "\nEND\n")
         cls.scene = meniscus.Scene(cls.molecule, color="residue", size="64x48")
-        cls.page = cls.scene.show(height=321)
+        cls.page = cls.scene.show(frame_height=321)
 
     def test_of_a_scene_is_what_the_program_makes(self):
         if not PROGRAM:
@@ -109,8 +109,8 @@ class Pages(unittest.TestCase):
             meniscus.Scene(self.molecule, color="lipophilicity").show()
         with self.assertRaisesRegex(meniscus.UsageError, "no molecule"):
             meniscus.Scene().show()
-        with self.assertRaisesRegex(meniscus.UsageError, "height is 0"):
-            self.scene.show(height=0)
+        with self.assertRaisesRegex(meniscus.UsageError, "frame_height is 0"):
+            self.scene.show(frame_height=0)
         # A notebook shows its picture then.
         scene = meniscus.Scene(self.molecule, color="lipophilicity", size="32x24")
         self.assertIsNone(scene._repr_html_())
@@ -121,7 +121,7 @@ class Pages(unittest.TestCase):
         surface = meniscus.surface(structure)
         plain = surface.show(color="teal")
         self.assertEqual(plain.title, f"Surface of {len(structure)} atoms")
-        named = surface.show(structure=structure, colors=structure.colors("residue"), height=99)
+        named = surface.show(structure=structure, colors=structure.colors("residue"), frame_height=99)
         self.assertEqual((named.title, named.height), ('a&lt;b&gt;&amp;&quot;.pdb', 99))
         self.assertNotEqual(named.html, surface.show(structure=structure, color="teal").html)
         with self.assertRaisesRegex(meniscus.UsageError, f"structure has {len(structure)} atoms, and the surface is of 1"):

@@ -30,7 +30,7 @@ meniscus_status meniscus_surface_page(const meniscus_surface* surface, const men
     require(page, "page");
     const SurfacePicture wanted = surface_picture(surface, scene, camera, atom_colors);
     const FinishedSurface& finished = *surface->finished;
-    const meniscus::Structure* const names = structure ? &structure_of(*structure) : nullptr;
+    const meniscus::Structure* const names = structure ? &structure_of(structure) : nullptr;
     if (names && names->atoms.size() != finished.surface.atoms.size())
       refuse(MENISCUS_USAGE, "structure has {} atoms, and the surface is of {}", names->atoms.size(),
              finished.surface.atoms.size());

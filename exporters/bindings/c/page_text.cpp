@@ -11,6 +11,7 @@ meniscus_status meniscus_page_html(const meniscus_page* page, const char** html,
   return guarded([&] {
     require(page, "page");
     require(html, "html");
+    if (size) require(size, "size");
     *html = page->html.c_str();
     if (size) *size = page->html.size();
   });

@@ -135,7 +135,10 @@ meniscus_read_report report_of(const meniscus_structure& of) {
 
 }  // namespace
 
-const Structure& structure_of(const meniscus_structure& handle) { return handle.structure; }
+const Structure& structure_of(const meniscus_structure* structure) {
+  require(structure, "structure");
+  return structure->structure;
+}
 
 }  // namespace meniscus::c_api
 

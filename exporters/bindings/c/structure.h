@@ -7,6 +7,7 @@
 
 namespace meniscus::c_api {
 
-const Structure& structure_of(const meniscus_structure& handle);
+/// Refuses what is no such handle.
+const Structure& structure_of(const meniscus_structure* structure);
 
 }  // namespace meniscus::c_api

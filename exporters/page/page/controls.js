@@ -134,6 +134,7 @@ class Viewer {
     this.moving = moving;
     this.sample = -1;
     this.canvas.dataset.rest = "false";
+    this.changed?.();
     if (!this.waiting && this.caster && !this.saving) this.waiting = requestAnimationFrame(() => this.draw());
     clearTimeout(this.rest);
     if (moving && !this.playing) this.rest = setTimeout(() => this.change(), 150);
@@ -305,6 +306,7 @@ function follow_pointer(viewer) {
     if (event.type === "pointerup" && drag && drag.button === 0 && drag.wandered < kClick) {
       const picked = viewer.pick(event.clientX, event.clientY);
       element("picked").textContent = viewer.tell(picked);
+      viewer.picked?.(picked);
     }
     if (pointers.size === 0) drag = null;
     else drag.wandered = kClick;
@@ -398,6 +400,7 @@ async function main() {
     follow_pointer(viewer);
     follow_keys(viewer);
     follow_controls(viewer);
+    follow_messages(viewer);
     viewer.change();
     window.meniscus = viewer;
   } catch (error) {

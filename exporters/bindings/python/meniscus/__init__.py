@@ -32,15 +32,16 @@ from ._radii import radii_of
 from ._scene import Property, Scene, properties
 from ._structure import Structure, read
 from ._surface import Patches, Surface, surface
+from ._widget import Picked, Widget, widget
 from ._adapters import (frames, from_ase, from_biopython, from_biotite, from_gemmi, from_mdanalysis, from_mdtraj,
                         from_openmm, from_prody, from_rdkit, series)
 
 __all__ = [
     "Camera", "CapacityError", "Error", "GpuError", "InputError", "InternalError", "Mesh", "NotClosedError",
-    "OutputError", "Page", "Patches", "Picture", "Pocket", "Property", "Scene", "Structure", "Surface", "UsageError",
-    "frames", "from_ase", "from_biopython", "from_biotite", "from_gemmi", "from_mdanalysis", "from_mdtraj",
-    "from_openmm", "from_prody", "from_rdkit", "library_path", "page", "properties", "radii_of", "read", "series",
-    "surface", "version",
+    "OutputError", "Page", "Patches", "Picked", "Picture", "Pocket", "Property", "Scene", "Structure", "Surface",
+    "UsageError", "Widget", "frames", "from_ase", "from_biopython", "from_biotite", "from_gemmi", "from_mdanalysis",
+    "from_mdtraj", "from_openmm", "from_prody", "from_rdkit", "library_path", "page", "properties", "radii_of", "read",
+    "series", "surface", "version", "widget",
 ]
 
 

@@ -84,12 +84,13 @@ class Page:
         file as that page sees it; None: all of it is in the frame's text.
 
         >>> page.frame("helix.html", height=300)
-        '<iframe title="helix.pdb" width="100%" height="300" loading="lazy" sandbox="allow-scripts allow-downloads" \
-allowfullscreen src="helix.html"></iframe>'"""
+        '<iframe title="helix.pdb" width="100%" height="300" frameborder="0" loading="lazy" \
+sandbox="allow-scripts allow-downloads" allowfullscreen src="helix.html"></iframe>'"""
         tall = self._height if height is None else lib.positive("height", height)
         shown = f'srcdoc="{_quoted(self._html)}"' if src is None else f'src="{_quoted(src)}"'
-        return (f'<iframe title="{self.title.replace(chr(34), "&quot;")}" width="100%" height="{tall}" loading="lazy" '
-                f'sandbox="{_MAY}" allowfullscreen {shown}></iframe>')
+        title = self.title.replace('"', "&quot;")
+        return (f'<iframe title="{title}" width="100%" height="{tall}" frameborder="0" loading="lazy" sandbox="{_MAY}" '
+                f"allowfullscreen {shown}></iframe>")
 
     def _repr_html_(self) -> str:
         return self.frame()
@@ -111,7 +112,7 @@ def _umask() -> int:
 
 def made(make: str, *arguments: Any, height: int) -> Page:
     """The page that meniscus_MAKE makes."""
-    lib.positive("height", height)
+    lib.positive("frame_height", height)
     handle = lib.Handle("page", make, *arguments)
     html, size = ctypes.c_char_p(), ctypes.c_size_t()
     lib.call("page_html", handle.pointer, ctypes.byref(html), ctypes.byref(size))

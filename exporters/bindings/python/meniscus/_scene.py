@@ -208,12 +208,12 @@ class Scene:
                  picture.pixels.nbytes)
         return picture
 
-    def show(self, height: int = 480) -> Page:
-        """The page that `meniscus export page` makes of it: a notebook shows it in a frame of `height` CSS pixels, in which
+    def show(self, *, frame_height: int = 480) -> Page:
+        """The page that `meniscus export page` makes of it: a notebook shows it in a frame of so many CSS pixels, in which
         it turns. UsageError for what pages do not show.
 
         >>> scene.show().save("turns.html", replace=True)"""
-        return made("scene_page", self._handle.pointer, height=height)
+        return made("scene_page", self._handle.pointer, height=frame_height)
 
     def _repr_html_(self) -> Optional[str]:
         if self["file"] is None:

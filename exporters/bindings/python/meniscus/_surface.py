@@ -373,7 +373,7 @@ class Surface:
         return painted(handle, summary.atoms, scene._handle, colors, camera, device)
 
     def show(self, *, structure: Optional[Structure] = None, colors: Optional[Any] = None,
-             camera: Optional[Camera] = None, height: int = 480, **values: Unpack[SurfaceValues]) -> Page:
+             camera: Optional[Camera] = None, frame_height: int = 480, **values: Unpack[SurfaceValues]) -> Page:
         """A page in which it turns, as Scene.show() makes it; a notebook shows it. structure: what names the atoms that
         readers pick, in the same order, such as read() gave; its schemes of colours can be chosen there, too. The rest is
         that of render(): color="#80c0ff", colors=structure.colors("chain").
@@ -383,13 +383,14 @@ class Surface:
         >>> helix = meniscus.read("helix.pdb")
         >>> meniscus.surface(helix).show(structure=helix, colors=helix.colors("residue")).title
         'helix.pdb'"""
-        if structure is not None and structure._handle is None:
+        names = None if structure is None else structure._handle
+        if structure is not None and names is None:
             raise InputError("structure: one that was read, not one that was unpickled; read the file again")
         asked = Scene(**values)
         of_atoms, seen_by = of_picture(colors, len(self), camera)
-        return made("surface_page", self._handle.pointer, structure._handle.pointer if structure else None,
+        return made("surface_page", self._handle.pointer, names.pointer if names else None,
                     asked._handle.pointer, ctypes.byref(seen_by) if seen_by else None,
-                    None if of_atoms is None else of_atoms.ctypes.data, height=height)
+                    None if of_atoms is None else of_atoms.ctypes.data, height=frame_height)
 
     def _repr_png_(self) -> Optional[bytes]:
         try:

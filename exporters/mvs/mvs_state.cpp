@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writes scenes as trees of MolViewSpec's nodes, and puts them into an archive.
+#include "exporters/mvs/mvs_state.h"
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "core/image/source_date.h"
+#include "core/image/color_space.h"
+#include "core/math/rigid_motion.h"
+#include "exporters/mesh_files/zip_archive.h"
+
+namespace meniscus::mvs {
+namespace {
+
+using nlohmann::json;
+
+json node(const char* kind, json params) { return {{"kind", kind}, {"params", std::move(params)}}; }
+
+/// To a thousandth of an Å, in as few digits.
+double rounded(double value) { return std::round(1000.0 * value) / 1000.0; }
+json place(const glm::dvec3& v) { return {rounded(v.x), rounded(v.y), rounded(v.z)}; }
+
+std::string word_of(const glm::vec3& linear) {
+  const glm::vec4 color = display_color(glm::vec4(linear, 1.0f), std::nullopt);
+  return fmt::format("#{:02x}{:02x}{:02x}", display_byte(color.x), display_byte(color.y), display_byte(color.z));
+}
+
+/// A group of triangles is what has one colour.
+json mesh_node(const path_tracers::SceneMesh& mesh, const glm::dvec3& origin) {
+  json vertices = json::array(), indices = json::array(), groups = json::array();
+  json colors = json::object();
+  std::map<std::string, std::size_t> known;
+  for (const glm::vec3& position : mesh.positions)
+    for (const json& coordinate : place(origin + glm::dvec3(position))) vertices.push_back(coordinate);
+  for (const std::array<std::uint32_t, 3>& triangle : mesh.triangles) {
+    glm::vec3 sum(0.0f);
+    for (const std::uint32_t corner : triangle) {
+      indices.push_back(corner);
+      sum += mesh.colors[corner];
+    }
+    const auto [group, is_new] = known.try_emplace(word_of(sum / 3.0f), known.size());
+    if (is_new) colors[std::to_string(group->second)] = group->first;
+    groups.push_back(group->second);
+  }
+  return node("primitive", {{"kind", "mesh"},
+                            {"vertices", std::move(vertices)},
+                            {"indices", std::move(indices)},
+                            {"triangle_groups", std::move(groups)},
+                            {"group_colors", std::move(colors)}});
+}
+
+/// x -> R x + t of coordinates that count from the origin, of those of the molecule; columns one after the other.
+json matrix_of(const RigidMotion& copy, const glm::dvec3& origin) {
+  const glm::dvec3 shift = copy.translation + origin - copy.rotation * origin;
+  json matrix = json::array();
+  for (int column = 0; column < 3; ++column) {
+    for (int row = 0; row < 3; ++row) matrix.push_back(copy.rotation[column][row]);
+    matrix.push_back(0);
+  }
+  for (int row = 0; row < 3; ++row) matrix.push_back(shift[row]);
+  matrix.push_back(1);
+  return matrix;
+}
+
+/// What has one opacity is one node, for nodes have it, not what is in them.
+std::vector<json> nodes_of(const path_tracers::SceneItem& item, const glm::dvec3& origin) {
+  std::map<float, json, std::greater<>> parts;
+  const auto part = [&](float opacity) -> json& { return parts.try_emplace(opacity, json::array()).first->second; };
+  for (const path_tracers::SceneMesh& mesh : item.meshes)
+    if (!mesh.triangles.empty()) part(mesh.opacity).push_back(mesh_node(mesh, origin));
+  for (const path_tracers::SceneSphere& sphere : item.spheres)
+    part(sphere.paint.opacity)
+        .push_back(node("primitive", {{"kind", "ellipsoid"},
+                                      {"center", place(origin + sphere.center)},
+                                      {"radius", rounded(sphere.radius)},
+                                      {"color", word_of(sphere.paint.color)}}));
+  for (const path_tracers::SceneCylinder& cylinder : item.cylinders)
+    part(cylinder.paint.opacity)
+        .push_back(node("primitive", {{"kind", "tube"},
+                                      {"start", place(origin + cylinder.from)},
+                                      {"end", place(origin + cylinder.to)},
+                                      {"radius", rounded(cylinder.radius)},
+                                      {"color", word_of(cylinder.paint.color)}}));
+  std::vector<json> nodes;
+  for (auto& [opacity, primitives] : parts) {
+    json group = node("primitives", {{"opacity", opacity}});
+    if (!item.stands_once()) {
+      json instances = json::array();
+      for (const RigidMotion& copy : item.copies) instances.push_back(matrix_of(copy, origin));
+      group["params"]["instances"] = std::move(instances);
+    }
+    group["children"] = std::move(primitives);
+    nodes.push_back(std::move(group));
+  }
+  return nodes;
+}
+
+/// Its position is that of a viewer whose picture shows as much at the target whatever its angle is: viewers multiply
+/// the distance by 1 / (2 sin(fov / 2)) in perspective, and there is no word for the projection.
+json camera_node(const Camera& camera) {
+  const double half_angle = 0.5 * camera.vertical_fov * std::numbers::pi / 180.0;
+  const glm::dvec3 reach = camera.position - camera.target;
+  const double distance =
+      camera.projection == Projection::perspective ? 2.0 * std::sin(half_angle) * glm::length(reach) : camera.height;
+  return node("camera", {{"target", place(camera.target)},
+                         {"position", place(camera.target + distance * glm::normalize(reach))},
+                         {"up", place(view_basis(camera).up)}});
+}
+
+std::string timestamp() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(source_date())); }
+
+}  // namespace
+
+json tree_of(const path_tracers::Scene& scene) {
+  json children = json::array({node("canvas", {{"background_color", "white"}}), camera_node(scene.camera)});
+  for (const path_tracers::SceneItem& item : scene.items)
+    for (json& group : nodes_of(item, scene.origin)) children.push_back(std::move(group));
+  return {{"kind", "root"}, {"children", std::move(children)}};
+}
+
+std::vector<std::byte> mvsx_archive(std::span<const State> states, const std::string& title, int milliseconds) {
+  json whole{{"metadata", {{"title", title}, {"version", "1"}, {"timestamp", timestamp()}}}};
+  if (states.size() == 1) {
+    whole["kind"] = "single";
+    whole["root"] = states.front().root;
+  } else {
+    whole["kind"] = "multiple";
+    json snapshots = json::array();
+    for (std::size_t n = 0; n < states.size(); ++n)
+      snapshots.push_back({{"root", states[n].root},
+                           {"metadata",
+                            {{"title", states[n].title},
+                             {"key", fmt::format("frame_{}", n + 1)},
+                             {"linger_duration_ms", milliseconds},
+                             {"transition_duration_ms", 0}}}});
+    whole["snapshots"] = std::move(snapshots);
+  }
+  ZipArchive archive;
+  archive.add_deflated("index.mvsj", whole.dump(-1, ' ', false, json::error_handler_t::replace));
+  return archive.finish();
+}
+
+}  // namespace meniscus::mvs
