@@ -76,7 +76,7 @@ std::optional<std::array<double, 2>> measured_range(Scene& scene, ShownFrames& f
 /// That of --legend-file, which is the same for all frames.
 std::optional<Legend> legend_of(const Scene& scene, const FrameRun& frames) {
   if (scene.legend.file.empty()) return {};
-  const ColorKey key = color_key(frames.reach(), color_of(scene.molecule), {});
+  const ColorKey key = color_key(numbered_reach(frames), color_of(scene.molecule), {});
   return Legend(key, scene.picture.size(), legend_style(scene.legend.style, scene.annotations.letters));
 }
 
