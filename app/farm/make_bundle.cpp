@@ -12,14 +12,12 @@
 #include <fmt/format.h>
 
 #include "app/farm/blender_driver.h"
-#include "app/farm/bundled_steps.h"
 #include "app/farm/check_bundle.h"
 #include "app/farm/child_process.h"
 #include "app/farm/command_options.h"
 #include "app/farm/frame_record.h"
 #include "app/farm/inner_path.h"
 #include "app/farm/quote.h"
-#include "app/farm/read_bundle.h"
 #include "app/farm/worker.h"
 #include "app/film/film.h"
 #include "app/options/scene_words.h"
