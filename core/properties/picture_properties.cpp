@@ -123,8 +123,8 @@ constexpr auto kTable = of_commands(
             .in_short_help()
             .of(for_render | for_film),
         flag("picture.resume", "--resume",
-             "Keep the pictures of this run that are there, and make the rest. Give it from the start: pictures then "
-             "say of what they were made")
+             "Keep the picture, or those of a run, if they are there, and make the rest. Give it from the start: "
+             "pictures then say of what they were made")
             .in(kFramesOfPicture)
             .of(for_render),
         flag("picture.provenance", "--provenance", "Store the command line in the picture (.png, .tif, .jpg, .exr)")
