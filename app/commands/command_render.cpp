@@ -147,7 +147,7 @@ void render_figures(const RenderCommand& command) {
   sink.finish();
   if (layout.legend_apart)
     write_legend_picture(command.scene.legend.file, *layout.legend_apart, image_settings(command));
-  save_camera(command, run.camera(0));
+  run.save_cameras();
   if (!run.is_run()) say_times(command, device.renderer().device(), device.renderer().times());
 }
 

@@ -85,7 +85,7 @@ void export_to_blender(const SceneCommand& asked) {
     sequence->written = write_manifest(scene.output, command.existing(), sequence->manifest);
   }
   const std::size_t frames = sequence ? run.frames().chunk().size() : 0;
-  if (sequence) save_camera(command, run.camera(0));
+  if (sequence) run.save_cameras();
   std::once_flag told, warned, told_size;
   const auto make = [&](FigureFrame frame) -> FinishFrame {
     Molecule& molecule = frame.figure.molecule;
@@ -121,7 +121,7 @@ void export_to_blender(const SceneCommand& asked) {
     return [path] { return MadeFrame{{path}}; };
   };
   run.make({kMeshBytesPerAtom}, [&]() -> FigureRun::Sink { return make; });
-  if (!sequence) save_camera(command, run.camera(0));
+  if (!sequence) run.save_cameras();
   std::cout << escaped(sequence ? sequence->written.string() : scene.output) << "\n";
 }
 

@@ -74,7 +74,7 @@ void run(const SceneCommand& asked) {
   if (static_cast<double>(archive.size()) > kManyBytes)
     say(command, fmt::format("warning: {} bytes, all of which viewers load; a larger --tolerance makes fewer triangles",
                              with_thousands(archive.size())));
-  save_camera(command, run.camera(0));
+  run.save_cameras();
   std::cout << escaped(command.scene.output) << "\n";
 }
 

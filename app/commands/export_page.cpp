@@ -23,6 +23,8 @@
 #include "core/image/image_codec.h"
 #include "core/render/look.h"
 #include "core/render/picture.h"
+#include "core/scene/annotations.h"
+#include "core/scene/molecule.h"
 #include "exporters/page/page_file.h"
 #include "exporters/page/scene_page.h"
 
@@ -30,6 +32,7 @@ namespace meniscus {
 namespace {
 
 constexpr double kManyBytes = 15e6;
+constexpr std::size_t kMostBytes = 250'000'000;  // a browser's text has no more than 2^29 letters
 
 struct PageCommand : SceneCommand {
   std::vector<std::string> named_views;
@@ -55,15 +58,12 @@ page::StillPicture jpeg_still(const Framebuffer& drawn, const Look& look) {
   return {"image/jpeg", encoder->finish()};
 }
 
-/// What the scene file says and the page does not show, in a sentence. Throws UsageError for frames.
+/// What the scene file says and the page does not show, in a sentence.
 void tell_left_out(const SceneCommand& command, std::span<const std::string> keys) {
   std::string names;
   for (const std::string& key : keys) {
-    if (key.starts_with("frames."))
-      throw UsageError(
-          fmt::format("{}: a page shows one molecule, not a run of frames; leave it out of the scene", key));
     const bool is_seen = key.starts_with("annotations.") || key.starts_with("look.") || key.starts_with("camera.") ||
-                         (key.starts_with("legend.") && key != "legend.shown");
+                         key == "frames.motion_blur" || (key.starts_with("legend.") && key != "legend.shown");
     if (is_seen) names += (names.empty() ? "" : ", ") + key;
   }
   if (!names.empty()) say(command, "note: the page does not show what the scene says of " + names);
@@ -77,36 +77,91 @@ page::StillPicture still_picture(const Framebuffer& drawn, const Look& look) {
   }
 }
 
-void write_page(const SceneCommand& command, const NamedViews& views, FigureFrame frame) {
-  const Scene& scene = command.scene;
-  std::vector<page::PageView> aimed = views.aimed(scene, frame.figure);
-  const std::string text =
-      page::scene_page(scene, std::move(frame.figure), frame.camera, std::move(aimed), still_picture);
-  OutputFile file(scene.output, command.existing());
-  file.write(text);
-  file.commit();
-  say(command, fmt::format("{} bytes", with_thousands(text.size())));
-  if (static_cast<double>(text.size()) > kManyBytes)
-    say(command, "warning: readers load all of it; --show or --select make a smaller page");
-}
+/// The page of a run, or of the one frame that a molecule is.
+class PageRun {
+ public:
+  PageRun(FigureRun& run, const NamedViews& views) : run_(run), views_(views) {
+    common_.key = run.key();
+    common_.others = page::other_colors(run.reach(), color_of(run.scene().molecule),
+                                        [&](ColorScheme& scheme) { run.measure(scheme); });
+    if (!run.is_run()) return;
+    frame_count_ = run.frames().numbers().size();
+    common_.origin = run.framing().origin();
+    common_.facts = {{"Frames", with_thousands(frame_count_)}};
+    longest_ = run.frames().last_time().value_or(0.0);
+  }
+
+  /// On any thread.
+  FinishFrame take(FigureFrame frame) {
+    page::SceneFrame shown = common_;
+    shown.camera = frame.camera;
+    shown.views = views_.of(run_.scene(), frame.figure);
+    if (run_.is_run()) shown.moment = time_text(frame.time, frame.number, longest_);
+    auto packed = std::make_shared<page::PackedFrame>(page::scene_frame(
+        run_.scene(), std::move(frame.figure), shown, frame.place == 0 ? still_picture : page::EncodeStill()));
+    return [this, packed] { return add(std::move(*packed)); };
+  }
+
+ private:
+  /// In the order of the run. The last one writes the page: there is none where a frame failed.
+  MadeFrame add(page::PackedFrame frame) {
+    const std::size_t before = page_.bytes();
+    page_.add(std::move(frame));
+    if (page_.frame_count() == 2) tell_size(before);
+    if (page_.frame_count() < frame_count_) return {};
+    const std::string text = page_.text();
+    check_size(text.size());
+    OutputFile file(run_.scene().output, run_.command().existing());
+    file.write(text);
+    file.commit();
+    say(run_.command(), fmt::format("{} bytes", with_thousands(text.size())));
+    if (static_cast<double>(text.size()) > kManyBytes)
+      say(run_.command(), "warning: readers load all of it; --show or --select make a smaller page" +
+                              std::string(run_.is_run() ? ", and so do fewer frames (--stride)" : ""));
+    return {{run_.scene().output}};
+  }
+
+  /// Before the others are made. of_first: bytes of the page with the first alone.
+  void tell_size(std::size_t of_first) const {
+    const std::size_t all = of_first + (frame_count_ - 1) * (page_.bytes() - of_first);
+    say(run_.command(),
+        fmt::format("note: {} frames come to about {} bytes", with_thousands(frame_count_), with_thousands(all)));
+    check_size(all);
+  }
+
+  void check_size(std::size_t bytes) const {
+    if (bytes <= kMostBytes) return;
+    const std::string fewer =
+        run_.is_run() ? fmt::format("choose fewer frames (--stride {}), or ", (bytes + kMostBytes - 1) / kMostBytes)
+                      : std::string();
+    throw UsageError(
+        fmt::format("the page would have about {} bytes, and browsers open no more than {}; {}show fewer "
+                    "atoms (--show, --select)",
+                    with_thousands(bytes), with_thousands(kMostBytes), fewer));
+  }
+
+  FigureRun& run_;
+  const NamedViews& views_;
+  page::SceneFrame common_;
+  page::PageWriter page_;
+  std::size_t frame_count_ = 1;
+  double longest_ = 0.0;  // ps
+};
 
 void export_page(const PageCommand& asked, std::span<const std::string> left_out, bool trusts_scenes) {
   page::check_scene(asked.scene);
   tell_left_out(asked, left_out);
   check_output(asked.scene.output, asked.existing());
   check_saved_camera(asked);
-  const NamedViews views(asked.named_views, asked, trusts_scenes);
+  NamedViews views(asked.named_views, asked, trusts_scenes);
   FigureRun run(asked);
-  run.aim(asked.scene.picture, false);
-  const SceneCommand& command = run.command();
-  run.make({kSurfaceBytesPerAtom}, [&]() -> FigureRun::Sink {
-    return [&](FigureFrame frame) -> FinishFrame {
-      write_page(command, views, std::move(frame));
-      return [] { return MadeFrame{}; };
-    };
-  });
-  save_camera(command, run.camera(0));
-  std::cout << escaped(command.scene.output) << "\n";
+  run.aim(asked.scene.picture, true);
+  views.aim(run);
+  PageRun page(run, views);
+  run.make({kSurfaceBytesPerAtom},
+           [&]() -> FigureRun::Sink { return [&page](FigureFrame frame) { return page.take(std::move(frame)); }; });
+  run.save_cameras();
+  std::cout << escaped(run.scene().output) << "\n";
 }
 
 }  // namespace
@@ -117,9 +172,10 @@ void add_export_page(CLI::App& command) {
       "  meniscus export page 1tii.pdb -o 1tii.html              then open it in a browser\n"
       "  meniscus export page 1tii.pdb -o 1tii.html --color chain --sticks ligand\n"
       "  meniscus export page --scene fig.json -o fig.html\n"
+      "  meniscus export page adk.psf adk.dcd --frames all --stride 10 -o adk.html     with a slider\n"
       "  meniscus export page 1tii.pdb -o 1tii.html --named-view 'Active site=site.json' --named-view Back=back.png",
       "The page fetches nothing, and casts the exact patches by WebGL 2 in the browser that opens it. Others "
-      "see\na still picture that is in it.");
+      "see\na still picture that is in it. Frames of a run are all in the page, each with its own patches.");
   auto declared = std::make_shared<DeclaredCommand<PageCommand>>(command, for_page);
   PropertyOptions(command).add("camera.named_views", declared->state.named_views);
   declared->options.describe_output("HTML file to write");

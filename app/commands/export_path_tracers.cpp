@@ -68,7 +68,7 @@ void run(const PathTracerCommand& command) {
   FigureRun run(command);
   run.aim(command.scene.picture, true);
   const Scene& asked = run.scene();
-  if (run.is_run()) save_camera(command, run.camera(0));
+  if (run.is_run()) run.save_cameras();
   const auto make = [&](FigureFrame frame) -> FinishFrame {
     const std::uint64_t number = frame.number;
     auto [scene, tolerance] = traced_scene(run, std::move(frame));
@@ -83,7 +83,7 @@ void run(const PathTracerCommand& command) {
   run.make({kMeshBytesPerAtom}, [&]() -> FigureRun::Sink { return make; });
   if (std::ranges::any_of(asked.figure.objects, [](const auto& object) { return !object.material.empty(); }))
     say(command, "note: materials of --object are those of render; here they are all --material");
-  if (!run.is_run()) save_camera(command, run.camera(0));
+  if (!run.is_run()) run.save_cameras();
   std::cout << escaped(render_command(command, run.is_run())) << "\n";
 }
 

@@ -71,6 +71,7 @@ povray::SequenceScene sequence_of(FigureRun& run, povray::SceneOptions options) 
   shared.caps = shared.surface && !figure.cuts.empty();
   shared.translucent = std::ranges::any_of(scheme.opacities, sees_through);
   shared.map = scheme.volume;
+  shared.maps_change = scheme.by == ColorScheme::By::lipophilicity;
   for (const FigureObjectRequest& object : figure.objects) {
     shared.objects.push_back({!object.shapes, false});
     if (!object.material.empty()) shared.materials.push_back(object.material);
@@ -112,7 +113,7 @@ void export_to_povray(const SceneCommand& command) {
     sequence.emplace(sequence_of(run, options));
     render_command = sequence->write_shared().command;
   }
-  save_camera(command, run.camera(0));
+  run.save_cameras();
   bool noted = false;
   const auto finish = [&](const povray::SceneReport& report, std::uint64_t number) {
     if (!sequence) {

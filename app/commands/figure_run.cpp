@@ -27,6 +27,14 @@ SceneCommand ready(const SceneCommand& command) {
   return made;
 }
 
+/// In the order of the frames' numbers, which a run may have in any order.
+std::vector<CameraKey> keys_of(std::span<const Camera> cameras, std::span<const std::uint64_t> frames) {
+  std::vector<CameraKey> keys;
+  for (std::size_t n = 0; n < frames.size(); ++n) keys.push_back({static_cast<double>(frames[n]), cameras[n]});
+  std::ranges::sort(keys, {}, &CameraKey::frame);
+  return keys;
+}
+
 }  // namespace
 
 FigureRun::FigureRun(const SceneCommand& command, bool velocities)
@@ -80,6 +88,21 @@ void FigureRun::tell_idle_cuts() const {
     say(command_, fmt::format("note: --clip {}, in the first frame of the run", sentence));
 }
 
+void FigureRun::save_cameras() const {
+  meniscus::save_cameras(command_, framing_.cameras,
+                         frames_ ? std::span(frames_->numbers()) : std::span<const std::uint64_t>());
+}
+
+Camera FigureRun::camera_for(const ViewRequest& picture, const std::optional<Camera>& given) {
+  if (frames_) return run_cameras(picture, {}, {given, std::nullopt}, *shown_).front();
+  const ViewAim aim(picture, scene().molecule.show, figure_->molecule.structure);
+  return aim.camera(picture, given, figure_->molecule.objects);
+}
+
+void FigureRun::measure(ColorScheme& color) {
+  if (frames_) measure_colors(color, *shown_);
+}
+
 ColorKey FigureRun::key() const {
   return frames_ ? color_key(frames_->reach(), color_of(scene().molecule), {}) : key_of(figure_->molecule);
 }
@@ -125,14 +148,13 @@ void check_caps_of_map(const Scene& scene, std::string_view reason) {
 
 void check_saved_camera(const SceneCommand& command) {
   if (!command.save_camera.empty()) check_output(command.save_camera, command.existing());
-  if (!command.save_camera.empty() && command.scene.frames.asked() && command.scene.run_camera.moves())
-    throw UsageError("--save-camera: the camera of this run moves; leave it out");
 }
 
-void save_camera(const SceneCommand& command, const Camera& camera) {
+void save_cameras(const SceneCommand& command, std::span<const Camera> cameras, std::span<const std::uint64_t> frames) {
   if (command.save_camera.empty()) return;
   OutputFile file(command.save_camera, command.existing());
-  file.write(camera_json(camera));
+  const bool moves = command.scene.run_camera.moves() && !frames.empty();
+  file.write(moves ? camera_path_json(keys_of(cameras, frames)) : camera_json(cameras.front()));
   file.commit();
 }
 

@@ -56,6 +56,11 @@ class FigureRun {
   /// has the box around all frames. Throws as run_cameras does.
   void aim(const ViewRequest& picture, bool extent);
 
+  /// The camera for another picture of the same, of a run for all its frames. given: by a file. Throws as aim().
+  Camera camera_for(const ViewRequest& picture, const std::optional<Camera>& given);
+  /// Takes from all frames what the colours of a scheme mean in each; of one molecule nothing changes.
+  void measure(ColorScheme& color);
+
   bool is_run() const { return frames_ != nullptr; }
   /// The command with its selections settled, the atoms beside the surface asked for, and colours measured.
   const SceneCommand& command() const { return command_; }
@@ -64,10 +69,14 @@ class FigureRun {
   FrameRun& frames() { return *frames_; }
   const RunFraming& framing() const { return framing_; }
   const Camera& camera(std::uint64_t place) const { return framing_.cameras[framing_.cameras.size() == 1 ? 0 : place]; }
+  /// --save-camera, once they are found. Throws OutputError.
+  void save_cameras() const;
   /// Of one molecule: must be.
   const Figure& figure() const { return *figure_; }
   /// Of the molecule, or at the first frame of the run; as it is shown.
   const Structure& structure() const { return frames_ ? shown_->first_shown() : figure_->molecule.structure; }
+  /// With all atoms that any frame may have.
+  const Structure& reach() const { return frames_ ? frames_->reach() : figure_->molecule.structure; }
   /// What the colours of all figures mean.
   ColorKey key() const;
 
@@ -98,12 +107,12 @@ void settle_copies(std::vector<SurfaceObject>& objects);
 /// Throws UsageError if caps would have to show values of a map, which the files do not hold. reason: that sentence.
 void check_caps_of_map(const Scene& scene, std::string_view reason);
 
-/// Before anything is computed. Throws UsageError for a camera that moves, OutputError for a file that cannot be
-/// written.
+/// Before anything is computed. Throws OutputError if the file of --save-camera cannot be written.
 void check_saved_camera(const SceneCommand& command);
 
-/// --save-camera: writes the camera, if a path is given. Throws OutputError.
-void save_camera(const SceneCommand& command, const Camera& camera);
+/// --save-camera: writes the camera, or where it moves those of all frames as the keys of a path. frames: their
+/// numbers; none of one molecule. Throws OutputError.
+void save_cameras(const SceneCommand& command, std::span<const Camera> cameras, std::span<const std::uint64_t> frames);
 
 /// As run_frames takes them.
 MadeFrame made_frame(std::span<const std::filesystem::path> files);

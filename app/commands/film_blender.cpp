@@ -46,23 +46,21 @@ void check(Storyboard& storyboard) {
   }
 }
 
-void tell_what_blender_leaves_out(Storyboard& storyboard) {
-  const FilmCommand& command = storyboard.command();
+std::vector<std::string> left_out_of_blender(Storyboard& storyboard) {
+  std::vector<std::string> sentences;
+  const double probe = storyboard.scene(0).run.scene().molecule.surface.probe_radius;
   if (storyboard.leaves_writing_out())
-    say(command,
-        "note: titles, labels, legends, scale bars and the like are left out: Blender gets the molecule; "
-        "titles name the markers of its timeline");
-  bool cuts = false, probes = false;
-  for (std::size_t n = 0; n < storyboard.size(); ++n) {
-    const Scene &scene = storyboard.scene(n).run.scene(), &first = storyboard.scene(0).run.scene();
-    cuts = cuts || !scene.figure.cuts.empty();
-    probes = probes || scene.molecule.surface.probe_radius != first.molecule.surface.probe_radius;
-  }
+    sentences.emplace_back(
+        "titles, labels, legends, scale bars and the like are left out: Blender gets the molecule; titles name the "
+        "markers of its timeline");
+  const bool cuts = storyboard.any([](const Scene& scene) { return !scene.figure.cuts.empty(); });
+  const bool probes = storyboard.any([&](const Scene& scene) { return scene.molecule.surface.probe_radius != probe; });
   if (cuts || probes)
-    say(command, fmt::format("note: {} not move in Blender: the surface of each scene is a mesh, and they fade",
-                             cuts && probes ? "cut planes and the probe's radius do"
-                             : cuts         ? "cut planes do"
-                                            : "the probe's radius does"));
+    sentences.push_back(fmt::format("{} not move in Blender: the surface of each scene is a mesh, and they fade",
+                                    cuts && probes ? "cut planes and the probe's radius do"
+                                    : cuts         ? "cut planes do"
+                                                   : "the probe's radius does"));
+  return sentences;
 }
 
 class BlenderFilm {
@@ -74,7 +72,7 @@ class BlenderFilm {
         progress_(progress_on_stderr(command_), "film", storyboard.size()) {}
 
   void write() {
-    tell_what_blender_leaves_out(storyboard_);
+    storyboard_.tell_left_out(left_out_of_blender(storyboard_));
     story_.is_smooth = command_.pace == Pace::smooth;
     story_.fps = command_.scene.film.frames_per_second;
     std::uint64_t frame = 1;

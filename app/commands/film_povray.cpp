@@ -54,10 +54,10 @@ povray::Run shared_by(Storyboard& storyboard) {
     FilmScene& scene = storyboard.scene(n);
     const Scene& asked = scene.run.scene();
     check_povray(asked);
-    if (const auto map = map_of(scene)) {
-      if (all.map)
-        throw UsageError("--to povray: two of the scenes are coloured by a map; scenes for POV-Ray can have one");
-      all.map = map;
+    if (scene.run.is_run() && asked.molecule.color.by == ColorScheme::By::lipophilicity) all.maps_change = true;
+    if (auto map = map_of(scene)) {
+      if (all.map) all.maps_change = true;
+      all.map = std::move(map);
     }
     const Box box = extent_of(scene);
     all.extent.include(box.low);
@@ -72,6 +72,7 @@ povray::Run shared_by(Storyboard& storyboard) {
       all.translucent = all.translucent || sees_through(object.opacities);
     }
   }
+  if (all.maps_change) all.map.reset();
   return all;
 }
 
@@ -93,22 +94,18 @@ std::string changes_left_out(Storyboard& storyboard) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-void tell_what_is_left_out(Storyboard& storyboard) {
-  const FilmCommand& command = storyboard.command();
-  const auto any = [&](const auto& has) {
-    for (std::size_t n = 0; n < storyboard.size(); ++n)
-      if (has(storyboard.scene(n).run.scene())) return true;
-    return false;
-  };
+std::vector<std::string> left_out_of_povray(Storyboard& storyboard) {
+  std::vector<std::string> sentences;
   const std::string& material = storyboard.scene(0).run.scene().renderer.material;
   if (storyboard.leaves_writing_out())
-    say(command, "note: titles, labels, legends and the like are left out: POV-Ray's scenes hold the molecule");
-  if (any([](const Scene& scene) { return scene.image.motion_blur > 1; }))
-    say(command, "note: --motion-blur is left out");
-  if (any([&](const Scene& scene) { return scene.renderer.material != material; }))
-    say(command, "note: --material is that of the first scene, for all");
+    sentences.emplace_back("titles, labels, legends and the like are left out: POV-Ray's scenes hold the molecule");
+  if (storyboard.any([](const Scene& scene) { return scene.image.motion_blur > 1; }))
+    sentences.emplace_back("--motion-blur is left out");
+  if (storyboard.any([&](const Scene& scene) { return scene.renderer.material != material; }))
+    sentences.emplace_back("--material is that of the first scene, for all");
   if (const std::string names = changes_left_out(storyboard); !names.empty())
-    say(command, "note: POV-Ray's light is its own; these differ in the scenes, and change nothing: " + names);
+    sentences.push_back("POV-Ray's light is its own; these differ in the scenes, and change nothing: " + names);
+  return sentences;
 }
 
 /// What stands beside the surface in any scene: nothing, where it is not that of `figure`.
@@ -137,7 +134,7 @@ class PovrayFilm : public FilmMaker {
 
   void make() {
     const FilmCommand& command = storyboard_.command();
-    tell_what_is_left_out(storyboard_);
+    storyboard_.tell_left_out(left_out_of_povray(storyboard_));
     storyboard_.play(*this, nullptr, 0);
     film_.rate = command.scene.film.frames_per_second;
     const povray::SceneReport report = sequence_.write_shared(&film_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads named views from cameras and scenes, and aims them at the molecule of a page.
+// Reads named views from cameras and scenes, and aims them at what a page shows.
 #include "app/commands/page_views.h"
 
 #include <algorithm>
@@ -19,7 +19,6 @@
 #include "core/image/png_file.h"
 #include "core/scene/cut.h"
 #include "core/scene/scene_values.h"
-#include "core/scene/view_aim.h"
 
 namespace meniscus {
 namespace {
@@ -35,6 +34,16 @@ bool is_scene(const std::string& file) {
 float opacity_of(const Scene& scene) {
   const std::vector<OpacityRule>& rules = scene.molecule.color.opacities;
   return rules.size() == 1 && !rules.front().atoms ? rules.front().opacity : 1.0f;
+}
+
+/// Says of which view an error is.
+template <typename Work>
+void named(const std::string& name, const Work& work) {
+  try {
+    work();
+  } catch (const RequestError& error) {
+    throw RequestError(fmt::format("--named-view {}: {}", in_quotes(name), error.what()));
+  }
 }
 
 }  // namespace
@@ -68,24 +77,24 @@ NamedViews::NamedViews(const std::vector<std::string>& texts, const SceneCommand
   }
 }
 
-std::vector<page::PageView> NamedViews::aimed(const Scene& page, const Figure& figure) const {
-  std::vector<page::PageView> aimed;
-  const Structure& structure = figure.molecule.structure;
+void NamedViews::aim(FigureRun& run) {
+  for (View& view : views_) named(view.name, [&] { view.camera = run.camera_for(view.scene.picture, view.camera); });
+}
+
+std::vector<page::PageView> NamedViews::of(const Scene& page, const Figure& figure) const {
+  std::vector<page::PageView> shown;
   for (const View& view : views_) {
-    try {
-      const ViewAim aim(view.scene.picture, page.molecule.show, structure);
-      const Camera camera = aim.camera(view.scene.picture, view.camera, figure.molecule.objects);
-      page::PageView& made = aimed.emplace_back(page::PageView{view.name, camera});
-      if (page.figure.hides_surface) continue;
-      made.clip = surface_planes(view.scene.figure, cut_atoms(view.scene.figure.cuts, structure), camera,
-                                 figure.molecule.objects);
-      made.opacity = opacity_of(view.scene);
-      made.looks_inside = uses_atoms(view.scene.figure.cuts);
-    } catch (const RequestError& error) {
-      throw RequestError(fmt::format("--named-view {}: {}", in_quotes(view.name), error.what()));
-    }
+    page::PageView& made = shown.emplace_back(page::PageView{view.name, view.camera.value()});
+    if (page.figure.hides_surface) continue;
+    const FigureRequest& asked = view.scene.figure;
+    named(view.name, [&] {
+      made.clip =
+          surface_planes(asked, cut_atoms(asked.cuts, figure.molecule.structure), made.camera, figure.molecule.objects);
+    });
+    made.opacity = opacity_of(view.scene);
+    made.looks_inside = uses_atoms(asked.cuts);
   }
-  return aimed;
+  return shown;
 }
 
 }  // namespace meniscus

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/commands/figure_run.h"
 #include "app/options/scene_options.h"
 #include "core/camera/camera.h"
 #include "core/scene/figure.h"
@@ -21,14 +22,16 @@ class NamedViews {
   /// reading them throws.
   NamedViews(const std::vector<std::string>& texts, const SceneCommand& page, bool trusts_scenes);
 
-  /// Aimed at the molecule of the page; figure: with its objects. Throws as ViewAim and cut_atoms() do, the view named.
-  std::vector<page::PageView> aimed(const Scene& page, const Figure& figure) const;
+  /// Finds their cameras. Throws as FigureRun::camera_for(), the view named.
+  void aim(FigureRun& run);
+  /// As they show a figure, with its objects. Throws as cut_atoms() does, the view named. After aim().
+  std::vector<page::PageView> of(const Scene& page, const Figure& figure) const;
 
  private:
   struct View {
     std::string name;
-    Scene scene;  ///< with the page's size
-    std::optional<Camera> camera;
+    Scene scene;                   ///< with the page's size
+    std::optional<Camera> camera;  ///< by a file, until it is aimed
   };
   std::vector<View> views_;
 };

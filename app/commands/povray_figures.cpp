@@ -29,10 +29,6 @@ povray::SceneOptions povray_options(const Scene& scene, Existing existing) {
 void check_povray(const Scene& scene) {
   if (scene.figure.thickens && scene.molecule.volume_offset != 0.0)
     throw UsageError("--map-offset: scenes for POV-Ray cannot combine it with --film-opacity; leave one of them out");
-  if (scene.molecule.color.by == ColorScheme::By::lipophilicity && scene.frames.asked())
-    throw UsageError(
-        "--color lipophilicity: scenes of a run share one map, but each frame has a potential of its own; use render "
-        "or export blender");
 }
 
 std::vector<povray::SceneObject> povray_objects(const Figure& figure, const FigureRequest& request,

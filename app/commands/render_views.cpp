@@ -186,7 +186,7 @@ void render_views(const RenderCommand& asked) {
   sink.finish();
   tell_grown_radii(command, grown_by);
   if (layout.legend_apart) write_legend_picture(scene.legend.file, *layout.legend_apart, image_settings(asked));
-  save_camera(command, cameras.front());
+  save_cameras(command, cameras, viewed.run ? std::span(viewed.run->numbers()) : std::span<const std::uint64_t>());
   if (viewed.run) return;
   if (command.stats) fmt::print(std::cerr, "{}", stats());
   say_times(command, gl_words(context), renderer.times());

@@ -11,6 +11,7 @@
 
 #include "app/commands/scene_files.h"
 #include "app/process/program_error.h"
+#include "app/reports/notes.h"
 #include "core/base/parse_number.h"
 #include "core/base/text.h"
 
@@ -104,6 +105,14 @@ std::uint64_t Storyboard::pictures() const {
   for (std::size_t n = 0; n < scenes_.size(); ++n) pictures += scenes_[n]->pictures(timing_.held[n]);
   for (const std::uint64_t between : timing_.between) pictures += between;
   return pictures;
+}
+
+bool Storyboard::any(const std::function<bool(const Scene&)>& is_true) const {
+  return std::ranges::any_of(scenes_, [&](const auto& scene) { return is_true(scene->run.scene()); });
+}
+
+void Storyboard::tell_left_out(const std::vector<std::string>& sentences) const {
+  for (const std::string& sentence : sentences) say(command_, "note: " + sentence);
 }
 
 void Storyboard::play(FilmMaker& maker, const EglContext* context, std::uint64_t bytes_per_pixel) {

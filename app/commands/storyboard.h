@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -73,6 +74,10 @@ class Storyboard {
   const std::string& title(std::size_t n) const { return titles_[n]; }
   /// Whether titles, labels, legends and the like were taken out of scenes.
   bool leaves_writing_out() const { return leaves_writing_out_; }
+  /// Is there a scene of which this is true?
+  bool any(const std::function<bool(const Scene&)>& is_true) const;
+  /// Says what another renderer leaves out, a note each.
+  void tell_left_out(const std::vector<std::string>& sentences) const;
 
   /// Hands all shots and transitions to the maker in the order of the film, once. context: in which surfaces are
   /// computed; nullptr: on the CPU. bytes_per_pixel: what a frame takes until it is finished.

@@ -347,11 +347,14 @@ void copy_checked_scene(const fs::path& folder, std::uint64_t frame, const fs::p
   copy(kSettings, wrong_in_settings);
   for (const char* shared : kShared) copy(shared, wrong_in_scene);
   for (const std::string& include : includes_of(folder, frame)) copy(include, wrong_in_scene);
-  // Density files hold numbers, whatever is in them.
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder / scene))
-    if (entry.path().extension() == ".df3")
-      if (const std::optional<std::string> bytes = inner_text(folder, scene / entry.path().filename(), kMostBytes))
-        write_bytes(to / entry.path().filename(), *bytes);
+  // Density files hold numbers, whatever is in them. Other frames may have maps of their own.
+  const std::string own_map = fmt::format("surface_map_{}.df3", frame_digits(frame));
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / scene)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.ends_with(".df3") || (name.starts_with("surface_map_") && name != own_map)) continue;
+    if (const std::optional<std::string> bytes = inner_text(folder, scene / name, kMostBytes))
+      write_bytes(to / name, *bytes);
+  }
 }
 
 }  // namespace meniscus::farm

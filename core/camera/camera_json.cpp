@@ -110,14 +110,6 @@ Camera parse_camera(std::string_view text, const std::string& file) {
   return camera;
 }
 
-Camera read_camera(const std::string& file) {
-  std::ifstream stream(path_of_text(file), std::ios::binary);
-  if (!stream) throw InputError(file, 0, "camera: the file cannot be opened");
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (stream.bad()) throw InputError(file, 0, "camera: the file cannot be read");
-  return parse_camera(text, file);
-}
-
 nlohmann::ordered_json camera_object(const Camera& camera) {
   Json json;
   json["position"] = to_json(camera.position);

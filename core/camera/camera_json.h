@@ -17,9 +17,6 @@ namespace meniscus {
 /// impossible (position equal to target, up parallel to the view, angle not inside (0, 180), height not positive).
 Camera parse_camera(std::string_view json, const std::string& file);
 
-/// parse_camera on the content of a file. Throws InputError.
-Camera read_camera(const std::string& file);
-
 /// The inverse of parse_camera: every number survives exactly. Ends with a newline.
 std::string camera_json(const Camera& camera);
 /// The same as an object.

@@ -105,12 +105,26 @@ std::array<glm::dvec3, 3> MeshDistance::corners(std::uint32_t triangle) const {
   return {positions_[a], positions_[b], positions_[c]};
 }
 
+double MeshDistance::to_triangle(const glm::dvec3& x, std::uint32_t triangle) const {
+  return glm::distance(x, nearest_point(corners(triangle), x));
+}
+
 NearestTriangle MeshDistance::operator()(const glm::dvec3& x, double limit) const {
   NearestTriangle found{static_cast<std::uint32_t>(triangles_.size()), limit};
   tree_.nearest(x, limit, [&](std::uint32_t t, double) {
-    const double distance = glm::distance(x, nearest_point(corners(t), x));
+    const double distance = to_triangle(x, t);
     if (distance < found.distance) found = {t, distance};
     return found.distance;
+  });
+  return found;
+}
+
+std::uint32_t MeshDistance::any_within(const glm::dvec3& x, double limit) const {
+  auto found = static_cast<std::uint32_t>(triangles_.size());
+  tree_.nearest(x, limit, [&](std::uint32_t t, double nearer) {
+    if (nearer == 0.0 || to_triangle(x, t) >= limit) return nearer;
+    found = t;
+    return 0.0;
   });
   return found;
 }

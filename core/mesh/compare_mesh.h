@@ -35,6 +35,10 @@ class MeshDistance {
 
   /// The nearest triangle of those nearer than `limit` Å. May be asked by several threads.
   NearestTriangle operator()(const glm::dvec3& x, double limit) const;
+  /// Any triangle nearer than `limit` Å, or the number of triangles: sooner found than the nearest.
+  std::uint32_t any_within(const glm::dvec3& x, double limit) const;
+  /// Å, to this triangle.
+  double to_triangle(const glm::dvec3& x, std::uint32_t triangle) const;
 
  private:
   std::array<glm::dvec3, 3> corners(std::uint32_t triangle) const;

@@ -3,6 +3,7 @@
 #include "core/mesh/mesh_nearness.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -19,6 +20,41 @@ namespace meniscus {
 
 using Tuning = RemeshTuning;
 
+namespace {
+
+/// Of three corners in any order; triangles keep it while their numbers and those of their vertices change.
+std::uint64_t key_of(std::span<const glm::dvec3> positions, const std::array<std::uint32_t, 3>& triangle) {
+  std::uint64_t key = 0;
+  for (const std::uint32_t v : triangle) {
+    std::uint64_t bits = 0;
+    for (int k = 0; k < 3; ++k)
+      bits = (bits ^ std::bit_cast<std::uint64_t>(positions[v][k])) * 0x9e3779b97f4a7c15u;  // 2^64 / golden ratio
+    key += bits ^ (bits >> 32);
+  }
+  return key;
+}
+
+/// Triangles by their keys. One of two that fall on the same place is lost.
+class TriangleGuesses {
+ public:
+  TriangleGuesses(std::span<const glm::dvec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles)
+      : slots_(std::bit_ceil(2 * triangles.size() + 1), kNone), keys_(triangles.size()) {
+    tbb::parallel_for(std::size_t{0}, keys_.size(), [&](std::size_t t) { keys_[t] = key_of(positions, triangles[t]); });
+    for (std::uint32_t t = 0; t < keys_.size(); ++t) slots_[slot(keys_[t])] = t;
+  }
+  /// A triangle that may have this key, or kNone.
+  std::uint32_t triangle(std::uint64_t key) const { return slots_[slot(key)]; }
+  std::uint64_t key(std::uint32_t triangle) const { return keys_[triangle]; }
+
+ private:
+  std::size_t slot(std::uint64_t key) const { return key & (slots_.size() - 1); }
+
+  std::vector<std::uint32_t> slots_;
+  std::vector<std::uint64_t> keys_;
+};
+
+}  // namespace
+
 std::optional<SurfacePoint> below(const MeshOnSurface& mesh, const glm::dvec3& x,
                                   const std::array<std::uint32_t, 3>& corners) {
   for (const bool smooth : {true, false})  // a vertex of a crease is on both sides of it
@@ -32,6 +68,7 @@ std::optional<SurfacePoint> below(const MeshOnSurface& mesh, const glm::dvec3& x
 void MeshNearness::ask_for(const BaseMesh& base) {
   const TriangleMesh& mesh = base.mesh;
   to_reach_.clear();
+  near_.clear();
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) to_reach_.push_back({mesh.positions[v], base.vertex_face[v]});
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
@@ -58,7 +95,7 @@ std::optional<glm::dvec3> MeshNearness::far_place(const MeshOnSurface& mesh, con
     const double limit = Tuning::margin * sizes_.tolerance_at(place);
     const auto foot = below(mesh, place, t.vertex);
     if (foot && glm::distance(foot->position, place) <= limit) continue;
-    if (std::abs(distance()(place).distance) > limit) return place;
+    if (!distance().is_within(place, limit)) return place;
   }
   return std::nullopt;
 }
@@ -74,7 +111,7 @@ SurfacePoint MeshNearness::near(const MeshOnSurface& mesh, const glm::dvec3& x,
   return nearest;
 }
 
-std::vector<PointAtTriangle> MeshNearness::too_far(MeshOnSurface& mesh) const {
+std::vector<PointAtTriangle> MeshNearness::too_far(MeshOnSurface& mesh) {
   const HalfEdges& links = mesh.links();
   std::vector<PointAtTriangle> points(links.triangle_count());
   tbb::parallel_for(std::uint32_t{0}, links.triangle_count(), [&](std::uint32_t t) {
@@ -90,14 +127,22 @@ std::vector<PointAtTriangle> MeshNearness::too_far(MeshOnSurface& mesh) const {
   return points;
 }
 
-void MeshNearness::add_bridges(const MeshOnSurface& mesh, std::vector<PointAtTriangle>& points) const {
+void MeshNearness::add_bridges(const MeshOnSurface& mesh, std::vector<PointAtTriangle>& points) {
   const std::vector<std::array<std::uint32_t, 3>> all = all_triangles(mesh.links());
   const MeshDistance from_mesh(mesh.positions(), all);
+  const TriangleGuesses guesses(mesh.positions(), all);
   std::vector<NearestTriangle> bridging(to_reach_.size(), {kNone, 0.0});
+  near_.resize(to_reach_.size(), 0);
   tbb::parallel_for(std::size_t{0}, bridging.size(), [&](std::size_t v) {
     const glm::dvec3& x = to_reach_[v].position;
     const double limit = Tuning::margin * sizes_.tolerance_at(x);
-    if (from_mesh(x, limit).distance >= limit) bridging[v] = from_mesh(x, std::numeric_limits<double>::infinity());
+    const std::uint32_t guess = guesses.triangle(near_[v]);
+    if (guess != kNone && from_mesh.to_triangle(x, guess) < limit) return;
+    const std::uint32_t near = from_mesh.any_within(x, limit);
+    if (near < all.size())
+      near_[v] = guesses.key(near);
+    else
+      bridging[v] = from_mesh(x, std::numeric_limits<double>::infinity());
   });
   std::vector<double> farthest(all.size(), 0.0);
   for (std::size_t v = 0; v < bridging.size(); ++v) {
@@ -118,7 +163,7 @@ bool MeshNearness::reaches_all(const MeshOnSurface& mesh) {
   std::vector<std::uint8_t> far(face.size());
   tbb::parallel_for(std::size_t{0}, far.size(), [&](std::size_t v) {
     const double limit = sizes_.tolerance_at(fine.positions[v]);
-    far[v] = from_mesh(fine.positions[v], limit).distance >= limit;
+    far[v] = from_mesh.any_within(fine.positions[v], limit) == all.size();
   });
   bool all_near = true;
   for (std::size_t v = 0; v < far.size(); ++v) {

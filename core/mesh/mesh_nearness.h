@@ -35,19 +35,20 @@ class MeshNearness {
   /// Triangles that are too far from the surface, and those nearest to places that are too far from the mesh: away from
   /// creases neither is without the other. With the point that they should reach, as far as it is known; ascending. Of
   /// triangles that did not change since this was asked last, the first are known to be near.
-  std::vector<PointAtTriangle> too_far(MeshOnSurface& mesh) const;
+  std::vector<PointAtTriangle> too_far(MeshOnSurface& mesh);
   /// Is the mesh near the vertices of a fine one as well? Others have to be reached from now on.
   bool reaches_all(const MeshOnSurface& mesh);
 
  private:
   SurfacePoint near(const MeshOnSurface& mesh, const glm::dvec3& x, const std::array<std::uint32_t, 3>& corners) const;
-  void add_bridges(const MeshOnSurface& mesh, std::vector<PointAtTriangle>& points) const;
+  void add_bridges(const MeshOnSurface& mesh, std::vector<PointAtTriangle>& points);
   const SurfaceDistance& distance() const;
 
   const Surface& surface_;
   const SurfaceWalk& walk_;
   const EvenSizes& sizes_;
   std::vector<SurfacePoint> to_reach_;
+  std::vector<std::uint64_t> near_;  ///< per place to reach, by its corners, a triangle that was near it; 0: none known
   mutable std::once_flag distance_made_;
   mutable std::optional<SurfaceDistance> distance_;
 };

@@ -11,7 +11,7 @@ constexpr unsigned kShared = in_scene | in_bundle;
 constexpr std::string_view kFrames = "Frames", kMotion = "Alignment of frames", kFilm = "Film";
 
 constexpr auto kTable = of_commands(
-    kForRuns & ~for_page,
+    kForRuns,
     std::to_array<Property>({
         file("frames.trajectories", "TRAJECTORY", "", "Trajectory files, the same as --trajectory")
             .in(kFrames, repeatable),
@@ -89,7 +89,7 @@ constexpr auto kTable = of_commands(
             .one_of("auto|bar|plain|json|openjd|none")
             .initially("auto")
             .in(kFrames)
-            .of((kForRuns & ~(for_preview | for_page)) | for_film),
+            .of((kForRuns & ~for_preview) | for_film),
 
         number("frames.fps", "--fps", "N", "Frames per second of a film")
             .from(0.1, 240)

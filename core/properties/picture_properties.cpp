@@ -66,7 +66,8 @@ constexpr auto kTable = of_commands(
         text("camera.follow", "--follow", "EXPR", "Move the camera with the centre of these atoms")
             .in(kCamera, kShared)
             .of(kForFigures & ~(for_preview | for_page)),
-        new_file("camera.save", "--save-camera", "FILE", "Save the camera as JSON, for --camera")
+        new_file("camera.save", "--save-camera", "FILE",
+                 "Save the camera as JSON, for --camera; one that moves as a path, for --camera-path")
             .in(kCamera)
             .of(for_render | kForExports | for_page),
 

@@ -48,12 +48,12 @@ constexpr auto kTable = of_commands(
              "'hydrophobicity > 1.5' or 'charge < -0.3'")
             .in(kSurface, kSeen | live)
             .in_short_help()
-            .of(for_surface | for_render | for_preview),
+            .of(for_surface | for_render | for_preview | for_page),
         number("surface.min_patch", "--min-patch", "Å²", "Smallest area of a patch that is listed or outlined")
             .from(0, 1e9)
             .initially("10")
             .in(kSurface, kShared | live)
-            .of(for_surface | for_render | for_preview),
+            .of(for_surface | for_render | for_preview | for_page),
         text("surface.by", "--by", "WORD",
              "Split into objects: by chain, model, class, residue or component. chain, model, class (polymer, ligand, "
              "...), residue: each has a surface as if it were alone; component: each closed part of the one surface")

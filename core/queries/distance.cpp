@@ -129,13 +129,25 @@ struct Tables {
   void end(std::size_t table) { first[table + 1] = static_cast<std::uint32_t>(boxes.size()); }
 };
 
-/// The nearest of all feet of x on what a tree's boxes hold. `foot_of` has one rule for each table: of an index into
-/// the table, and of the distance beyond which no foot is wanted.
-template <typename... FootOf>
-Foot nearest_foot(const glm::dvec3& x, const BoxTree& tree, const Tables<sizeof...(FootOf)>& tables,
-                  const FootOf&... foot_of) {
+/// What is asked of the feet of a point: the nearest within `limit` is searched for, and `wanted` tells from the
+/// nearest so far how near another has to be to count.
+template <typename Wanted>
+struct Search {
+  double limit;
+  Wanted wanted;
+};
+
+struct Nearest {
+  double operator()(const Foot& nearest) const { return nearest.distance; }
+};
+
+/// The nearest of the feet of x on what a tree's boxes hold, as far as the search goes. `foot_of` has one rule for each
+/// table: of an index into the table, and of the distance beyond which no foot is wanted.
+template <typename Wanted, typename... FootOf>
+Foot nearest_foot(const glm::dvec3& x, const Search<Wanted>& search, const BoxTree& tree,
+                  const Tables<sizeof...(FootOf)>& tables, const FootOf&... foot_of) {
   Foot nearest;
-  tree.nearest(x, kFar, [&](std::uint32_t n, double limit) {
+  tree.nearest(x, search.limit, [&](std::uint32_t n, double limit) {
     std::size_t table = 0;
     const auto ask = [&](const auto& foot_of_table) {
       if (n >= tables.first[table] && n < tables.first[table + 1]) {
@@ -145,7 +157,7 @@ Foot nearest_foot(const glm::dvec3& x, const BoxTree& tree, const Tables<sizeof.
       ++table;
     };
     (ask(foot_of), ...);
-    return nearest.distance;
+    return std::min(limit, search.wanted(nearest));
   });
   return nearest;
 }
@@ -219,9 +231,10 @@ struct SurfaceDistance::Index {
     return covered;
   }
 
-  Foot nearest_accessible(const glm::dvec3& x) const {
+  template <typename Wanted = Nearest>
+  Foot nearest_accessible(const glm::dvec3& x, const Search<Wanted>& search = {kFar, {}}) const {
     return nearest_foot(
-        x, accessible_tree, accessible,
+        x, search, accessible_tree, accessible,
         [&](std::uint32_t n, double limit) {
           return foot_on(s, s.convex[n], s.atoms[s.convex[n].atom].radius + s.probe_radius, x, limit);
         },
@@ -229,9 +242,10 @@ struct SurfaceDistance::Index {
         [&](std::uint32_t n, double) { return at_point(s.concave[n].center, x); });
   }
 
-  Foot nearest_part(const glm::dvec3& x) const {
+  template <typename Wanted = Nearest>
+  Foot nearest_part(const glm::dvec3& x, const Search<Wanted>& search = {kFar, {}}) const {
     return nearest_foot(
-        x, part_tree, parts,
+        x, search, part_tree, parts,
         [&](std::uint32_t n, double limit) {
           return foot_on(s, s.convex[n], s.atoms[s.convex[n].atom].radius, x, limit);
         },
@@ -274,6 +288,22 @@ NearestPoint SurfaceDistance::operator()(const glm::dvec3& x) const {
   }
   const Foot foot = index_->nearest_part(x);
   return {foot.distance, foot.point};
+}
+
+bool SurfaceDistance::is_within(const glm::dvec3& x, double limit) const {
+  constexpr double kRounding = 1 + 1e-9;  // boxes are left out by rounded distances
+  const double probe_radius = index_->s.probe_radius;
+  if (index_->in_sas_ball(x)) {
+    // Once a place of the probe is near enough, another counts only if the point is within that probe.
+    const auto wanted = [&](const Foot& place) {
+      if (place.distance < probe_radius) return 0.0;
+      return std::abs(probe_radius - place.distance) <= limit ? probe_radius : place.distance;
+    };
+    const Foot place = index_->nearest_accessible(x, Search{(probe_radius + limit) * kRounding, wanted});
+    if (place.distance >= probe_radius) return std::abs(probe_radius - place.distance) <= limit;
+  }
+  const auto wanted = [&](const Foot& foot) { return foot.distance <= limit ? 0.0 : foot.distance; };
+  return index_->nearest_part(x, Search{limit * kRounding, wanted}).distance <= limit;
 }
 
 }  // namespace meniscus

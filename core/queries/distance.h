@@ -36,6 +36,10 @@ class SurfaceDistance {
 
   NearestPoint operator()(const glm::dvec3& point) const;
 
+  /// Whether the point is no farther from the surface than that, on either side; limit > 0, Å. Sooner known than how
+  /// far it is.
+  bool is_within(const glm::dvec3& point, double limit) const;
+
   /// Å, from the point to the nearest place where a probe touches an atom, whichever side of the SAS the point is on.
   /// Places are those of the surface's patches: of a part of a surface (part.h), of that part alone.
   double to_probe(const glm::dvec3& point) const;

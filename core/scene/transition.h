@@ -76,9 +76,6 @@ class Transition {
   /// Both have pictures of one size. context: in which surfaces are computed again; nullptr: on the CPU.
   Transition(Shot from, Shot to, const EglContext* context);
 
-  /// Whether nothing of the molecule dissolves.
-  bool is_steady() const { return is_steady_; }
-
   /// The whole picture, without its background. share: from 0, the picture of the first shot, to 1. Throws as computing
   /// and drawing do.
   Framebuffer picture(double share, SurfaceRenderer& renderer);

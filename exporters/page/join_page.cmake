@@ -1,5 +1,5 @@
-# Writes the page's files as pages have them: the script in one piece without lines that are comments alone, the style,
-# and the text, whose policy names the SHA-256 digests of both.
+# Writes the page's files as pages have them: the script in one piece and the style, without indentation and without
+# lines that are comments alone, and the text, whose policy names the SHA-256 digests of both.
 # Run as: cmake -DFOLDER=<the page's own files> -DOUTPUT=<folder of page.html, page.css and page.js> -P join_page.cmake
 
 # As policies have it (RFC 4648, section 4): 256 bits are 42 times two letters, a last one of four bits, and a sign.
@@ -21,13 +21,15 @@ function(digest_of variable file)
 endfunction()
 
 set(script "")
-foreach(part data camera caster layers views png messages controls)
+foreach(part data camera caster layers views frames png messages controls)
   file(READ ${FOLDER}/${part}.js text)
   string(APPEND script "${text}")
 endforeach()
 string(REGEX REPLACE "(\n *//[^\n]*)+\n" "\n" script "\n${script}")
+string(REGEX REPLACE "\n +" "\n" script "${script}")
 file(WRITE ${OUTPUT}/page.js "// SPDX-License-Identifier: BSD-3-Clause\n\"use strict\";${script}")
 file(READ ${FOLDER}/page.css style)
+string(REGEX REPLACE "\n +" "\n" style "${style}")
 file(WRITE ${OUTPUT}/page.css "\n${style}")
 
 digest_of(SCRIPT_HASH ${OUTPUT}/page.js)

@@ -1,38 +1,62 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sorts the bytes of tables, deflates them, and spells them.
+// Sorts the bytes of tables, deflates them, and spells them as text.
 #include "exporters/page/page_data.h"
 
 #include <array>
+#include <utility>
 
+#include <nlohmann/json.hpp>
 #include <zlib.h>
 
 #include "core/base/error.h"
 
 namespace meniscus::page {
 
-void PageData::add_table(std::string_view name, std::span<const std::byte> bytes, std::size_t stride) {
-  const std::size_t count = bytes.size() / stride;
-  tables_.push_back({{"name", name}, {"stride", stride}, {"count", count}});
-  bytes_.reserve(bytes_.size() + bytes.size());
-  for (std::size_t byte = 0; byte < stride; ++byte)
-    for (std::size_t n = 0; n < count; ++n) bytes_.push_back(static_cast<char>(bytes[n * stride + byte]));
-}
-
-std::string PageData::deflated(nlohmann::json description) const {
-  description["tables"] = tables_;
-  // Names come from files, in any encoding.
-  const std::string words = description.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  std::string all;
-  for (int n = 0; n < 4; ++n) all.push_back(static_cast<char>(words.size() >> (8 * n) & 0xff));
-  all += words;
-  all += bytes_;
-  uLongf size = compressBound(static_cast<uLong>(all.size()));
+std::string deflated(std::string_view bytes) {
+  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
   std::string packed(size, '\0');
-  if (compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(all.data()),
-                static_cast<uLong>(all.size()), Z_BEST_COMPRESSION) != Z_OK)
+  if (compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+                static_cast<uLong>(bytes.size()), Z_BEST_COMPRESSION) != Z_OK)
     throw CapacityError("the page's data cannot be deflated: memory is exhausted");
   packed.resize(size);
   return packed;
+}
+
+std::string deflated(const nlohmann::json& description) {
+  // Names come from files, in any encoding.
+  return deflated(std::string_view(description.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));
+}
+
+PageTable packed_table(std::string_view name, std::span<const std::byte> bytes, std::size_t stride) {
+  const std::size_t count = bytes.size() / stride;
+  std::string sorted;
+  sorted.reserve(bytes.size());
+  for (std::size_t byte = 0; byte < stride; ++byte)
+    for (std::size_t n = 0; n < count; ++n) sorted.push_back(static_cast<char>(bytes[n * stride + byte]));
+  return {std::string(name), stride, deflated(std::string_view(sorted))};
+}
+
+std::size_t PageData::add(std::string packed) {
+  const auto [place, is_new] = numbers_.emplace(std::move(packed), parts_.size() + 1);
+  if (is_new) {
+    parts_.push_back(&place->first);
+    size_ += place->first.size();
+  }
+  return place->second;
+}
+
+std::string PageData::bytes(const std::string& first) const {
+  std::string all;
+  all.reserve(size_ + first.size() + 4 * (parts_.size() + 2));
+  const auto put = [&](std::size_t number) {
+    for (int n = 0; n < 4; ++n) all.push_back(static_cast<char>(number >> (8 * n) & 0xff));
+  };
+  put(parts_.size() + 1);
+  put(first.size());
+  for (const std::string* part : parts_) put(part->size());
+  all += first;
+  for (const std::string* part : parts_) all += *part;
+  return all;
 }
 
 std::string text_of_bytes(std::string_view bytes) {

@@ -1,37 +1,53 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the script of a page reads: tables of records and a description as JSON, deflated and written as text.
+// What the script of a page reads: descriptions as JSON and tables of records, deflated and written as text.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace meniscus::page {
 
-/// Tables, one after the other. Of each the first bytes of all records come first, then the second ones, and so on:
-/// what is alike in them lies together, and deflates well.
+/// zlib's format (RFC 1950).
+std::string deflated(std::string_view bytes);
+std::string deflated(const nlohmann::json& description);
+
+/// A table, deflated. The first bytes of all records come first, then the second ones, and so on: what is alike in them
+/// lies together, and deflates well.
+struct PageTable {
+  std::string name;
+  std::size_t stride = 0;  ///< bytes of a record
+  std::string packed;
+};
+
+PageTable packed_table(std::string_view name, std::span<const std::byte> bytes, std::size_t stride);
+/// T: of whole words, without padding.
+template <typename T>
+PageTable page_table(std::string_view name, const std::vector<T>& records) {
+  return packed_table(name, std::as_bytes(std::span(records)), sizeof(T));
+}
+
+/// Parts, each deflated by itself, so that a page unpacks what it shows. Those that are equal are held once.
 class PageData {
  public:
-  /// T: of whole words, without padding.
-  template <typename T>
-  void add(std::string_view name, std::span<const T> records) {
-    add_table(name, std::as_bytes(records), sizeof(T));
-  }
+  /// Its number, by which the page finds it.
+  std::size_t add(std::string packed);
+  std::size_t size() const { return size_; }  ///< bytes
 
-  /// zlib's format (RFC 1950): the length of the JSON in four bytes, lowest first; the JSON, to which "tables" is
-  /// added; the tables.
-  std::string deflated(nlohmann::json description) const;
+  /// How many parts there are, and how long each is, in four bytes each, lowest first; then the parts: `first`, and the
+  /// others, which are numbered from 1.
+  std::string bytes(const std::string& first) const;
 
  private:
-  void add_table(std::string_view name, std::span<const std::byte> bytes, std::size_t stride);
-
-  nlohmann::json tables_ = nlohmann::json::array();
-  std::string bytes_;
+  std::map<std::string, std::size_t> numbers_;
+  std::vector<const std::string*> parts_;
+  std::size_t size_ = 0;
 };
 
 /// Bytes as printable text: 13 bits as two of 91 characters, none of which means anything in HTML, in lines. A fifth

@@ -13,7 +13,9 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <nlohmann/json.hpp>
 
+#include "core/base/text.h"
 #include "core/camera/camera.h"
 #include "core/color/color_key.h"
 #include "core/queries/colored_shapes.h"
@@ -22,6 +24,7 @@
 #include "core/render/look.h"
 #include "core/render/picture_object.h"
 #include "core/structure/structure.h"
+#include "exporters/page/page_data.h"
 
 namespace meniscus::page {
 
@@ -48,7 +51,8 @@ struct StillPicture {
   std::vector<std::uint8_t> bytes;
 };
 
-/// What a page shows. Texts may come from files; what is pointed to must stay until the page is written.
+/// What a page shows, or what it shows at one frame of a run. Texts may come from files; what is pointed to must stay
+/// until the page is written.
 struct PageFigure {
   std::string title;
   std::string description;  ///< a sentence or two, for those who do not see the picture
@@ -67,14 +71,46 @@ struct PageFigure {
   bool fades_always = false;  ///< into the distance; else not where readers look inside or see through the surface
   std::string scheme;         ///< the name of its colours
   std::vector<PageScheme> more_schemes{};
-  ColorKey key;        ///< what its colours mean
-  StillPicture still;  ///< for readers without WebGL 2; empty: none
+  ColorKey key;                        ///< what its colours mean
+  StillPicture still;                  ///< for readers without WebGL 2; empty: none
+  std::string moment;                  ///< which frame it is, such as "frame 3", "2.500 ns"
+  std::optional<glm::dvec3> origin{};  ///< from where the records count, Å: of a run one; nothing: in its middle
 };
 
 inline constexpr std::size_t kMostPlanes = 8;
 
-/// The page's text. The same figure gives the same text. clip: at most kMostPlanes each. Throws CapacityError for a
-/// figure of more records than textures of 2048 x 8192 texels hold.
+/// A figure that needs nothing else any more.
+struct PackedFrame {
+  nlohmann::json description;
+  std::vector<PageTable> tables;
+  std::string moment;
+  std::vector<Filling> texts;  ///< of page.html
+};
+
+/// clip: at most kMostPlanes each. Throws CapacityError for a figure of more records than textures of 2048 x 8192
+/// texels hold.
+PackedFrame pack_frame(const PageFigure& figure);
+
+/// Puts a page together. The same frames give the same text.
+class PageWriter {
+ public:
+  /// In the order of the run. The first one is what readers see first, and has what belongs to all: title,
+  /// description, facts, look, camera, names of views and of schemes.
+  void add(PackedFrame frame);
+
+  std::size_t frame_count() const { return frames_.size(); }
+  std::size_t bytes() const;  ///< of the text, within a few thousand
+  std::string text() const;   ///< of one frame at least
+
+ private:
+  PageData data_;
+  PackedFrame first_;
+  std::size_t described_ = 0;  ///< bytes of its description
+  std::vector<std::string> moments_;
+  std::vector<std::size_t> frames_;  ///< parts of the data: descriptions of what differs from the first
+};
+
+/// The page of one figure.
 std::string page_text(const PageFigure& figure);
 
 }  // namespace meniscus::page

@@ -68,29 +68,26 @@ std::vector<std::pair<std::string, std::string>> facts_of(const Molecule& molecu
   return facts;
 }
 
-/// What readers can choose instead of the figure's colours: schemes that need nothing but the file.
-std::vector<PageScheme> more_schemes(const Structure& structure, const SurfaceObject* surface,
-                                     const FigureRequest& figure, const ColorScheme& asked) {
-  std::vector<PageScheme> schemes;
-  for (const char* const word :
-       {"element", "chain", "residue", "secondary", "kind", "hydrophobicity", "bfactor", "charge", "rainbow"}) {
-    const ColorScheme scheme = parse_color_scheme(word).value();
-    if (scheme.by == asked.by && asked.rules.empty()) continue;
-    try {
-      PageScheme made{word, color_key(structure, scheme, {}), {}, {}};
-      if (surface) {
-        const Coloring coloring = color_object(structure, surface->atom, scheme, 0);
-        made.colors = coloring.atom;
-        made.kind = coloring.kind;
-      }
-      const Coloring beside = shown_shapes(structure, figure.representations, scheme).coloring;
-      made.colors.insert(made.colors.end(), beside.atom.begin(), beside.atom.end());
-      schemes.push_back(std::move(made));
-    } catch (const InputError&) {
-      // This molecule has no such numbers.
+/// Colours of one frame. Where it has none of this scheme its points have those that they have already.
+PageScheme scheme_at(const OtherColors& other, const Structure& structure, const SurfaceObject* surface,
+                     const ColoredShapes* shapes, const Representations& representations) {
+  PageScheme made{other.name, other.key, {}, {}};
+  const auto add = [&](const Coloring& coloring) {
+    made.colors.insert(made.colors.end(), coloring.atom.begin(), coloring.atom.end());
+  };
+  try {
+    if (surface) {
+      const Coloring coloring = color_object(structure, surface->atom, other.scheme, 0);
+      add(coloring);
+      made.kind = coloring.kind;
     }
+    add(shown_shapes(structure, representations, other.scheme).coloring);
+  } catch (const InputError&) {
+    made.colors.clear();
+    if (surface) add(surface->coloring);
+    if (shapes) add(shapes->coloring);
   }
-  return schemes;
+  return made;
 }
 
 }  // namespace
@@ -118,25 +115,46 @@ void check_scene(const Scene& scene) {
                                    option_name("clip"), kMostPlanes, scene.figure.cuts.size()));
 }
 
-std::string scene_page(const Scene& scene, Figure figure, const Camera& camera, std::vector<PageView> views,
-                       const EncodeStill& encode) {
+std::vector<OtherColors> other_colors(const Structure& structure, const ColorScheme& asked,
+                                      const std::function<void(ColorScheme&)>& measure) {
+  std::vector<OtherColors> others;
+  for (const char* const word :
+       {"element", "chain", "residue", "secondary", "kind", "hydrophobicity", "bfactor", "charge", "rainbow"}) {
+    ColorScheme scheme = parse_color_scheme(word).value();
+    if (scheme.by == asked.by && asked.rules.empty()) continue;
+    try {
+      if (measure) measure(scheme);
+      ColorKey key = color_key(structure, scheme, {});
+      color_atoms(structure, scheme);
+      others.push_back({word, std::move(scheme), std::move(key)});
+    } catch (const InputError&) {
+      // This molecule has no such numbers.
+    }
+  }
+  return others;
+}
+
+PackedFrame scene_frame(const Scene& scene, Figure figure, const SceneFrame& frame, const EncodeStill& encode) {
   const std::string name = text_of_path(path_of_text(scene.molecule.file).filename());
   const std::vector<Atom> atoms = shown_atoms(figure.molecule.structure);
   PageFigure shown;
   shown.title = name;
   shown.description = description_of(figure.molecule, scene, name);
-  shown.key = key_of(figure.molecule);
-  shown.camera = camera;
+  shown.key = frame.key;
+  shown.camera = frame.camera;
+  shown.moment = frame.moment;
+  shown.origin = frame.origin;
   shown.size = scene.picture.size();
   shown.look = look_of(scene.look, shown.size, scene.image.background,
                        hues_of(scene.molecule.color, scene.legend.asked(), uses_atoms(scene.figure.cuts)));
-  shown.views = std::move(views);
+  shown.views = frame.views;
   shown.fades_always = scene.look.depth_cue.has_value();
   const std::vector<Ball> balls = placed_balls(figure.molecule.objects);
   const SurfaceObject surface = merged(std::exchange(figure.molecule.objects, {}));
   shown.facts = facts_of(figure.molecule, surface, scene);
+  shown.facts.insert(shown.facts.end(), frame.facts.begin(), frame.facts.end());
   const std::vector<PictureObject> objects =
-      picture_objects(surface.surface, surface.coloring, scene.figure, &figure.beside, camera, balls);
+      picture_objects(surface.surface, surface.coloring, scene.figure, &figure.beside, frame.camera, balls);
   for (const PictureObject& object : objects) {
     if (object.shapes) shown.shapes = &figure.beside.shapes;
     if (!object.surface) continue;
@@ -149,16 +167,23 @@ std::string scene_page(const Scene& scene, Figure figure, const Camera& camera, 
   shown.labels = annotations.labels;
   shown.atoms = atoms;
   shown.scheme = scheme_word(figure.molecule.color);
-  shown.more_schemes = more_schemes(figure.molecule.structure, shown.surface, scene.figure, figure.molecule.color);
-  shown.still = encode(small_picture(objects, camera, shown.size, shown.look), shown.look);
-  return page_text(shown);
+  for (const OtherColors& other : frame.others)
+    shown.more_schemes.push_back(scheme_at(other, figure.molecule.structure, shown.surface,
+                                           shown.shapes ? &figure.beside.shapes : nullptr,
+                                           scene.figure.representations));
+  if (encode) shown.still = encode(small_picture(objects, frame.camera, shown.size, shown.look), shown.look);
+  return pack_frame(shown);
 }
 
 std::string scene_page(const Scene& asked) {
   check_scene(asked);
   SceneFigure made = made_figure(asked, nullptr);
   const Camera camera = made.aim.camera(made.scene.picture, made.given.still, made.figure.molecule.objects);
-  return scene_page(made.scene, std::move(made.figure), camera, {}, png_still);
+  const Molecule& molecule = made.figure.molecule;
+  const SceneFrame frame{camera, {}, key_of(molecule), other_colors(molecule.structure, molecule.color), {}};
+  PageWriter page;
+  page.add(scene_frame(made.scene, std::move(made.figure), frame, png_still));
+  return page.text();
 }
 
 std::string surface_page(const Surface& surface, const Coloring& colors, const Structure* structure, const Scene& look,
@@ -183,7 +208,9 @@ std::string surface_page(const Surface& surface, const Coloring& colors, const S
   shown.look = look_of(look.look, shown.size, look.image.background, Hues::free);
   shown.fades_always = look.look.depth_cue.has_value();
   shown.scheme = "given";
-  if (structure) shown.more_schemes = more_schemes(*structure, &object, {}, {});
+  if (structure)
+    for (const OtherColors& other : other_colors(*structure, {}))
+      shown.more_schemes.push_back(scheme_at(other, *structure, &object, nullptr, {}));
   std::vector<PictureObject> objects(1);
   objects.front().surface = &object.surface;
   objects.front().coloring = &object.coloring;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,10 +28,32 @@ StillPicture png_still(const Framebuffer& drawn, const Look& look);
 /// Before anything is computed. Throws RequestError for what a page cannot show though the scene has it.
 void check_scene(const Scene& scene);
 
-/// The page of a figure. scene: what the figure was made of, its selections settled. Throws as page_text() and
-/// picture_objects() do.
-std::string scene_page(const Scene& scene, Figure figure, const Camera& camera, std::vector<PageView> views,
-                       const EncodeStill& encode);
+/// Colours that readers can choose instead of the figure's, of the molecule or of all frames of a run.
+struct OtherColors {
+  std::string name;
+  ColorScheme scheme;
+  ColorKey key;
+};
+
+/// Those schemes that need nothing but the file. structure: with all atoms that any frame may have. measure: takes from
+/// all frames what the colours of a scheme mean in each; nothing: there is one frame.
+std::vector<OtherColors> other_colors(const Structure& structure, const ColorScheme& asked,
+                                      const std::function<void(ColorScheme&)>& measure = {});
+
+/// What a page has of a scene at one frame, beside the figure.
+struct SceneFrame {
+  Camera camera;
+  std::vector<PageView> views;
+  ColorKey key;
+  std::vector<OtherColors> others;
+  std::string moment;  ///< as in PageFigure, like the next
+  std::optional<glm::dvec3> origin{};
+  std::vector<std::pair<std::string, std::string>> facts{};  ///< of the run, behind those of the figure
+};
+
+/// A figure as a page has it. scene: what the figure was made of, its selections settled. encode: nothing: no still
+/// picture. Throws as pack_frame() and picture_objects() do.
+PackedFrame scene_frame(const Scene& scene, Figure figure, const SceneFrame& frame, const EncodeStill& encode);
 
 /// The page of a scene, as `meniscus export page` makes it but for its still picture, a PNG. scene: complete(). On the
 /// CPU. Throws RequestError as check_scene() does and for a run of frames, else what reading and computing throw.

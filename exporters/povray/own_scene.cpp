@@ -34,11 +34,12 @@ void add_names(std::string_view text, std::string_view word, Names& names) {
 
 }  // namespace
 
-std::string own_scene_text(std::string_view name, std::span<const std::string_view> texts) {
+std::string own_scene_text(std::string_view name, std::span<const std::string_view> texts, bool maps) {
   const std::string colors = colors_text({}, {});  // of a run each frame may have its own
   std::vector<std::string_view> all(texts.begin(), texts.end());
   all.insert(all.end(),
              {colors, template_text(povray_templates(), "caps.inc"), template_text(povray_templates(), "shapes.inc")});
+  if (maps) all.push_back(template_text(povray_templates(), "map.inc"));
   Names declared, settings;
   for (const std::string_view text : all) {
     add_names(text, "#declare ", declared);

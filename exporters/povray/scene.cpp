@@ -27,14 +27,6 @@ void include_shapes(const ColoredShapes& shapes, Box& extent) {
   }
 }
 
-const VolumePaint* map_of(std::span<const SurfaceObject> objects, std::span<const SceneObject> more) {
-  for (const SurfaceObject& object : objects)
-    if (object.coloring.volume) return object.coloring.volume.get();
-  for (const SceneObject& object : more)
-    if (object.surface && object.surface->coloring.volume) return object.surface->coloring.volume.get();
-  return nullptr;
-}
-
 /// Of all that is shown.
 Box scene_extent(std::span<const SurfaceObject> objects, const SceneOptions& options) {
   Box extent = atom_extent(objects);
@@ -75,7 +67,7 @@ SceneReport write_scene(std::span<const SurfaceObject> given, const Camera& came
   };
   content.write(parts,
                 [&](const std::string& part) -> OutputFile& { return begin_file(fmt::format("_{}.inc", part)); });
-  const SceneStyle style{&table.colors(), map_of(content.objects(), options.objects), materials_of(options.objects)};
+  const SceneStyle style{&table.colors(), content.map(), materials_of(options.objects)};
   if (style.map) {
     OutputFile& file = begin_file(std::string(kMapFileEnding));
     write_density(style.map->grid, [&](std::string_view bytes) { file.write(bytes); });

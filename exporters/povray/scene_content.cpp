@@ -40,6 +40,14 @@ void SceneContent::add(const SceneObject& object, const Camera& camera, const Sc
     further.geometry->add_caps(further.cut->caps(), further.cut->objects(), object.cut, table_);
 }
 
+const VolumePaint* SceneContent::map() const {
+  for (const SurfaceObject& object : cut_.objects())
+    if (object.coloring.volume) return object.coloring.volume.get();
+  for (const SceneObject& object : shown_.objects)
+    if (object.surface && object.surface->coloring.volume) return object.surface->coloring.volume.get();
+  return nullptr;
+}
+
 std::vector<ObjectPart> SceneContent::parts() const {
   std::vector<ObjectPart> parts;
   for (const Further& further : further_)

@@ -52,6 +52,8 @@ class SceneContent {
   std::span<const SurfaceObject> objects() const { return cut_.objects(); }
   bool has_caps() const { return cut_.has_caps(); }
   bool has_shapes() const { return shown_.shapes && !shown_.shapes->empty(); }
+  /// Of the colours that are by one; nullptr: none is.
+  const VolumePaint* map() const;
   /// Of further objects.
   std::vector<ObjectPart> parts() const;
   /// Patches, of further objects too.

@@ -267,7 +267,7 @@ std::string style_text(const SceneStyle& style, const SceneOptions& options, con
   append_color(out, options.background);
   out.literal(";\n").literal(style.colors ? colors_text(*style.colors, options.colors) : colors_of_frame(options));
   append_materials(out, style.materials);
-  if (style.map) append_map(out, *style.map, options.name, origin);
+  if (style.map) append_map(out, *style.map, options.name + std::string(kMapFileEnding), origin);
   out.literal(scene_template("style.inc"));
   return out.text();
 }

@@ -55,13 +55,13 @@ std::string palette_check(std::uint32_t palette) {
 }
 
 // The geometry must be of the same frame, and both of this run.
-std::string frame_colors_text(const std::vector<SceneColor>& colors, const SceneOptions& options, std::uint32_t of_run,
-                              std::uint32_t of_frame) {
+SceneText frame_colors_text(const std::vector<SceneColor>& colors, const SceneOptions& options, std::uint32_t of_run,
+                            std::uint32_t of_frame) {
   SceneText out;
   out.literal("// The colours of one frame.\n").literal(palette_check(of_run));
   out.literal("#declare Meniscus_Palette = ").count(of_frame).literal(";\n");
   out.literal(colors_text(colors, options.colors));
-  return out.text();
+  return out;
 }
 
 std::string objects_text(const Run& run, const std::optional<ColorKey>& colors) {
@@ -113,7 +113,7 @@ SceneReport SequenceScene::write_shared(const Story* film) const {
       {name + "_style.inc", style},
       {name + "_objects.json", objects_text(run_, options_.colors)},
       {name + ".pov", main},
-      {name + ".inc", own_scene_text(name, std::array<std::string_view, 3>{main, style, buffers})},
+      {name + ".inc", own_scene_text(name, std::array<std::string_view, 3>{main, style, buffers}, run_.maps_change)},
       {name + ".ini", ini_text(options_, run_.frames)}};
   files.insert(files.end(), std::begin(texts), std::end(texts));
   if (film) {
@@ -148,7 +148,15 @@ SceneReport SequenceScene::write_frame(std::size_t place, const Shown& shown) co
   const Geometry& geometry = content.geometry();
   if (geometry.declares()) begin_file("objects", ".json").write(geometry.names_json({}));
   const std::uint32_t palette = run_.colors ? palette_ : palette_number(table.colors(), origin_);
-  if (!run_.colors) begin_file("colors").write(frame_colors_text(table.colors(), options_, palette_, palette));
+  if (!run_.colors) {
+    SceneText colors = frame_colors_text(table.colors(), options_, palette_, palette);
+    if (const VolumePaint* const map = run_.maps_change ? content.map() : nullptr) {
+      OutputFile& file = begin_file("map", ".df3");
+      write_density(map->grid, [&](std::string_view bytes) { file.write(bytes); });
+      append_map(colors, *map, report.files.back().filename().string(), origin_);
+    }
+    begin_file("colors").write(colors.text());
+  }
   content.write(parts(), begin_file, palette_check(palette));
   output.commit();
   report.object_count = content.primitive_count();

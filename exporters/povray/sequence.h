@@ -35,7 +35,8 @@ struct Run {
   bool translucent = false;                     ///< some colour of some frame may be seen through
   std::vector<ObjectPart> objects = {};         ///< further ones, of every frame: what each is
   std::vector<MaterialRequest> materials = {};  ///< theirs (SceneStyle::materials)
-  std::shared_ptr<const VolumePaint> map = {};  ///< of the colours that are by one
+  std::shared_ptr<const VolumePaint> map = {};  ///< of the colours that are by one, the same in all frames
+  bool maps_change = false;                     ///< each frame has a file of its own; then so must colours
   std::vector<FrameLook> looks = {};            ///< one a frame; none: all are as the options say
 };
 
@@ -58,9 +59,9 @@ class SequenceScene {
 
   /// Writes <name>_geometry_#####.inc, numbered by the frame of the trajectory, and where the surface is several
   /// objects <name>_objects_#####.json; with shapes <name>_shapes_#####.inc, with caps <name>_caps_#####.inc, with
-  /// further objects <name>_object_1_#####.inc, ..., with colours of its own <name>_colors_#####.inc. Each may show
-  /// nothing. place: in the run, from 0. shown: all that the run has. Throws what write_scene throws, and Error for a
-  /// colour that is not the run's.
+  /// further objects <name>_object_1_#####.inc, ..., with colours of its own <name>_colors_#####.inc, with a map of its
+  /// own <name>_map_#####.df3. Each may show nothing. place: in the run, from 0. shown: all that the run has. Throws
+  /// what write_scene throws, and Error for a colour that is not the run's.
   SceneReport write_frame(std::size_t place, const Shown& shown) const;
 
  private:

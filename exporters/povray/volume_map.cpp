@@ -52,45 +52,46 @@ void write_density(const VolumeGrid& grid, const std::function<void(std::string_
   write(bytes);
 }
 
-void append_map(SceneText& out, const VolumePaint& paint, std::string_view name, const glm::dvec3& origin) {
+void append_map(SceneText& out, const VolumePaint& paint, std::string_view file, const glm::dvec3& origin) {
   const VolumeFrame& frame = paint.grid.frame();
+  const std::array<double, 2>& range = paint.scale.range;
   const auto [low, high] = std::ranges::minmax(paint.grid.values());
-  const auto declare = [&](std::string_view what) -> SceneText& {
-    return out.literal("#declare Meniscus_Map_").literal(what).literal(" = ");
-  };
-  out.literal("// The volume map: values at its points, its place, and its colours from the first of the range.\n");
-  declare("Low").full(low).literal(";\n");
-  declare("High").full(high).literal(";\n");
-  declare("From").full(paint.scale.range[0]).literal(";\n");
-  declare("To").full(paint.scale.range[1]).literal(";\n");
   // A density file fills the unit cube, and has its n-th value of N at n/N; what lies after the last repeats the
   // first.
-  declare("Place").literal("transform { matrix <");
+  SceneText matrix;
   glm::dvec3 reach(0.0);
   for (int axis = 0; axis < 3; ++axis) {
     const auto points = static_cast<double>(frame.size[axis]);
     reach[axis] = (points - 1.0) / points;
     const glm::dvec3 edge = points * frame.step[axis];
-    for (int k = 0; k < 3; ++k) out.full(edge[k]).literal(",");
+    for (int k = 0; k < 3; ++k) matrix.full(edge[k]).literal(",");
   }
   const glm::dvec3 corner = frame.origin - origin;
-  out.full(corner.x).literal(",").full(corner.y).literal(",").full(corner.z).literal("> }\n");
-  declare("Reach").full_vector(reach).literal(";\n");
-  const auto color = [&](const glm::vec3& c) { out.literal("srgb ").direction(glm::dvec3(c)); };
-  declare("Missing");
-  color(paint.scale.missing_color);
-  out.literal(";\n#ifndef (Meniscus_Map_Color)\n  #declare Meniscus_Map_Color = array[")
-      .count(kMapSteps + 1)
-      .literal("] {\n");
+  matrix.full(corner.x).literal(",").full(corner.y).literal(",").full(corner.z);
+  SceneText colors;
   for (std::size_t n = 0; n <= kMapSteps; ++n) {
     const double share = static_cast<double>(n) / kMapSteps;
-    out.literal("    ");
-    color(paint.scale.color((1.0 - share) * paint.scale.range[0] + share * paint.scale.range[1]));
-    out.literal(n < kMapSteps ? ",\n" : "\n  }\n#end\n");
+    colors.literal(n == 0 ? "" : ",\n").literal("    srgb ");
+    colors.direction(glm::dvec3(paint.scale.color((1.0 - share) * range[0] + share * range[1])));
   }
-  std::string file(name);
-  file.append(kMapFileEnding);
-  out.literal(filled(template_text(povray_templates(), "map.inc"), {{"FILE", file}}));
+  const auto text_of = [](const auto& append) {
+    SceneText text;
+    append(text);
+    return text.text();
+  };
+  const auto number = [&](double value) { return text_of([&](SceneText& text) { text.full(value); }); };
+  out.literal(
+      filled(template_text(povray_templates(), "map.inc"),
+             {{"LOW", number(low)},
+              {"HIGH", number(high)},
+              {"FROM", number(range[0])},
+              {"TO", number(range[1])},
+              {"MATRIX", matrix.text()},
+              {"REACH", text_of([&](SceneText& text) { text.full_vector(reach); })},
+              {"MISSING", text_of([&](SceneText& text) { text.direction(glm::dvec3(paint.scale.missing_color)); })},
+              {"COUNT", std::to_string(kMapSteps + 1)},
+              {"COLORS", colors.text()},
+              {"FILE", std::string(file)}}));
 }
 
 }  // namespace meniscus::povray

@@ -21,8 +21,8 @@ inline constexpr std::string_view kMapFileEnding = "_map.df3";
 /// it can count (65,535).
 void write_density(const VolumeGrid& grid, const std::function<void(std::string_view)>& write);
 
-/// Declares the colours of the map, and Meniscus_Map(x,y,z): 0 where it does not reach, else a place in them. name: of
-/// the scene. origin: Å, of its coordinates.
-void append_map(SceneText& out, const VolumePaint& paint, std::string_view name, const glm::dvec3& origin);
+/// Declares the colours of the map, and Meniscus_Map(x,y,z): 0 where it does not reach, else a place in them. file:
+/// what write_density() made. origin: Å, of the scene's coordinates.
+void append_map(SceneText& out, const VolumePaint& paint, std::string_view file, const glm::dvec3& origin);
 
 }  // namespace meniscus::povray

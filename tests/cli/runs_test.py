@@ -109,6 +109,20 @@ class RunsLikePictures(unittest.TestCase):
             self.assertTrue((self.pixels(f"f_{n}.png") == self.pixels(f"one_{n}.png")).all(), n)
         self.assertFalse((self.pixels("one_0.png") == self.pixels("one_2.png")).all())
 
+    def test_a_camera_that_moves_is_saved_as_a_path(self):
+        size = ["--size", "80x60", "--samples", "1", "-q"]
+        for extent in ([], ["--extent", "visible", "--device", "software"]):
+            moving = ["--frames", "2,0,1", "--turntable", "0.5", "--follow", "resid 5", *size, *extent]
+            self.run_program("render", "run.pdb", *moving, "-o", "f_#.png", "--save-camera", "path.json", "--force")
+            keys = json.loads((self.folder / "path.json").read_text())["keys"]
+            self.assertEqual([key["frame"] for key in keys], [0, 1, 2])
+            self.assertNotEqual(keys[0]["camera"], keys[1]["camera"])
+            self.run_program("render", "run.pdb", "--frames", "2,0,1", *size, *extent, "-o", "g_#.png", "--camera-path", "path.json",
+                             "--save-camera", "again.json", "--force")
+            self.assertEqual((self.folder / "again.json").read_text(), (self.folder / "path.json").read_text())
+            for n in range(3):
+                self.assertTrue((self.pixels(f"f_{n}.png") == self.pixels(f"g_{n}.png")).all(), n)
+
     def test_frames_without_room_for_labels_are_made_and_told(self):
         words = ["--camera", json.dumps(CAMERA), "--size", "160x120", "--samples", "1"]
         crowd = ["--label-size", "40px"] + [word for n in range(1, 6) for word in ("--label", f"resid {n}=A long name")]

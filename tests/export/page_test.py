@@ -87,7 +87,7 @@ class PageTest(unittest.IsolatedAsyncioTestCase):
         """The viewer is there, and draws nothing of its own."""
         await page.send("Page.addScriptToEvaluateOnNewDocument", source=HELD)
         await page.send("Page.navigate", url="file://" + path)
-        await page.until("window.meniscus || document.getElementById('message')?.textContent", 100)
+        await page.until("Boolean(window.meniscus) || document.getElementById('message')?.textContent", 100)
         fault = await page.evaluate("document.getElementById('message').textContent")
         if "WebGL 2" in fault:
             print(f"skipped: this Chromium has no WebGL 2 ({fault})")
@@ -107,11 +107,13 @@ class PageTest(unittest.IsolatedAsyncioTestCase):
             await page.at_rest(300)
             await page.screenshot(os.path.join(os.environ["MENISCUS_SCREENSHOTS"], name))
 
-    def rendered(self, molecule, *options):
-        """Colour (sRGB over white), distance and atom of each pixel."""
-        self.run_program("render", molecule, "-o", self.path("r.exr"), "--force", "-q", "--aovs", "--samples", "1", "--size",
+    def rendered(self, molecule, *options, frame=None):
+        """Colour (sRGB over white), distance and atom of each pixel; frame: of a run."""
+        path = self.path("r.exr" if frame is None else f"r_{frame}.exr")
+        names = ["-o", path] if frame is None else ["-o", self.path("r_#.exr"), "--only", str(frame)]
+        self.run_program("render", molecule, *names, "--force", "-q", "--aovs", "--samples", "1", "--size",
                          "%dx%d" % SIZE, "--device", "cpu", *options)
-        image = OpenImageIO.ImageInput.open(self.path("r.exr"))
+        image = OpenImageIO.ImageInput.open(path)
         names, pixels = image.spec().channelnames, image.read_image(OpenImageIO.FLOAT)
         channel = lambda name: pixels[:, :, names.index(name)]
         color = numpy.stack([channel(c) + 1 - channel("A") for c in "RGB"], axis=2)
@@ -271,6 +273,77 @@ class PageTest(unittest.IsolatedAsyncioTestCase):
             self.assertNotEqual(done.returncode, 0)
             self.assertIn(words, done.stderr)
             self.assertFalse(os.path.exists(self.path("bad.html")))
+
+    def run_of(self, molecule, last, frames):
+        """A file of models: residues up to `last`, more and more bent."""
+        with open(molecule) as file:
+            rows = [row for row in file if row.startswith("ATOM") and int(row[22:26]) <= last]
+        with open(self.path("run.pdb"), "w") as file:
+            for frame in range(frames):
+                file.write(f"MODEL     {frame + 1:4d}\n")
+                for row in rows:
+                    x, y, z = (float(row[30 + 8 * n:38 + 8 * n]) for n in range(3))
+                    turn = int(row[22:26]) / 3
+                    x, y = x + 0.8 * frame * math.sin(turn), y + 0.5 * frame * math.cos(turn)
+                    file.write(f"{row[:30]}{x:8.3f}{y:8.3f}{z:8.3f}{row[54:]}")
+                file.write("ENDMDL\n")
+        return file.name
+
+    async def compare_frames(self, page, run, shown, *options, before="0"):
+        """before: what readers do first."""
+        await self.load(page, self.export(run, "--frames", "all", "--size", "%dx%d" % SIZE, *options))
+        await page.evaluate(before)
+        for frame in shown:
+            await page.evaluate(f"meniscus.frames.show({frame}).then(() => 0)")
+            self.assertEqual(await page.evaluate("meniscus.figure.number"), frame)
+            self.check(f"frame {frame} {' '.join(options)}", await self.cast(page), self.rendered(run, "--frames", "all", *options, frame=frame))
+
+    async def test_frames_are_those_of_render(self):
+        run = self.run_of(UBIQUITIN, 12, 4)
+        async with self.browser() as page:
+            await self.compare_frames(page, run, (0, 3, 1, 2), "--color", "radial", "--sticks", "resid 1-3")
+            self.assertEqual(await page.evaluate("meniscus.figure.sources.shown"), await page.evaluate("meniscus.figure.first.tables.shown[0]"))
+            self.assertEqual(await page.evaluate("document.getElementById('frame').getAttribute('aria-valuetext')"), "3 of 4: frame 2")
+            # Atoms that differ from frame to frame, planes that are placed anew in each, and a view by its name.
+            await self.compare_frames(page, run, (2, 0), "--select", "x < 36", "--color", "secondary")
+            await self.compare_frames(page, run, (3,), "--clip", "depth>0.4", "--cap-color", "orange")
+            self.run_program("render", run, "-o", self.path("in.png"), "--force", "-q", "--samples", "1", "--clip", "depth>0.3")
+            look = ("--size", "%dx%d" % SIZE)
+            await self.load(page, self.export(run, "--frames", "all", *look, "--named-view", f"In={self.path('in.png')}"))
+            await page.evaluate("meniscus.frames.show(2).then(() => 0)")
+            await page.send("Emulation.setEmulatedMedia", features=[{"name": "prefers-reduced-motion", "value": "reduce"}])
+            await page.click("#views button:nth-child(2)")
+            self.check("frame 2, a view", await self.cast(page), self.rendered(run, "--frames", "all", "--clip", "depth>0.3", frame=2))
+            self.assertEqual(page.complaints, [])
+
+    async def test_frames_are_played(self):
+        run = self.run_of(UBIQUITIN, 3, 3)
+        async with self.browser() as page:
+            await self.open(page, self.export(run, "--frames", "all", "--color", "residue"))
+            await page.at_rest(100)
+            shown = "meniscus.figure.number"
+            await page.click("#play")
+            self.assertEqual(await page.evaluate("document.getElementById('play').textContent"), "Pause")
+            for frame in (1, 2, 0):
+                await page.until(f"{shown} === {frame}", 60)
+            await page.evaluate("meniscus.canvas.focus()")
+            for key, wanted in ((" ", None), ("PageDown", 1), ("PageUp", -1), ("PageUp", -1)):
+                before = await page.evaluate("meniscus.frames.wanted")
+                await page.send("Input.dispatchKeyEvent", type="keyDown", key=key)
+                await page.send("Input.dispatchKeyEvent", type="keyUp", key=key)
+                if wanted is None:
+                    self.assertFalse(await page.evaluate("meniscus.playing"))
+                else:
+                    wanted = min(2, max(0, before + wanted))
+                    await page.until(f"{shown} === {wanted}", 60)
+            await page.at_rest(100)
+            self.assertEqual(page.complaints, [])
+        done = subprocess.run([PROGRAM, "export", "page", self.run_of(UBIQUITIN, 12, 2), "--frames", "all", "--interpolate", "9000", "-o",
+                               self.path("large.html"), "--device", "cpu"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertRegex(done.stderr, r"9,001 frames come to about [\d,]+ bytes")
+        self.assertRegex(done.stderr, r"browsers open no more than 250,000,000; choose fewer frames \(--stride \d\)")
+        self.assertFalse(os.path.exists(self.path("large.html")))
 
     async def png(self, page, times, tiles):
         """sRGB of the PNG so many times as large as the window."""

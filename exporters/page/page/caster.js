@@ -30,12 +30,37 @@ class Caster {
     this.blocks = new Map();
     this.size = [0, 0];
     this.tables = {};
-    for (const name of ["primitives", "rows", "marks"]) this.tables[name] = this.table(name);
-    this.tables.colors = null;
-    this.set_scheme(0);
-    this.make_groups();
+    this.ready = new Map();  // what frames are drawn from, by their numbers
+    this.scheme = 0;
+    this.buffer = gl.createBuffer();
+    this.vertices = gl.createVertexArray();
     gl.pixelStorei(gl.PACK_ALIGNMENT, 1);
     gl.disable(gl.DITHER);
+    this.show(figure);
+  }
+
+  table_names() { return ["primitives", "rows", "marks"]; }
+
+  /// Makes what a frame is drawn from: textures of its tables, and its primitives in groups.
+  prepare(frame) {
+    if (this.ready.has(frame.number)) return this.ready.get(frame.number);
+    const made = { textures: {}, ...this.grouped(frame.tables.primitives) };
+    for (const name of this.table_names()) made.textures[name] = this.table(frame.tables[name], name === "marks");
+    this.ready.set(frame.number, made);
+    return made;
+  }
+
+  /// The figure is at this frame now.
+  show(frame) {
+    const { textures, ...others } = this.prepare(frame);
+    Object.assign(this, others, { tables: { ...textures, colors: this.tables.colors } });
+    this.set_scheme(this.scheme);
+  }
+
+  /// Another frame than the one that is shown.
+  forget(number) {
+    for (const texture of Object.values(this.ready.get(number)?.textures ?? {})) this.gl.deleteTexture(texture);
+    this.ready.delete(number);
   }
 
   texture(format) {
@@ -48,8 +73,8 @@ class Caster {
   }
 
   /// A table of records of four words a texel, or of one.
-  table(name) {
-    const gl = this.gl, words = this.figure.tables[name], single = name === "marks", channels = single ? 1 : 4;
+  table(words, single = false) {
+    const gl = this.gl, channels = single ? 1 : 4;
     const rows = Math.max(1, Math.ceil(words.length / channels / kTableColumns));
     if (rows > gl.getParameter(gl.MAX_TEXTURE_SIZE))
       throw new NoWebGl("This figure is too large for the textures of this device: what is shown is a still picture.");
@@ -62,42 +87,34 @@ class Caster {
   }
 
   /// Primitives of one shader are drawn together.
-  make_groups() {
-    const gl = this.gl, words = this.figure.tables.primitives, numbers = new Float32Array(words.buffer);
-    this.primitive_count = words.length / 12;
-    this.centers = new Float32Array(3 * this.primitive_count);
-    this.radii = new Float32Array(this.primitive_count);
-    const groups = [[], [], [], []];
-    for (let n = 0; n < this.primitive_count; ++n) {
-      this.centers.set(numbers.subarray(12 * n, 12 * n + 3), 3 * n);
-      this.radii[n] = numbers[12 * n + 3];
+  grouped(words) {
+    const numbers = new Float32Array(words.buffer), primitive_count = words.length / 12;
+    const centers = new Float32Array(3 * primitive_count), radii = new Float32Array(primitive_count), groups = [[], [], [], []];
+    for (let n = 0; n < primitive_count; ++n) {
+      centers.set(numbers.subarray(12 * n, 12 * n + 3), 3 * n);
+      radii[n] = numbers[12 * n + 3];
       const kind = words[12 * n + 7], is_shape = kind >= kCylinder || words[12 * n + 8] === kNoPrimitive;
       groups[is_shape ? (kind >= kCylinder ? 3 : 2) : kind === kToroidal ? 1 : 0].push(n);
     }
-    this.groups = groups.map((list, n) => ({ define: ["", "TORI", "", "SHAPES"][n], of_surface: n < 2, list: Uint32Array.from(list) }));
-    this.buffer = gl.createBuffer();
-    this.vertices = gl.createVertexArray();
+    return { primitive_count, centers, radii,
+      groups: groups.map((list, n) => ({ define: ["", "TORI", "", "SHAPES"][n], of_surface: n < 2, list: Uint32Array.from(list) })) };
   }
 
   /// scheme: its place among the figure's.
   set_scheme(scheme) {
-    const { figure, gl } = this, own = new Float32Array(figure.tables.own_colors.buffer);
-    figure.tables.colors = figure.tables.own_colors;
-    if (scheme > 0) {
-      const words = figure.tables[`scheme_${scheme}`], colors = new Float32Array(4 * words.length);
-      words.forEach((word, n) => colors.set([...linear_from_srgb([0, 8, 16].map((bit) => ((word >> bit) & 255) / 255)),
-        n < figure.tables.shown.length ? own[4 * n + 3] : 1], 4 * n));
-      figure.tables.colors = new Uint32Array(colors.buffer);
-    }
-    this.by_kind = figure.schemes[scheme].by_kind ? 1 : 0;
+    const { own_colors, tables, schemes } = this.figure, words = scheme > 0 ? tables[`scheme_${scheme}`] : own_colors;
+    const made_of = [words, own_colors, this.hidden], is_same = made_of.every((part, n) => part === this.colors_of?.[n]);
+    this.by_kind = schemes[scheme].by_kind ? 1 : 0;
     this.scheme = scheme;
-    if (this.hidden) {
-      const shown = new Float32Array(figure.tables.colors.slice().buffer);
-      this.hidden.forEach((atom) => { shown[4 * atom + 3] = 0; });
-      figure.tables.colors = new Uint32Array(shown.buffer);
-    }
-    gl.deleteTexture(this.tables.colors);
-    this.tables.colors = this.table("colors");
+    if (is_same) return;
+    const own = new Float32Array(own_colors.buffer), colors = scheme > 0 ? new Float32Array(4 * words.length) : own.slice();
+    if (scheme > 0)
+      words.forEach((word, n) => colors.set([...linear_from_srgb([0, 8, 16].map((bit) => ((word >> bit) & 255) / 255)),
+        n < tables.shown.length ? own[4 * n + 3] : 1], 4 * n));
+    for (const atom of this.hidden ?? []) colors[4 * atom + 3] = 0;
+    this.gl.deleteTexture(this.tables.colors ?? null);
+    this.tables.colors = this.table(new Uint32Array(colors.buffer));
+    this.colors_of = made_of;
   }
 
   /// atoms: numbers of those that are hidden beside those that the figure hides.

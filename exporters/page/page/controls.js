@@ -11,7 +11,7 @@ class Viewer {
   constructor(figure) {
     this.figure = figure;
     this.canvas = element("picture");
-    this.view = figure.views[0];
+    this.view_number = 0;
     this.camera = this.view.camera;
     this.background = figure.background;
     this.effects = { shade: figure.has_shade, lines: figure.has_lines };
@@ -21,16 +21,35 @@ class Viewer {
     this.draft_scale = 1;
     this.sample = -1;  // the last one cast of the picture at rest
     this.moving = false;
-    this.texts = figure.labels.map(({ text }) => {
-      const made = document.createElementNS("http://www.w3.org/2000/svg", "text");
-      made.textContent = text;
-      element("labels").append(made);
-      return made;
-    });
+    this.write_labels();
     this.start();
     this.canvas.addEventListener("webglcontextlost", (event) => { event.preventDefault(); this.fail("The graphics device was reset; a still picture is shown until it is back."); });
     this.canvas.addEventListener("webglcontextrestored", () => { this.start(); show_picture(true); say(""); this.change(); });
     new ResizeObserver(() => this.change()).observe(element("stage"));
+  }
+
+  get view() { return this.figure.views[this.view_number]; }
+
+  write_labels() {
+    this.texts = this.figure.labels.map(({ text }) => {
+      const made = document.createElementNS("http://www.w3.org/2000/svg", "text");
+      made.textContent = text;
+      return made;
+    });
+    element("labels").replaceChildren(...this.texts);
+  }
+
+  /// frame: of read_frame().
+  show_frame(frame) {
+    const { names, labels, tables } = this.figure;
+    Object.assign(this.figure, frame);
+    if (!this.caster) return;
+    if (this.shown_chains && (names !== frame.names || tables.shown !== frame.tables.shown)) this.hidden = this.caster.hidden = this.atoms_beside(this.shown_chains);
+    if (names !== frame.names) this.last_picked = undefined;
+    if (labels !== frame.labels) this.write_labels();
+    this.caster.show(frame);
+    this.lay();
+    this.change(true);
   }
 
   start() {
@@ -73,10 +92,16 @@ class Viewer {
 
   /// shown: names of chains.
   show_chains(shown) {
-    const { names, tables } = this.figure;
-    this.hidden = [...tables.shown.keys()].filter((atom) => !shown.has(names.chains[this.residue_of(atom)]));
+    this.shown_chains = shown;
+    this.hidden = this.atoms_beside(shown);
     this.caster.hide(this.hidden);
     this.change();
+  }
+
+  /// Atoms of other chains.
+  atoms_beside(shown) {
+    const { names, tables } = this.figure;
+    return [...tables.shown.keys()].filter((atom) => !shown.has(names.chains[this.residue_of(atom)]));
   }
 
   fail(sentence) {
@@ -112,7 +137,7 @@ class Viewer {
     this.changed?.();
     if (!this.waiting && this.caster && !this.saving) this.waiting = requestAnimationFrame(() => this.draw());
     clearTimeout(this.rest);
-    if (moving) this.rest = setTimeout(() => this.change(), 150);
+    if (moving && !this.playing) this.rest = setTimeout(() => this.change(), 150);
   }
 
   move(camera, moving = true) {
@@ -246,6 +271,7 @@ function show_picture(live) {
   element("picture").hidden = !live;
   element("labels").toggleAttribute("hidden", !live);
   element("controls").hidden = !live;
+  element("frames").hidden = !live || element("frame").max === "0";
   if (element("still")) element("still").hidden = live;
 }
 
@@ -341,6 +367,7 @@ function follow_controls(viewer) {
     viewer.background = [1, 3, 5].map((n) => parseInt(element("background").value.slice(n, n + 2), 16) / 255);
     viewer.change();
   });
+  follow_frames(viewer);
   follow_png(viewer);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the page's data: text to bytes, bytes to a description and its tables.
+// Reads the page's data: text to bytes, bytes to the descriptions of frames and their tables.
 
 /// Of text_of_bytes() (exporters/page/page_data.h).
 function bytes_of_text(text) {
@@ -24,22 +24,49 @@ async function inflated(bytes) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-/// {description..., tables: {name: Uint32Array}}. count: of the packed bytes; the last two characters may stand for one more.
-async function read_figure(text, count) {
-  const bytes = await inflated(bytes_of_text(text).subarray(0, count));
-  const words = new DataView(bytes.buffer).getUint32(0, true);
-  const figure = JSON.parse(new TextDecoder().decode(bytes.subarray(4, 4 + words)));
-  let at = 4 + words;
-  const tables = {};
-  for (const { name, stride, count } of figure.tables) {
-    const table = new Uint8Array(stride * count);
-    for (let byte = 0; byte < stride; ++byte)
-      for (let n = 0; n < count; ++n) table[n * stride + byte] = bytes[at++];
-    tables[name] = new Uint32Array(table.buffer);
+async function description_of(part) { return JSON.parse(new TextDecoder().decode(await inflated(part))); }
+
+/// Of packed_table() (exporters/page/page_data.h): words of records, whose bytes lie apart.
+function words_of(bytes, stride) {
+  const words = stride / 4, count = bytes.length / stride, table = new Uint32Array(words * count);
+  for (let word = 0; word < words; ++word) {
+    const [a, b, c, d] = [0, 1, 2, 3].map((byte) => bytes.subarray((4 * word + byte) * count, (4 * word + byte + 1) * count));
+    for (let n = 0, at = word; n < count; ++n, at += words) table[at] = a[n] | (b[n] << 8) | (c[n] << 16) | (d[n] << 24);
   }
-  tables.own_colors = tables.colors;
-  // First rows are written as how many more they are than the one before.
-  for (let n = 12; n < tables.primitives.length; n += 12) tables.primitives[n + 5] += tables.primitives[n - 12 + 5];
+  return table;
+}
+
+/// Of PageData::bytes(): its parts, each deflated by itself.
+function parts_of(bytes) {
+  const view = new DataView(bytes.buffer, bytes.byteOffset), count = view.getUint32(0, true), parts = [];
+  let at = 4 * (count + 1);
+  for (let n = 1; n <= count; ++n) {
+    const end = at + view.getUint32(4 * n, true);
+    parts.push(bytes.subarray(at, end));
+    at = end;
+  }
   if (at !== bytes.length) throw new Error("The page's data is not whole.");
-  return { ...figure, tables };
+  return parts;
+}
+
+/// A frame's description with its tables: {..., tables: {name: Uint32Array}}. near: frames that may have some of them.
+async function read_frame(figure, n, near = []) {
+  const own = n === 0 ? figure.first : { ...figure.first, ...await description_of(figure.parts[figure.frames[n]]) };
+  const tables = {};
+  await Promise.all(Object.entries(own.tables).map(async ([name, [part, stride]]) => {
+    const known = near.find((frame) => frame.sources[name] === part);
+    tables[name] = known ? known.tables[name] : words_of(await inflated(figure.parts[part]), stride);
+    if (known || name !== "primitives") return;
+    // First rows are written as how many more they are than the one before.
+    for (let at = 12; at < tables[name].length; at += 12) tables[name][at + 5] += tables[name][at - 12 + 5];
+  }));
+  const sources = Object.fromEntries(Object.entries(own.tables).map(([name, [part]]) => [name, part]));
+  return { ...own, number: n, sources, own_colors: tables.colors, tables };
+}
+
+/// What the page shows, at its first frame. count: of the packed bytes; the last two characters may stand for one more.
+async function read_figure(text, count) {
+  const parts = parts_of(bytes_of_text(text).subarray(0, count)), first = await description_of(parts[0]);
+  const figure = { first, parts, frames: first.frames };
+  return Object.assign(figure, await read_frame(figure, 0), { frames: first.frames });
 }

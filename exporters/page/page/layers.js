@@ -7,9 +7,15 @@ const kOnPlane = 0xfffffffe;
 class LayeredCaster extends Caster {
   constructor(canvas, figure) {
     super(canvas, figure);
-    this.layers = { ...figure.layers, planes: [], hatching: [] };
+    this.layers = { ...this.layers, planes: [], hatching: [] };
     this.queries = [];
-    this.tables.balls = this.table("balls");
+  }
+
+  table_names() { return [...super.table_names(), "balls"]; }
+
+  show(frame) {
+    super.show(frame);
+    this.layers = { ...this.layers, ...frame.layers };
     this.surface_atoms = Uint32Array.from({ length: this.layers.surface_atoms }, (_, n) => n);
   }
 

@@ -94,7 +94,7 @@ function follow_png(viewer) {
     if (width < 16 || width > most) return say(`The width of a PNG of this view is 16 to ${most} pixels.`);
     say("");
     button.textContent = "Stop";
-    const others = [...element("controls").children].filter((child) => child !== button);
+    const others = [...element("controls").children, element("frames")].filter((child) => child !== button);
     for (const other of others) other.inert = true;
     const tell = (done, all) => { element("picked").textContent = `Drawing ${size[0]} × ${size[1]} pixels: ${Math.floor(100 * done / all)} %`; };
     try {

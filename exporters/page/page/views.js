@@ -33,8 +33,9 @@ function glide(viewer, to) {
 }
 
 function follow_views(viewer) {
-  const show = (view) => {
-    Object.assign(viewer, { view, cut: null, opacity: view.opacity });
+  const show = (number) => {
+    const view = viewer.figure.views[number];
+    Object.assign(viewer, { view_number: number, cut: null, opacity: view.opacity });
     Object.assign(element("cut"), { value: 0 });
     Object.assign(element("opacity"), { value: 100 * view.opacity });
     element("projection").value = projection_of(view.camera);
@@ -42,11 +43,11 @@ function follow_views(viewer) {
     viewer.set_layers();
     glide(viewer, view.camera);
   };
-  const [first, ...others] = viewer.figure.views;
-  element("reset").addEventListener("click", () => show(first));
-  for (const view of others) {
-    const button = Object.assign(document.createElement("button"), { type: "button", textContent: view.name });
-    button.addEventListener("click", () => show(view));
+  element("reset").addEventListener("click", () => show(0));
+  viewer.figure.views.forEach(({ name }, number) => {
+    if (number === 0) return;
+    const button = Object.assign(document.createElement("button"), { type: "button", textContent: name });
+    button.addEventListener("click", () => show(number));
     element("views").append(button);
-  }
+  });
 }

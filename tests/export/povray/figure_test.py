@@ -108,6 +108,8 @@ class Figure(unittest.TestCase):
         self.check_run("numbers and more", "--color", "all=file", "--color", "resi 5-9=#c04020", "--color-by-file", numbers, "--sticks",
                        "resi 10-20", "--opacity", "resi 10-30=0.5", "--clip", "depth>0.3")
         self.check_run("radial", "--color", "radial")
+        potentials = self.check_run("potentials", "--color", "lipophilicity", "--opacity", "resi 10-30=0.5", "--sticks", "resi 10-20")
+        self.assertGreater(self.difference("the third", potentials[2], potentials[0]), 0.05)
         self.check_run("a rule by places", "--color", "element", "--color", "resi 1-20=radial", "--tube", "all")
         self.check_run("fluctuations", "--color", "rmsf")
 

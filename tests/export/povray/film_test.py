@@ -97,6 +97,17 @@ class PovrayFilm(unittest.TestCase):
         self.assertEqual(len(ours), 3 + 1 + 1)
         self.check("run", ours, theirs)
 
+    def test_maps(self):
+        """Each scene has a map of its own, and each frame of a run a potential of its own."""
+        for name, values in ("one", "1 2 3 4 5 6 7 8"), ("two", "8 6 4 2 1 3 5 7"):
+            (self.folder / f"{name}.cube").write_text(f"a map\nof two steps\n0 -20 -20 -20\n2 80 0 0\n2 0 80 0\n2 0 0 80\n{values}\n")
+        words = [self.scene(f"map{name}", "--color-map-file", f"{name}.cube", "--color-range", "0:9") for name in ("one", "two")]
+        words.append(self.scene("run", "--frames", "1-2", "--color", "lipophilicity", molecule=ENSEMBLE))
+        ours, theirs = self.films(*words, "--hold", "0.25", "--transition", "0.5,0")
+        self.assertEqual(len(ours), 1 + 2 + 1 + 2)
+        self.check("maps", ours, theirs)
+        self.assertGreater(share_of_differing(theirs[0], theirs[3]), 0.1)
+
     def test_only_what_differs_is_rendered(self):
         """Where nothing dissolves a picture of the film is one of POV-Ray's, and a scene that is held is rendered once."""
         words = [self.scene("one", "--color", "element"), self.scene("two", "--color", "element", "--view", "x", "--probe", "1.8")]
@@ -115,15 +126,9 @@ class PovrayFilm(unittest.TestCase):
         (self.folder / "story").rename(self.folder / "kept")
         _, said = self.written(other, other, "--transition", "0")
         self.assertNotIn("note:", said)
-        for name in "one", "two":
-            (self.folder / f"{name}.cube").write_text("a map\nof two steps\n" + f"0 -20 -20 -20\n2 80 0 0\n2 0 80 0\n2 0 0 80\n" + "1 2 3 4 5 6 7 8\n")
-        maps = [self.scene(f"map{name}", "--color-map-file", f"{name}.cube", "--color-range", "0:9") for name in ("one", "two")]
-        done = self.run_program(PROGRAM, "film", *maps, *FILM, "--to", "povray", "-o", "maps", code=2)
-        self.assertIn("two of the scenes are coloured by a map", done.stderr)
-        self.assertFalse((self.folder / "maps").exists())
         done = self.run_program(PROGRAM, "film", other, other, *FILM, "--to", "povray", "-o", "story.mp4", code=2)
         self.assertIn("--to povray writes a folder", done.stderr)
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

@@ -211,8 +211,10 @@ TEST_F(PovraySequence, TheCameraIsSaved) {
     EXPECT_EQ(line("run", name), line("one", name));
   EXPECT_EQ(export_run("two", {"--save-camera", again}).exit_code, 6);  // it is there
   EXPECT_FALSE(std::filesystem::exists(path("two")));
-  const Words turning{"--frames", "1,3", "--turntable", "1", "--save-camera", path("new.json").string()};
-  EXPECT_EQ(export_run("turning", turning).exit_code, 2);
+  const std::string moving = path("moving.json").string();
+  ASSERT_EQ(export_run("turning", {"--frames", "3,1", "--turntable", "1", "--save-camera", moving}).exit_code, 0);
+  ASSERT_EQ(export_run("along", {"--frames", "3,1", "--camera-path", moving}).exit_code, 0);
+  EXPECT_EQ(test::read_bytes(path("turning") / "surface.pov"), test::read_bytes(path("along") / "surface.pov"));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // Camera files, pixel rays and default framing.
 #include "core/camera/camera.h"
 #include "core/camera/camera_json.h"
+#include "core/camera/foreign_cameras.h"
 #include "core/surface/primitives.h"
 
 #include <cmath>
@@ -75,7 +76,7 @@ TEST(CameraFile, SaysWhatIsWrong) {
   EXPECT_EQ(error_of(replaced(kOrthographic, ":8}", ":-8}")),
             "c.json: camera: \"height\" is -8 Å; it must be positive");
   EXPECT_EQ(error_of(replaced(kOrthographic, ":8}", ":1e999}")), "c.json: camera: a number is too large");
-  EXPECT_THROW(read_camera("/nonexistent/camera.json"), InputError);
+  EXPECT_THROW(read_any_camera("/nonexistent/camera.json", 1.0), InputError);
 }
 
 TEST(Camera, RaysPassThroughPixelCentres) {

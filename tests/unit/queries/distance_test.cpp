@@ -90,6 +90,15 @@ std::vector<glm::dvec3> symmetric_points(const Surface& s) {
   return points;
 }
 
+/// Just below the distance the surface is not within it, just above it is; and at it.
+void expect_within(const SurfaceDistance& distance, const glm::dvec3& point) {
+  const double far = std::abs(distance(point).distance);
+  for (const double limit : {0.01, 0.1, 0.5, 2.0, far, far * (1 - 1e-12), far * (1 + 1e-12), far + 1.0})
+    if (limit > 0.0) {
+      EXPECT_EQ(distance.is_within(point, limit), far <= limit) << far << " and " << limit;
+    }
+}
+
 /// Every foot is on the surface and as far away as the distance says, asked at these points and beside them.
 void expect_feet_on(const Surface& surface, const std::vector<glm::dvec3>& points) {
   const double p = surface.probe_radius;
@@ -104,6 +113,7 @@ void expect_feet_on(const Surface& surface, const std::vector<glm::dvec3>& point
       const double height = p > 0 ? oracle.nearest(nearest.point).distance - p : oracle.outside(nearest.point);
       off += !(std::abs(height) < 1e-11);
       elsewhere += !(std::abs(glm::distance(nearest.point, point) - std::abs(nearest.distance)) < 1e-12);
+      expect_within(distance, point);
     }
   EXPECT_EQ(off, 0) << "of " << 3 * points.size() << " feet are off the surface";
   EXPECT_EQ(elsewhere, 0) << "of " << 3 * points.size() << " feet are not as far as the distance says";
@@ -181,6 +191,7 @@ Tally check(const testing::Balls& atoms, const testing::SphereTracer& oracle, do
     const double x = offset(random), y = offset(random), z = offset(random);
     const glm::dvec3 point = middle + glm::dvec3(x, y, z);
     const NearestPoint nearest = distance(point);
+    expect_within(distance, point);
     const double to_probe = oracle.nearest(point).distance, far = std::abs(nearest.distance);
     EXPECT_NEAR(glm::distance(nearest.point, point), far, 1e-9);
     EXPECT_NEAR(oracle.nearest(nearest.point).distance, probe_radius, tolerance);

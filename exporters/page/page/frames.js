@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Frames of a run: a slider goes from one to another, and a button plays them. Each is unpacked when it is first shown, the
+// next one ahead of its time.
+
+const kFrameTime = 80;       // ms that each is shown, at least
+const kMostKept = 384e6;     // bytes of tables, and as many again of textures
+
+const painted = () => new Promise((go) => requestAnimationFrame(() => setTimeout(go)));
+const bytes_of = (frame) => Object.values(frame.tables).reduce((sum, table) => sum + table.byteLength, 0);
+
+class Frames {
+  constructor(viewer) {
+    this.viewer = viewer;
+    this.count = viewer.figure.frames.length;
+    this.shown = this.wanted = 0;
+    this.kept = new Map([[0, { ...viewer.figure }]]);  // by number, the one asked for last at the end
+    this.reading = new Map();  // promises by number
+    this.step = 1;
+  }
+
+  /// Unpacks a frame, once.
+  async read(n) {
+    const known = this.kept.get(n);
+    const frame = known ?? await (this.reading.get(n) ?? this.begin(n));
+    this.kept.delete(n);
+    this.kept.set(n, frame);
+    return frame;
+  }
+
+  begin(n) {
+    const reading = read_frame(this.viewer.figure, n, [...this.kept.values()]).finally(() => this.reading.delete(n));
+    this.reading.set(n, reading);
+    return reading;
+  }
+
+  /// Keeps what there is room for; the one that is shown stays.
+  forget() {
+    let bytes = [...this.kept.values()].reduce((sum, frame) => sum + bytes_of(frame), 0);
+    for (const [n, frame] of this.kept) {
+      if (bytes <= kMostKept) return;
+      if (n === this.shown) continue;
+      bytes -= bytes_of(frame);
+      this.kept.delete(n);
+      this.viewer.caster?.forget(n);
+    }
+  }
+
+  /// The last one asked for is shown in the end; those before it as far as there is time.
+  async show(n) {
+    this.step = n < this.wanted ? -1 : 1;
+    this.wanted = n;
+    this.tell();
+    if (this.busy) return;
+    this.busy = true;
+    try {
+      while (this.shown !== this.wanted) {
+        const next = this.wanted, frame = await this.read(next);
+        this.shown = next;
+        this.viewer.show_frame(frame);
+        this.forget();
+      }
+    } catch (error) {
+      this.pause();
+      say(`This frame cannot be shown: ${error.message}`);
+    } finally {
+      this.busy = false;
+    }
+    this.look_ahead();
+  }
+
+  /// The next one is ready before it is asked for.
+  async look_ahead() {
+    const next = (this.shown + this.step + this.count) % this.count, shown = this.shown;
+    await painted();
+    if (this.busy || this.shown !== shown || this.viewer.saving) return;
+    const frame = await this.read(next);
+    await painted();
+    if (this.shown === shown) this.viewer.caster?.prepare(frame);
+  }
+
+  tell() {
+    const words = `${this.wanted + 1} of ${this.count}: ${this.viewer.figure.moments[this.wanted]}`;
+    Object.assign(element("frame"), { value: this.wanted }).setAttribute("aria-valuetext", words);
+    element("moment").textContent = words;
+  }
+
+  /// One after the other, and again from the first, until the reader has enough.
+  async play() {
+    this.playing = this.viewer.playing = true;
+    element("play").textContent = "Pause";
+    while (this.playing && this.viewer.caster && !this.viewer.saving) {
+      const began = performance.now();
+      await this.show((this.wanted + 1) % this.count);
+      await painted();
+      await new Promise((go) => setTimeout(go, Math.max(0, began + kFrameTime - performance.now())));
+    }
+    this.pause();
+  }
+
+  pause() {
+    if (!this.playing) return;
+    this.playing = this.viewer.playing = false;
+    element("play").textContent = "Play";
+    this.viewer.change();
+  }
+
+  toggle() { if (this.playing) this.pause(); else this.play(); }
+
+  go(step) {
+    this.pause();
+    this.show(Math.min(this.count - 1, Math.max(0, this.wanted + step)));
+  }
+}
+
+function follow_frames(viewer) {
+  if (viewer.figure.frames.length < 2) return;
+  const frames = viewer.frames = new Frames(viewer), input = element("frame");
+  element("frames").hidden = false;
+  input.max = frames.count - 1;
+  frames.tell();
+  input.addEventListener("input", () => { frames.pause(); frames.show(Number(input.value)); });
+  element("play").addEventListener("click", () => frames.toggle());
+  viewer.canvas.addEventListener("keydown", (event) => {
+    if (viewer.saving || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.key === " ") frames.toggle();
+    else if (event.key === "PageUp" || event.key === "PageDown") frames.go(event.key === "PageUp" ? -1 : 1);
+    else return;
+    event.preventDefault();
+  });
+  frames.look_ahead();
+}

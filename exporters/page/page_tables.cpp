@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Packs a figure's records for no camera, around one point, and rounds them.
+#include "exporters/page/page_tables.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/image/color_space.h"
+#include "core/math/ball.h"
+#include "core/render/linear_colors.h"
+#include "core/render/picture_object.h"
+#include "core/render/shape_packing.h"
+
+namespace meniscus::page {
+namespace {
+
+constexpr std::size_t kMostTexels = std::size_t{2048} * 8192;  // of a table
+constexpr std::uint32_t kShapeIndex = 0xffffffffu;
+
+/// What is rounded to this is stored in less room: Å, or a part of a unit vector.
+constexpr float kRounding = 1.0f / (1 << 17);
+/// What colours alone depend on: the borders between atoms, and how much fades at a depth.
+constexpr float kColorRounding = 1.0f / (1 << 13);
+/// What rounding may part neighbours by, who overlap by so much more.
+constexpr float kRoundingSlack = 2.0f * kRounding;
+
+float rounded(float value, float step = kRounding) { return std::round(value / step) * step; }
+
+glm::vec3 rounded(const glm::vec3& v, float step) {
+  return {rounded(v.x, step), rounded(v.y, step), rounded(v.z, step)};
+}
+
+/// of_atom: a direction, and the bits of an atom's number.
+void round_row(glm::vec4& row, bool of_atom) {
+  row = of_atom ? glm::vec4(rounded(glm::vec3(row), kColorRounding), row.w)
+                : glm::vec4(rounded(glm::vec3(row), kRounding), rounded(row.w));
+}
+
+/// Coarser, and larger by as much.
+glm::vec4 rounded_bound(const glm::vec4& bound) {
+  constexpr float kSteps = 256.0f;  // an Å
+  const glm::vec3 center = glm::round(glm::vec3(bound) * kSteps) / kSteps;
+  return glm::vec4(center,
+                   std::ceil((bound.w + glm::length(center - glm::vec3(bound)) + kRoundingSlack) * kSteps) / kSteps);
+}
+
+glm::dvec3 middle_of(std::span<const Ball> balls) {
+  glm::dvec3 low(0.0), high(0.0);
+  for (std::size_t n = 0; n < balls.size(); ++n) {
+    low = n == 0 ? balls[n].center : glm::min(low, balls[n].center);
+    high = n == 0 ? balls[n].center : glm::max(high, balls[n].center);
+  }
+  return 0.5 * (low + high);
+}
+
+/// For tables that belong to no camera: all that is in them is in front.
+PictureFrame frame_around(const glm::dvec3& pivot) {
+  constexpr double kFarAway = 1e7;  // Å
+  PictureFrame frame;
+  frame.pivot = pivot;
+  frame.eye_distance = kFarAway;
+  frame.camera.projection = Projection::orthographic;
+  frame.camera.target = frame.pivot;
+  frame.camera.position = frame.pivot + glm::dvec3(0.0, 0.0, kFarAway);
+  frame.basis = view_basis(frame.camera);
+  return frame;
+}
+
+/// sRGB, red lowest: of atoms, then of kinds.
+std::vector<std::uint32_t> color_words(const PageScheme& scheme) {
+  std::vector<std::uint32_t> words;
+  words.reserve(scheme.colors.size() + 3);
+  const auto add = [&](const glm::vec3& color) {
+    words.push_back(
+        static_cast<std::uint32_t>(display_byte(color.x) | display_byte(color.y) << 8 | display_byte(color.z) << 16));
+  };
+  for (const glm::vec3& color : scheme.colors) add(color);
+  if (scheme.kind)
+    for (const glm::vec3& color : *scheme.kind) add(color);
+  return words;
+}
+
+}  // namespace
+
+bool has_cuts(const PageFigure& figure) {
+  return !figure.clip.empty() || std::ranges::any_of(figure.views, [](const auto& view) { return !view.clip.empty(); });
+}
+
+Tables::Tables(const PageFigure& figure) : figure_(figure) {
+  std::vector<PictureObject> objects;
+  if (figure.surface) {
+    objects.emplace_back().surface = &figure.surface->surface;
+    objects.back().coloring = &figure.surface->coloring;
+  }
+  if (figure.shapes) {
+    objects.emplace_back().shapes = &figure.shapes->shapes;
+    objects.back().coloring = &figure.shapes->coloring;
+  }
+  const std::vector<Ball> balls = enclosing_balls(objects);
+  frame_ = frame_around(figure.origin.value_or(middle_of(balls)));
+  placement_ = place_atoms(balls, figure.surface ? figure.surface->surface.probe_radius : 0.0, frame_);
+  placement_.slack += kRoundingSlack;
+  for (const Ball& ball : balls)
+    balls_.emplace_back(rounded(glm::vec3(ball.center - frame_.pivot), kColorRounding),
+                        static_cast<float>(ball.radius));
+  if (figure.surface) add_surface(*figure.surface);
+  if (figure.shapes) add_shapes(*figure.shapes);
+  round_tables();
+  check_size(3 * scene_.primitives.size(), "primitives");
+  check_size(scene_.rows.size(), "rows of numbers");
+}
+
+bool Tables::has_marks() const {
+  return std::ranges::any_of(marks_, [](std::uint32_t mark) { return mark != 0; });
+}
+
+std::vector<PageTable> Tables::packed() const {
+  std::vector<glm::vec4> colors = colors_;
+  if (color_by_kind())
+    for (const glm::vec3& color : *figure_.surface->coloring.kind) colors.emplace_back(linear_from_srgb(color), 1.0f);
+  std::vector<ray_cast::Primitive> primitives = scene_.primitives;
+  for (std::size_t n = primitives.size(); n-- > 1;) primitives[n].first_row -= primitives[n - 1].first_row;
+  std::vector<PageTable> tables{page_table("primitives", primitives), page_table("rows", scene_.rows),
+                                page_table("colors", colors)};
+  for (std::size_t n = 0; n < figure_.more_schemes.size(); ++n)
+    tables.push_back(page_table(fmt::format("scheme_{}", n + 1), color_words(figure_.more_schemes[n])));
+  tables.push_back(page_table("marks", marks_));
+  tables.push_back(page_table("shown", shown_));
+  tables.push_back(page_table("balls", balls_));
+  return tables;
+}
+
+void Tables::add_surface(const SurfaceObject& object) {
+  // What planes cut is packed whole: the points of hidden atoms, too, tell what is solid.
+  pack_scene(object.surface, has_cuts(figure_) ? Coloring() : object.coloring, frame_, scene_);
+  add_atoms(object.coloring, object.atom);
+}
+
+void Tables::add_shapes(const ColoredShapes& shapes) {
+  RayCastScene beside;
+  beside.slack = placement_.slack;
+  pack_shapes(shapes.shapes, shapes.coloring, frame_, beside.slack, beside);
+  const auto first_row = static_cast<std::uint32_t>(scene_.rows.size());
+  const std::uint32_t first_atom = atom_count();
+  for (ray_cast::Primitive primitive : beside.primitives) {
+    primitive.first_row += first_row;
+    primitive.atom += first_atom;
+    if (primitive.kind == ray_cast::kCylinder) primitive.second_atom += first_atom;
+    // A sphere of its own is told from the patch of an atom by its index.
+    primitive.patch_index = kShapeIndex;
+    if (primitive.kind == ray_cast::kTriangle)
+      for (std::uint32_t corner = 3; corner < 6; ++corner) {
+        float& atom = beside.rows[primitive.first_row - first_row + corner].w;
+        atom = std::bit_cast<float>(std::bit_cast<std::uint32_t>(atom) + first_atom);
+      }
+    scene_.primitives.push_back(primitive);
+  }
+  scene_.rows.insert(scene_.rows.end(), beside.rows.begin(), beside.rows.end());
+  std::vector<std::uint32_t> all(shapes.coloring.atom.size());
+  for (std::uint32_t n = 0; n < all.size(); ++n) all[n] = n;
+  add_atoms(shapes.coloring, all);
+}
+
+void Tables::add_atoms(const Coloring& coloring, std::span<const std::uint32_t> shown) {
+  Coloring atoms = coloring;
+  atoms.kind.reset();
+  const std::vector<glm::vec4> colors = linear_colors(atoms);
+  colors_.insert(colors_.end(), colors.begin(), colors.end());
+  std::vector<std::uint32_t> marks = coloring.line_marks();
+  marks.resize(shown.size(), 0);
+  marks_.insert(marks_.end(), marks.begin(), marks.end());
+  shown_.insert(shown_.end(), shown.begin(), shown.end());
+  some_hidden_ = some_hidden_ || coloring.hides_some();
+}
+
+/// What no page asks for is 0: it depends on a camera, or decides between points at one depth.
+void Tables::round_tables() {
+  for (ray_cast::Primitive& primitive : scene_.primitives) {
+    const bool is_concave = primitive.kind == ray_cast::kConcave, is_triangle = primitive.kind == ray_cast::kTriangle;
+    const std::uint32_t rows = is_triangle ? 6 : primitive.kind == ray_cast::kCylinder ? 2 : row_count(primitive);
+    for (std::uint32_t n = 0; n < rows; ++n)
+      round_row(scene_.rows[primitive.first_row + n],
+                (is_concave && n > primitive.plane_count) || (is_triangle && n > 2));
+    primitive.bound = rounded_bound(primitive.bound);
+    primitive.nearest = 0.0f;
+    primitive.tie_key = 0;
+    if (primitive.patch_index != kShapeIndex) primitive.patch_index = 0;
+  }
+}
+
+void Tables::check_size(std::size_t texels, const char* what) const {
+  if (texels > kMostTexels)
+    throw CapacityError(fmt::format("a page holds at most {} texels of {}; this figure has {}. Show fewer atoms",
+                                    with_thousands(kMostTexels), what, with_thousands(texels)));
+}
+
+}  // namespace meniscus::page

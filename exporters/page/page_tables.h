@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The records of a page's figure: primitives and their numbers, colours, marks, and the balls of atoms.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec4.hpp>
+
+#include "core/render/ray_cast_scene.h"
+#include "exporters/page/page_data.h"
+#include "exporters/page/page_file.h"
+
+namespace meniscus::page {
+
+/// Whether planes cut the surface in any view.
+bool has_cuts(const PageFigure& figure);
+
+/// Everything that counts atoms does so here: those of the surface, then those of shapes.
+class Tables {
+ public:
+  /// Throws CapacityError for more than textures hold.
+  explicit Tables(const PageFigure& figure);
+
+  const glm::dvec3& origin() const { return frame_.pivot; }  ///< from where the records count, Å
+  const ScenePlacement& placement() const { return placement_; }
+  std::uint32_t atom_count() const { return static_cast<std::uint32_t>(shown_.size()); }
+  bool color_by_kind() const { return figure_.surface && figure_.surface->coloring.kind; }
+  bool some_hidden() const { return some_hidden_; }
+  bool has_marks() const;
+
+  std::vector<PageTable> packed() const;
+
+ private:
+  void check_size(std::size_t texels, const char* what) const;
+  void add_surface(const SurfaceObject& object);
+  void add_shapes(const ColoredShapes& shapes);
+  void add_atoms(const Coloring& coloring, std::span<const std::uint32_t> shown);
+  void round_tables();
+
+  const PageFigure& figure_;
+  PictureFrame frame_;
+  ScenePlacement placement_;
+  RayCastScene scene_;
+  std::vector<glm::vec4> colors_, balls_;
+  std::vector<std::uint32_t> marks_, shown_;
+  bool some_hidden_ = false;
+};
+
+}  // namespace meniscus::page
