@@ -121,9 +121,11 @@ def plotted(points, path):
             out.append(f'<path d="M{x(cost):.1f} {top}v{height}" stroke="{COLORS[library]}" stroke-width="2"/>'
                        f'<text x="{x(cost) + 5:.1f}" y="{top + height - 6}">exact</text>')
             continue
-        beside = 17 if "slices" in setting else -9
+        below, anchor = "slices" in setting, "end" if library == "RustSASA" else "start"
+        if below and library == "zsasa":
+            anchor = "end"
         out.append(f'<circle cx="{x(cost):.1f}" cy="{y(error):.1f}" r="4" fill="{COLORS[library]}"/>'
-                   f'<text x="{x(cost):.1f}" y="{y(error) + beside:.1f}" font-size="11" text-anchor="middle">'
+                   f'<text x="{x(cost):.1f}" y="{y(error) + (17 if below else -9):.1f}" font-size="11" text-anchor="{anchor}">'
                    f'{setting.replace(" points", "").replace("by ", "")}</text>')
     with open(path, "w", encoding="utf-8") as file:
         file.write("\n".join([*out, "</svg>", ""]))
