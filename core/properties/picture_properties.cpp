@@ -67,7 +67,7 @@ constexpr auto kTable = of_commands(
             .in(kCamera, kShared)
             .of(kForFigures & ~(for_preview | for_page)),
         new_file("camera.save", "--save-camera", "FILE",
-                 "Save the camera as JSON, for --camera; one that moves as a path, for --camera-path")
+                 "Save the camera as JSON, for --camera. One that moves is saved for --camera-path")
             .in(kCamera)
             .of(for_render | kForExports | for_page),
 
