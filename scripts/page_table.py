@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """page_table.py PROGRAM CHROMIUM FREESASA_DATA pixels [NAME...] | speed FILE...: tables of what pages of `export page` show
-in a browser, for docs/validation/pages.md.
+in a browser, for docs/validation/page-pixels.md.
 
 pixels: more than twenty molecules and scenes, or those of the molecules named, each pixel beside that of `meniscus render`;
 ends with an error where more than one in a thousand differs, or an outline is off by more than half a pixel. speed: what a
