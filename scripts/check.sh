@@ -34,6 +34,7 @@ areas=(
   "gpu_shaders|math_test kernel_parameters_test gpu_core_test ray_caster_test|"
   "gpu_shaders/geometry|surface_test ray_geometry_gpu_test|"
   "app/options|cli_test|OptionUse|Help"
+  "app/bench|property_test|"
   "app/commands|cli_test|Help"
   "app/reports|cli_test|"
   "app/process|memory_size_test freed_memory_test failing_calls_test|"

@@ -19,6 +19,7 @@ DOCS = ROOT / "docs"
 GUESTS = {"exporters/povray/README.md": "reference/povray-scene.md", "exporters/blender/README.md": "reference/blender-import.md",
           "exporters/blender/FORMAT.md": "reference/mns-format.md",
           "exporters/path_tracers/README.md": "reference/path-tracers.md", "app/preview/commands.md": "reference/preview-commands.md"}
+TOXIN = pathlib.Path("/usr/share/pymol/data/demo/1tii.pdb")
 SHELVES = ["tutorials", "how-to", "gallery", "reference", "explanation", "validation"]
 COMMANDS = ["surface", "pockets", "render", "preview", "export povray", "export blender", "export mitsuba", "export pbrt",
             "export mesh", "export atoms", "farm bundle", "farm status", "farm log", "farm verify", "work", "info", "bench"]
@@ -127,6 +128,19 @@ def title_of(path):
     return re.search(r"^# (.+)$", path.read_text(), re.M).group(1).partition(":")[0]
 
 
+def add_figure(program, pages):
+    """A figure that readers of the manual turn, where Debian's pymol-data has its molecule."""
+    if not TOXIN.exists():
+        return
+    subprocess.run([program, "export", "page", str(TOXIN), "-o", str(pages / "how-to/1tii.html"), "--color", "chain", "-q"],
+                   check=True, stdout=subprocess.DEVNULL)
+    page, words = pages / "how-to/pages.md", "Open it by a double click."
+    text = page.read_text()
+    if words not in text:
+        sys.exit(f"how-to/pages.md: no '{words}', before which the manual has the figure")
+    page.write_text(text.replace(words, f"**[Turn it here](1tii.html).** {words}", 1))
+
+
 def main():
     program, folder = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2])
     pages = folder / "pages"
@@ -135,6 +149,7 @@ def main():
     sources = [*DOCS.rglob("*.md"), *(ROOT / name for name in GUESTS)]
     for source in sources:
         (pages / site_place(source)).write_text(with_links_of_the_site(source, source.read_text()))
+    add_figure(program, pages)
     (pages / "manual.css").write_text(CSS)
     (pages / "manual.js").write_text(SCRIPT)
     options = pages / "reference" / "options"

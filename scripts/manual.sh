@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # manual.sh [--look] [FOLDER]: builds the manual as a static site in FOLDER (build/manual/site), from docs/, the pages of the
-# exporters and what the program tells of its options. A dead link fails. Nothing in the site is fetched from elsewhere.
+# exporters and what the program tells of its options; a figure of `export page` turns in it. A dead link fails. Nothing in
+# the site is fetched from elsewhere.
 #
 # MENISCUS names the program (build/release/meniscus, else build/test/meniscus). MkDocs Material comes from PyPI, and so does
-# axe-core. With --look Chromium opens six pages in two widths: axe-core must find no violation. Pictures: build/manual/look.
+# axe-core. With --look Chromium opens pages in two widths: axe-core must find no violation. Pictures: build/manual/look.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 look=

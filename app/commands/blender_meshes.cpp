@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "app/commands/buried_attribute.h"
 #include "app/commands/mesh_notes.h"
 #include "core/base/error.h"
 #include "core/mesh/mesh_colors.h"

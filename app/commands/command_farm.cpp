@@ -24,7 +24,6 @@
 #include "app/farm/merge.h"
 #include "app/farm/pause.h"
 #include "app/farm/quote.h"
-#include "app/farm/read_bundle.h"
 #include "app/farm/status_report.h"
 #include "app/farm/verify.h"
 #include "app/farm/worker.h"

@@ -59,20 +59,29 @@ struct Shown {
 };
 
 Shown read_run(PreviewCommand& command) {
+  const MoleculeRequest& asked = command.scene.molecule;
+  // Numbers by frame are those of a run, in which models have the atoms of the first one.
+  if (command.models && asked.color.uses_file() && color_of(asked).uses_frames()) {
+    command.scene.frames.frames = "all";
+    command.models = false;
+  }
   Scene scene = command.scene;
   if (!scene.frames.asked()) {
-    // Copies have no frames: of several models the first is shown.
+    // Copies are of one model: of several the first is shown.
     if (scene.molecule.division.instances != InstanceMode::none) command.models = false;
     SceneCommand reading = command;
     reading.scene.molecule = command.read_molecule_request();
     return {std::move(scene), read_and_tell(reading), {}, {}};
   }
-  if (scene.molecule.division.instances != InstanceMode::none)
-    throw UsageError("--instances: copies in the preview do not move; leave it out, or the frames");
   MoleculeRequest molecule = scene.molecule;
   settle_selections(molecule, scene.frames, {.figure = &scene.figure, .view = &scene.picture});
   const auto frames = std::make_shared<FrameRun>(molecule, scene.frames);
   tell_run(command, *frames);
+  if (scene.molecule.division.instances != InstanceMode::none && frames->atoms_change())
+    throw UsageError(
+        "--instances: copies in the preview have the same atoms in all frames, but --select chooses others in each; "
+        "add "
+        "--select-once to keep those of the first");
   ColorScheme& color = scene.molecule.color;
   if (color.by == ColorScheme::By::rmsf) {
     if (color.uses_file())

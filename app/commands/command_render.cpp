@@ -96,7 +96,7 @@ void check_scene(const RenderCommand& command) {
 /// Whether the outputs can be written is known before the work begins; these vanish again.
 void check_files(const RenderCommand& command) {
   const Scene& scene = command.scene;
-  if (!scene.frames.asked()) check_output(scene.output, command.existing());
+  if (!scene.frames.asked() && !command.resumes) check_output(scene.output, command.existing());
   if (!scene.legend.file.empty()) {
     check_image_path(scene.legend.file);
     check_output(scene.legend.file, command.existing());
@@ -151,19 +151,29 @@ void render_figures(const RenderCommand& command) {
   if (!run.is_run()) say_times(command, device.renderer().device(), device.renderer().times());
 }
 
-/// Leaves the frames whose pictures are missing; false: none is.
+/// Leaves the pictures that are missing, of a run their frames; false: none is.
 bool leave_missing(RenderCommand& command) {
+  const bool is_run = command.scene.frames.asked();
   const std::optional<NumberedPath> pictures = NumberedPath::parse(command.scene.output);
-  if (!command.scene.frames.asked() || !pictures)
-    throw UsageError("--resume: this is for runs of frames as pictures; name them, such as -o frame_#####.png");
+  if (is_run && !pictures)
+    throw UsageError("--resume: a film is made as a whole; name pictures instead, such as -o frame_#####.png");
   command.made_of = made_of(command.scene);
-  Scene scene = readied(command.scene);
-  settle_selections(scene.molecule, scene.frames, {});
-  const std::vector<std::uint64_t> frames = FrameRun(scene.molecule, scene.frames).chunk();
-  const std::vector<std::uint64_t> missing = missing_frames(*pictures, frames, command.made_of, command.existing());
-  say(command, fmt::format("{} of {} pictures are there", with_thousands(frames.size() - missing.size()),
-                           with_thousands(frames.size())));
-  command.scene.frames.only = frame_list_text(missing);
+  std::vector<std::string> paths{command.scene.output};
+  std::vector<std::uint64_t> frames;
+  if (is_run) {
+    Scene scene = readied(command.scene);
+    settle_selections(scene.molecule, scene.frames, {});
+    frames = FrameRun(scene.molecule, scene.frames).chunk();
+    paths.clear();
+    for (const std::uint64_t frame : frames) paths.push_back(pictures->at(frame));
+  }
+  const std::vector<std::size_t> missing = missing_pictures(paths, command.made_of, command.existing());
+  say(command, fmt::format("{} of {} pictures are there", with_thousands(paths.size() - missing.size()),
+                           with_thousands(paths.size())));
+  std::vector<std::uint64_t> numbers;
+  for (const std::size_t n : missing)
+    if (is_run) numbers.push_back(frames[n]);
+  if (is_run) command.scene.frames.only = frame_list_text(numbers);
   return !missing.empty();
 }
 

@@ -7,7 +7,6 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/surface_command.h"
-#include "app/commands/surface_summary.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
 #include "app/process/program_error.h"

@@ -20,7 +20,7 @@
 #include "app/process/program_error.h"
 #include "app/process/stop_signals.h"
 #include "core/base/text.h"
-#include "app/farm/read_bundle.h"
+#include "app/farm/check_bundle.h"
 #include "core/trajectory/frame_list.h"
 #include "app/options/property_options.h"
 

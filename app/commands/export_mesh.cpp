@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "app/commands/buried_attribute.h"
 #include "app/commands/commands.h"
 #include "app/commands/figure_run.h"
 #include "app/commands/mesh_notes.h"

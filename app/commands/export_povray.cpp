@@ -59,7 +59,7 @@ std::optional<std::vector<povray::SceneColor>> colors_of_run(const Scene& asked,
 povray::SequenceScene sequence_of(FigureRun& run, povray::SceneOptions options) {
   const Scene& asked = run.scene();
   const FigureRequest& figure = asked.figure;
-  const Structure& reach = run.frames().reach();
+  const Structure reach = numbered_reach(run.frames());
   const ColorScheme scheme = color_of(asked.molecule);
   options.origin = run.framing().origin();
   const ColoredShapes beside = shown_shapes(reach, figure.representations, scheme);

@@ -104,7 +104,7 @@ void FigureRun::measure(ColorScheme& color) {
 }
 
 ColorKey FigureRun::key() const {
-  return frames_ ? color_key(frames_->reach(), color_of(scene().molecule), {}) : key_of(figure_->molecule);
+  return frames_ ? color_key(numbered_reach(*frames_), color_of(scene().molecule), {}) : key_of(figure_->molecule);
 }
 
 void FigureRun::make(const FigureWork& work, const std::function<Sink()>& make_sink) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Words about the fineness of meshes, and the warning of large ones.
+// Words about the fineness of meshes, the warning of large ones, and what chains bury of each other.
 #include "app/commands/mesh_notes.h"
+
+#include <algorithm>
 
 #include <fmt/format.h>
 
@@ -50,6 +52,19 @@ void refuse_even_parts(const MeshFineness& fineness, bool has_hidden_atoms, bool
         "out, or choose atoms by --select");
   if (is_cut)
     throw RequestError("planes cut a mesh whose triangles keep to patches; leave --even and --density out, or --clip");
+}
+
+std::vector<double> buried_by_chains(const MoleculeRequest& molecule, const Structure& structure,
+                                     std::vector<std::string>& names, bool all) {
+  const auto wanted = std::ranges::find(names, "buried_area");
+  if (wanted == names.end()) return {};
+  if (!structure.instances.empty()) {
+    if (!all) throw RequestError("areas buried between copies need copies made of atoms; leave --instances out");
+    names.erase(wanted);
+    return {};
+  }
+  SurfaceComputer computer(molecule.surface);
+  return buried_areas(structure, group_atoms(structure, Grouping::chain), computer, molecule.surface.kind);
 }
 
 }  // namespace meniscus

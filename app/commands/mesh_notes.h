@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What commands that write meshes say of their size and fineness, and refuse.
+// What commands that write meshes share: what they say of size and fineness, what they refuse, and the attribute
+// buried_area.
 #pragma once
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "app/options/scene_options.h"
 #include "core/mesh/mesh_objects.h"
 #include "core/queries/surface_object.h"
+#include "core/scene/molecule.h"
+#include "core/structure/structure.h"
 
 namespace meniscus {
 
@@ -28,5 +32,11 @@ std::string fineness_words(const MeshRequest& request, const MeshFineness& finen
 
 /// Throws RequestError where an even mesh would have to end at atoms that --show leaves out, or at planes.
 void refuse_even_parts(const MeshFineness& fineness, bool has_hidden_atoms, bool is_cut);
+
+/// The area of each atom that other chains bury, Å²; empty where `names` does not have "buried_area". Of a molecule
+/// with copies, for which it cannot be said, the name goes from a list of all names, and is refused by RequestError in
+/// any other.
+std::vector<double> buried_by_chains(const MoleculeRequest& molecule, const Structure& structure,
+                                     std::vector<std::string>& names, bool all);
 
 }  // namespace meniscus

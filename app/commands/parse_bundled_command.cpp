@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "app/farm/bundled_steps.h"
+#include "app/farm/check_bundle.h"
 #include "app/options/property_options.h"
 #include "app/options/usage_faults.h"
 #include "app/process/program_error.h"

@@ -135,7 +135,7 @@ struct Viewed {
   }
 
   ColorKey key(const Scene& scene) const {
-    return run ? color_key(run->reach(), color_of(scene.molecule), {}) : key_of(atoms.molecule);
+    return run ? color_key(numbered_reach(*run), color_of(scene.molecule), {}) : key_of(atoms.molecule);
   }
 
   std::vector<Camera> cameras(const Scene& scene, const ViewRequest& size) {

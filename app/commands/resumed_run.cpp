@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compares the notes of the pictures that are there with what the run would write.
+// Compares the notes of the pictures that are there with what would be written.
 #include "app/commands/resumed_run.h"
 
 #include <filesystem>
@@ -34,19 +34,19 @@ std::string made_of(const Scene& scene) {
   return farm::sha256(text);
 }
 
-std::vector<std::uint64_t> missing_frames(const NumberedPath& pictures, const std::vector<std::uint64_t>& frames,
-                                          const std::string& made_of, Existing existing) {
-  std::vector<std::uint64_t> missing;
+std::vector<std::size_t> missing_pictures(const std::vector<std::string>& paths, const std::string& made_of,
+                                          Existing existing) {
+  std::vector<std::size_t> missing;
   std::optional<std::string> other;
   std::uint64_t others = 0;
-  for (const std::uint64_t frame : frames) {
-    const std::string path = pictures.at(frame);
+  for (std::size_t n = 0; n < paths.size(); ++n) {
+    const std::string& path = paths[n];
     if (std::filesystem::path(path).extension() != ".png")
       throw UsageError("--resume: only .png pictures say of what they were made; name such, as in frame_#####.png");
     std::error_code error;
     const bool is_there = std::filesystem::exists(path, error);
     if (is_there && png_note(path, kMadeOfNote) == made_of) continue;
-    missing.push_back(frame);
+    missing.push_back(n);
     if (!is_there) continue;
     ++others;
     if (!other) other = path;

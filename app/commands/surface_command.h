@@ -33,4 +33,12 @@ void check_outputs(const SurfaceCommand& command);
 /// for (surface_tables.cpp). Files get their names at the end, with the frames that could be made.
 void print_surface(const SurfaceCommand& command);
 
+/// --csv-summary (surface_summary.cpp): numbers of many molecules, one row a file.
+/// Computes the molecule's file and, where a run has its trajectories, further ones, several at once. Rows go to
+/// FILE.part, in the order of the files, each as soon as it is whole; at the end that becomes FILE. A file that cannot
+/// be computed has a row that says why. Likewise rows of atoms and residues, which begin with the file. Throws
+/// UsageError for what goes with one molecule alone, OutputError; at the end RunError, with the code of the first file
+/// that failed.
+void print_summary(const SurfaceCommand& command);
+
 }  // namespace meniscus

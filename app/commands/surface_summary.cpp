@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Passes files through a pipeline, and keeps tables that a later call can go on with.
-#include "app/commands/surface_summary.h"
+// Passes the files of `meniscus surface --csv-summary` through a pipeline, and keeps tables that a later call can go on
+// with.
+#include "app/commands/surface_command.h"
 
 #include <chrono>
 #include <filesystem>

@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "app/farm/blender_driver.h"
-#include "app/farm/bundled_steps.h"
 #include "app/farm/command_options.h"
 #include "app/farm/inner_path.h"
 #include "app/process/program_error.h"
@@ -21,6 +22,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
+constexpr std::size_t kLargestManifest = std::size_t{64} << 20;
 constexpr std::uint64_t kMostTasks = 1000, kMostCores = 4096, kMostMemory = std::uint64_t{1} << 30;  // MiB
 
 Words command_words(const Words& command) {
@@ -84,6 +86,30 @@ void check_numbers(const Bundle& bundle) {
 }
 
 }  // namespace
+
+Bundle read_bundle(const std::filesystem::path& folder) {
+  const std::string path = (folder / "bundle.json").string();
+  const std::optional<std::string> text = inner_text(folder, "bundle.json", kLargestManifest);
+  if (!text) throw InputError(path, 0, "cannot be opened; meniscus farm bundle makes it");
+  try {
+    Bundle bundle = parse_bundle(*text);
+    check_bundle(bundle);
+    return bundle;
+  } catch (const RequestError& error) {
+    throw InputError(path, 0, error.what());
+  }
+}
+
+std::vector<Step> steps_of(const std::vector<std::string>& words) {
+  const Step surface{"surface", Maker::meniscus, {}};
+  const std::string command = fmt::format("{}", fmt::join(words, " "));
+  if (command == "render") return {{"render", Maker::meniscus, {}}};
+  if (command == "export povray") return {surface, {"render", Maker::povray, {}}};
+  if (command == "export blender") return {surface, {"render", Maker::blender, {}}};
+  if (command == "export mitsuba" || command == "export pbrt") return {surface};
+  throw RequestError(
+      fmt::format("{} cannot be bundled; render and export povray, blender, mitsuba and pbrt can", in_quotes(command)));
+}
 
 std::size_t command_word_count(const Words& command) { return !command.empty() && command.front() == "export" ? 2 : 1; }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks that everything a bundle asks for stays in its folder: it may come from anywhere.
+// Reads bundles, and checks that everything they ask for stays in their folders: they may come from anywhere.
 #pragma once
 
 #include <filesystem>
@@ -9,6 +9,13 @@
 #include "app/farm/bundle.h"
 
 namespace meniscus::farm {
+
+/// Reads DIR/bundle.json. Throws InputError: missing, damaged, of another schema, or what check_bundle refuses.
+Bundle read_bundle(const std::filesystem::path& folder);
+
+/// Of a command, such as {"render"} or {"export", "povray"}: its steps in order, without arguments. Throws RequestError
+/// for a command that cannot be bundled.
+std::vector<Step> steps_of(const std::vector<std::string>& words);
 
 /// Throws RequestError unless: the command is a framed one whose options are all known to be harmless, and whose files
 /// are inputs of the bundle; inputs, steps, film and numbers are such as this program makes.

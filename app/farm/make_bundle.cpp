@@ -12,14 +12,12 @@
 #include <fmt/format.h>
 
 #include "app/farm/blender_driver.h"
-#include "app/farm/bundled_steps.h"
 #include "app/farm/check_bundle.h"
 #include "app/farm/child_process.h"
 #include "app/farm/command_options.h"
 #include "app/farm/frame_record.h"
 #include "app/farm/inner_path.h"
 #include "app/farm/quote.h"
-#include "app/farm/read_bundle.h"
 #include "app/farm/worker.h"
 #include "app/film/film.h"
 #include "app/options/scene_words.h"
@@ -76,7 +74,7 @@ std::optional<std::array<double, 2>> measured_range(Scene& scene, ShownFrames& f
 /// That of --legend-file, which is the same for all frames.
 std::optional<Legend> legend_of(const Scene& scene, const FrameRun& frames) {
   if (scene.legend.file.empty()) return {};
-  const ColorKey key = color_key(frames.reach(), color_of(scene.molecule), {});
+  const ColorKey key = color_key(numbered_reach(frames), color_of(scene.molecule), {});
   return Legend(key, scene.picture.size(), legend_style(scene.legend.style, scene.annotations.letters));
 }
 

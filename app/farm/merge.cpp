@@ -11,7 +11,7 @@
 #include "app/farm/checksum.h"
 #include "app/farm/frame_log.h"
 #include "app/farm/inner_path.h"
-#include "app/farm/read_bundle.h"
+#include "app/farm/check_bundle.h"
 #include "app/farm/verify.h"
 #include "core/base/error.h"
 #include "core/base/output_file.h"

@@ -57,7 +57,7 @@ Outcome at_frame(PreviewState state, std::size_t frame, const Surroundings& arou
   state.frame = frame;
   if (state.follows_keys && !state.keys.empty()) {
     const double number = static_cast<double>(around.molecule.number_of(frame));
-    state.camera = CameraPath(around.molecule.camera_keys(state)).at(number);
+    state.camera = CameraPath(camera_keys(around.molecule, state)).at(number);
     state.overview = false;
   }
   return {std::move(state), Renewal::frame};
@@ -110,14 +110,14 @@ Outcome zoom_to(const CommandReader& command, PreviewState state, const Surround
   const std::vector<Instances>& copies = molecule.structure().instances;
   if (!copies.empty()) shown = reaching_balls(molecule.balls(), copies_of(copies, chosen));
   if (shown.empty()) throw RequestError("zoom_to: no atom of this frame is " + in_quotes(selection.text()));
-  const Camera camera = zoomed_to(state.camera, shown, molecule.balls_in_view(), molecule.aspect(state));
+  const Camera camera = zoomed_to(state.camera, shown, balls_in_view(molecule), molecule.aspect(state));
   return seen_from(state, camera, {{"atoms", count}});
 }
 
 Outcome center(const CommandReader& command, PreviewState state, const Surroundings& around) {
   const auto point = around.pictures.pick(state, around.molecule, pixel_of(command, state));
   if (!point) throw RequestError("center: nothing is there");
-  const Camera camera = centered(state.camera, point->position, around.molecule.balls_in_view());
+  const Camera camera = centered(state.camera, point->position, balls_in_view(around.molecule));
   return seen_from(state, camera, {{"position", {point->position.x, point->position.y, point->position.z}}});
 }
 
@@ -134,7 +134,7 @@ Outcome set_camera(const CommandReader& command, PreviewState state, const Surro
 Outcome set_projection(const CommandReader& command, PreviewState state, const Surroundings& around) {
   const std::size_t word = command.choice("projection", property_of("camera.projection"));
   const Camera camera = projected(state.camera, word == 0 ? Projection::perspective : Projection::orthographic,
-                                  around.molecule.balls_in_view());
+                                  balls_in_view(around.molecule));
   return seen_from(state, camera);
 }
 

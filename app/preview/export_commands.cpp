@@ -151,7 +151,7 @@ Json export_view(const CommandReader& command, const Surroundings& around) {
   const PictureWishes wishes = wishes_of(command, state);
   if (format == Format::png) check_image_path(target.path);
   if (format == Format::camera) export_camera(state.camera, target);
-  if (format == Format::camera_path) export_camera_path(molecule.camera_keys(state), target);
+  if (format == Format::camera_path) export_camera_path(camera_keys(molecule, state), target);
   if (format >= Format::camera) return {{"path", target.path.string()}};
   exporter.forget_job();
   const auto begin = [&](ExportJob::Work work, std::optional<std::uint64_t> edition) {

@@ -45,8 +45,6 @@ ColorScheme PreviewFigure::told_scheme() const {
 }
 
 void require_previewed(const ColorScheme& color) {
-  if (color.uses_frames())
-    throw RequestError("numbers by frame are for render and export blender; leave the column frame of their file out");
   require_shown(color);
   for (const ColorRule& rule : color.rules) require_shown(rule.paint);
 }

@@ -143,7 +143,7 @@ Json tell_state(const CommandReader&, const Surroundings& around) {
       {"frame", state.frame},
       {"frame_number", molecule.number_of(state.frame)},
       {"frames", molecule.frame_count()},
-      {"keys", Json(camera_path_object(molecule.camera_keys(state)))["keys"]},
+      {"keys", Json(camera_path_object(camera_keys(molecule, state)))["keys"]},
       {"follow_keys", state.follows_keys},
       {"playing", state.playing},
       {"fps", state.frames_per_second},

@@ -68,7 +68,8 @@ std::vector<std::uint8_t> LegendStrip::around(std::span<const std::uint8_t> mole
 
 namespace {
 
-/// The balls of frames all over a trajectory. atoms: of these frames, into structure.atoms.
+/// The balls of frames all over a trajectory, or of copies those that reach as far. atoms: of these frames, into
+/// structure.atoms.
 std::vector<Ball> sampled_balls(const TrajectoryPositions& trajectory, const Structure& structure,
                                 const std::vector<std::uint32_t>& atoms) {
   constexpr std::size_t kSamples = 16;  // few enough to begin at once, enough to see where the molecule goes
@@ -83,7 +84,10 @@ std::vector<Ball> sampled_balls(const TrajectoryPositions& trajectory, const Str
         continue;
       }
       const std::vector<glm::dvec3> positions = trajectory.positions(frame);
-      for (const std::uint32_t a : atoms) sampled.push_back({positions[a], structure.atoms[a].radius});
+      std::vector<Ball> balls;
+      for (const std::uint32_t a : atoms) balls.push_back({positions[a], structure.atoms[a].radius});
+      if (!structure.instances.empty()) balls = reaching_balls(balls, structure.instances);
+      sampled.insert(sampled.end(), balls.begin(), balls.end());
     } catch (const InputError&) {
       if (n == 0) throw;  // a later one is told when it is shown
     }
@@ -108,6 +112,12 @@ std::vector<AtomGroup> models_of(const Structure& structure) {
   all.atoms.resize(structure.atoms.size());
   std::iota(all.atoms.begin(), all.atoms.end(), 0u);
   return {all};
+}
+
+/// Those of the surface that the figure shows: with all copies, if there are any; then there are no cuts by atoms.
+std::vector<Ball> balls_shown(const ShownMolecule& molecule, const PreviewFigure& figure) {
+  const std::vector<Ball>& balls = molecule.balls();
+  return molecule.structure().instances.empty() ? shown_balls(balls, molecule.coloring(figure)) : balls;
 }
 
 std::size_t count_of(const std::vector<bool>& shown, const PreviewFigure& figure, const ShownMolecule& molecule) {
@@ -151,16 +161,22 @@ ShownMolecule::Made ShownMolecule::made_at(const PreviewState& state) {
   else if (trajectory_)
     positions = trajectory_->positions(state.frame);
   std::size_t frame = state.frame;
+  std::optional<std::uint64_t> number;  // by which a file may have numbers of the frame
+  if (trajectory_) number = number_of(state.frame);
+  if (other) other->frame = number;
   const auto exchange = [&] {
     if (other) {
       std::swap(structure_, *other);
       models_ = models_of(structure_);
+    } else {
+      std::swap(structure_.frame, number);
     }
     for (std::size_t n = 0; n < positions.size(); ++n) std::swap(structure_.atoms[n].position, positions[n]);
     std::swap(frame_, frame);
   };
   exchange();  // colours and selections may depend on where atoms are
   try {
+    if (state.copies_apart && trajectory_) require_apart(structure_, state.probe_reach());
     return made(state, Renewal::frame, state.frame);
   } catch (...) {
     exchange();
@@ -180,7 +196,9 @@ ShownMolecule::Made ShownMolecule::made(const PreviewFigure& figure, Renewal ren
     if (!figure.figure.representations.empty() || !figure.figure.objects.empty()) {
       if (!read_shown_)
         throw RequestError("this molecule cannot be read again, so nothing can be drawn beside its surface");
-      made.marked = std::make_shared<const Structure>(read_shown_(figure.figure, frame));
+      Structure marked = read_shown_(figure.figure, frame);
+      marked.frame = structure_.frame;
+      made.marked = std::make_shared<const Structure>(std::move(marked));
       if (made.marked->atoms.size() != atoms().size())
         throw InputError(structure_.file, 0, "has other atoms than when the preview began; start the preview again");
     }
@@ -236,12 +254,6 @@ void ShownMolecule::lay_out_legend(const PreviewState& state) {
   }
 }
 
-std::vector<CameraKey> ShownMolecule::camera_keys(const PreviewState& state) const {
-  std::vector<CameraKey> keys;
-  for (const auto& [frame, camera] : state.keys) keys.push_back({static_cast<double>(number_of(frame)), camera});
-  return keys;
-}
-
 Coloring ShownMolecule::coloring(const PreviewFigure& figure) const {
   Coloring coloring = coloring_of(coloring_, atoms());
   if (figure.patch_kinds) coloring.kind = kPatchKindColors;
@@ -277,6 +289,7 @@ std::vector<bool> ShownMolecule::patch_marks(const PreviewFigure& figure) const 
 Structure ShownMolecule::frame_structure() const {
   Structure frame;
   frame.file = structure_.file;
+  frame.frame = structure_.frame;
   for (const std::uint32_t a : atoms()) frame.atoms.push_back(structure_.atoms[a]);
   return frame;
 }
@@ -292,14 +305,6 @@ std::vector<Atom> ShownMolecule::atoms_in_view() const {
   return atoms;
 }
 
-std::vector<Ball> ShownMolecule::balls_in_view() const {
-  std::vector<Ball> balls = reach();
-  if (!beside_) return balls;
-  const std::vector<Ball> beside = beside_->balls();
-  balls.insert(balls.end(), beside.begin(), beside.end());
-  return balls;
-}
-
 double ShownMolecule::aspect(const PreviewState& state) const {
   const glm::ivec2 size = picture_size(state);
   return static_cast<double>(size.x) / size.y;
@@ -309,27 +314,37 @@ Camera ShownMolecule::overview(const PreviewState& state) const {
   const std::vector<Ball> own = trajectory_ ? grown(sampled_, growth_of(state.kind, state.probe_radius)) : reach();
   const Camera camera = meniscus::overview(own, aspect(state), state.camera.projection);
   if (trajectory_ || !beside_) return camera;
-  const std::vector<Ball> all = balls_in_view();
+  const std::vector<Ball> all = balls_in_view(*this);
   return zoomed_to(camera, all, all, aspect(state));
-}
-
-std::vector<Ball> ShownMolecule::balls_shown(const PreviewFigure& figure) const {
-  // With all copies, if there are any; then there are no cuts by atoms.
-  return structure_.instances.empty() ? shown_balls(balls_, coloring(figure)) : balls_;
 }
 
 std::vector<ClipPlane> ShownMolecule::planes(const PreviewFigure& figure) const {
   const std::vector<Cut>& cuts = figure.figure.cuts;
   if (figure.figure.hides_surface || cuts.empty()) return {};
   const CutAtoms atoms = cut_atoms(cuts, marked_ ? *marked_ : frame_structure());
-  return clip_planes(cuts, atoms, {figure.camera, reach(), balls_shown(figure)});
+  return clip_planes(cuts, atoms, {figure.camera, reach(), balls_shown(*this, figure)});
 }
 
 std::vector<std::string> ShownMolecule::idle_among(std::span<const Cut> cuts, const PreviewFigure& figure) const {
   if (figure.figure.hides_surface) return {};
-  const std::vector<Ball> shown = balls_shown(figure);
+  const std::vector<Ball> shown = balls_shown(*this, figure);
   const CutAtoms atoms = cut_atoms(cuts, marked_ ? *marked_ : frame_structure());
   return idle_cuts(cuts, atoms, {figure.camera, reach(), shown}, reach());
+}
+
+std::vector<CameraKey> camera_keys(const ShownMolecule& molecule, const PreviewState& state) {
+  std::vector<CameraKey> keys;
+  for (const auto& [frame, camera] : state.keys)
+    keys.push_back({static_cast<double>(molecule.number_of(frame)), camera});
+  return keys;
+}
+
+std::vector<Ball> balls_in_view(const ShownMolecule& molecule) {
+  std::vector<Ball> balls = molecule.reach();
+  if (!molecule.beside()) return balls;
+  const std::vector<Ball> beside = molecule.beside()->balls();
+  balls.insert(balls.end(), beside.begin(), beside.end());
+  return balls;
 }
 
 void require_copies_apart(const Structure& structure, const PreviewState& state, double reach) {

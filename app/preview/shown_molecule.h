@@ -82,8 +82,6 @@ class ShownMolecule {
   bool has_models() const { return models_.size() > 1; }
   /// Of a frame, as its trajectory counts.
   std::uint64_t number_of(std::size_t frame) const { return trajectory_ ? trajectory_->numbers[frame] : frame; }
-  /// Those of the state, by the numbers of their frames.
-  std::vector<CameraKey> camera_keys(const PreviewState& state) const;
 
   /// Of the frame, into structure().atoms.
   const std::vector<std::uint32_t>& atoms() const { return models_[trajectory_ ? 0 : frame_].atoms; }
@@ -106,8 +104,6 @@ class ShownMolecule {
   /// An atom of a picture, of which those beside the surface come last.
   const Atom& atom_in_view(std::uint32_t atom) const;
   std::vector<Atom> atoms_in_view() const;
-  /// Those of the surface's atoms, and around what is drawn beside them.
-  std::vector<Ball> balls_in_view() const;
 
   /// nullptr: none.
   const std::shared_ptr<const LegendStrip>& legend() const { return legend_; }
@@ -136,7 +132,6 @@ class ShownMolecule {
   };
 
   Made made_at(const PreviewState& state);
-  std::vector<Ball> balls_shown(const PreviewFigure& figure) const;
   Made made(const PreviewFigure& figure, Renewal renewal, std::size_t frame) const;
   std::vector<bool> part_shown(const PreviewFigure& figure, const Structure* marked) const;
   void place_balls(const PreviewFigure& figure);
@@ -156,6 +151,12 @@ class ShownMolecule {
   std::shared_ptr<const LegendStrip> legend_;
   std::string legend_fault_;
 };
+
+/// The camera keys of a state, by the numbers of their frames.
+std::vector<CameraKey> camera_keys(const ShownMolecule& molecule, const PreviewState& state);
+
+/// Those of the surface's atoms, and around what is drawn beside them.
+std::vector<Ball> balls_in_view(const ShownMolecule& molecule);
 
 /// Throws InputError if a probe would touch two copies that are to be apart. reach: with which none does, Å.
 void require_copies_apart(const Structure& structure, const PreviewState& state, double reach);

@@ -9,6 +9,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/mesh/even_sizes.h"
 #include "core/surface/walks.h"
 
 namespace meniscus {
@@ -126,15 +127,8 @@ FacePoint TorusDomain::between(const std::array<const FacePoint*, 3>& points,
 }
 
 double TorusDomain::deviation(const FacePoint& a, const FacePoint& b, const FacePoint& c) const {
-  static constexpr std::array<std::array<double, 3>, 7> kPlaces{{{1.0 / 3, 1.0 / 3, 1.0 / 3},
-                                                                 {0.5, 0.5, 0.0},
-                                                                 {0.0, 0.5, 0.5},
-                                                                 {0.5, 0.0, 0.5},
-                                                                 {0.6, 0.2, 0.2},
-                                                                 {0.2, 0.6, 0.2},
-                                                                 {0.2, 0.2, 0.6}}};
   double worst = 0.0;
-  for (const auto& w : kPlaces) {
+  for (const auto& w : RemeshTuning::places) {
     const glm::dvec3 x = w[0] * a.position + w[1] * b.position + w[2] * c.position - patch_.center;
     const double height = glm::dot(x, patch_.axis);
     const double out = glm::length(x - height * patch_.axis) - patch_.radius;

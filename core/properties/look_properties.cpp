@@ -98,11 +98,11 @@ constexpr auto kTable = of_commands(
         text("look.patch_lines", "--patch-lines", "WIDTH", "Width of the lines around --patches; 0: no lines")
             .from(0, 16)
             .initially("2.5 pixels of a picture of 960, wider in larger ones")
-            .of(for_render | for_preview)
+            .of(for_render | for_preview | for_page)
             .in(kLines, kLook),
         text("look.patch_line_color", "--patch-line-color", "COLOR", "Colour of the lines around --patches")
             .initially("black")
-            .of(for_render | for_preview)
+            .of(for_render | for_preview | for_page)
             .in(kLines, kLook),
         number("look.depth_cue", "--depth-cue", "F",
                "Fade of the farthest atoms into the background, 0 to 1. A transparent background counts as white. "

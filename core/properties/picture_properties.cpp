@@ -67,7 +67,7 @@ constexpr auto kTable = of_commands(
             .in(kCamera, kShared)
             .of(kForFigures & ~(for_preview | for_page)),
         new_file("camera.save", "--save-camera", "FILE",
-                 "Save the camera as JSON, for --camera; one that moves as a path, for --camera-path")
+                 "Save the camera as JSON for --camera, or its path for --camera-path")
             .in(kCamera)
             .of(for_render | kForExports | for_page),
 
@@ -123,8 +123,8 @@ constexpr auto kTable = of_commands(
             .in_short_help()
             .of(for_render | for_film),
         flag("picture.resume", "--resume",
-             "Keep the pictures of this run that are there, and make the rest. Give it from the start: pictures then "
-             "say of what they were made")
+             "Keep the picture, or those of a run, if they are there, and make the rest. Give it from the start: "
+             "pictures then say of what they were made")
             .in(kFramesOfPicture)
             .of(for_render),
         flag("picture.provenance", "--provenance", "Store the command line in the picture (.png, .tif, .jpg, .exr)")

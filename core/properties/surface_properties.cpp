@@ -118,7 +118,7 @@ constexpr auto kTable = of_commands(
              "Needs --color-range; the default --map is red-white-blue")
             .in(kColour, kSeen)
             .in_short_help()
-            .of(kForColours & ~for_page)
+            .of(kForColours)
             .excludes("surface.color_by_file"),
         number(
             "surface.map_offset", "--map-offset", "Å",
@@ -126,7 +126,7 @@ constexpr auto kTable = of_commands(
             .from(-20, 20)
             .initially("0")
             .in(kColour, kSeen | rare)
-            .of(kForColours & ~for_page)
+            .of(kForColours)
             .needs("surface.color_map_file"),
         text("surface.map", "--map", "MAP",
              "Colour map for numbers, such as viridis or blue-white-red. Others: cividis, magma, red-white-blue "

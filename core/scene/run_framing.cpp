@@ -82,6 +82,12 @@ void measure_colors(ColorScheme& color, ShownFrames& frames) {
   if (!color.range) color.frames_range = std::array{0.0, frames.most_buried()};
 }
 
+Structure numbered_reach(const FrameRun& frames) {
+  Structure reach = frames.reach();
+  reach.frame = frames.structure().frame;
+  return reach;
+}
+
 std::vector<glm::vec3> run_colors(const Structure& structure, const ColorScheme& scheme, const Coloring& beside) {
   std::vector<glm::vec3> colors;
   const auto add = [&](const glm::vec3& color) {

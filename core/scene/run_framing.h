@@ -29,6 +29,9 @@ RunFraming run_framing(const ViewRequest& view, const CameraMotionRequest& motio
 /// change with the places of atoms. Reads the run again for each scheme that needs it. Throws what fluctuations throws.
 void measure_colors(ColorScheme& color, ShownFrames& frames);
 
+/// FrameRun::reach() with the number of the first frame, of which a file may have numbers.
+Structure numbered_reach(const FrameRun& frames);
+
 /// All colours that a frame of the run may have, in the order of the atoms; of components all there are. Of schemes
 /// that do not change with the frames.
 std::vector<glm::vec3> run_colors(const Structure& structure, const ColorScheme& scheme, const Coloring& beside = {});

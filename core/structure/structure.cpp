@@ -15,17 +15,23 @@
 namespace meniscus {
 namespace {
 
-constexpr std::pair<const char*, const char*> kReasonWords[] = {
+struct ReasonWords {
+  const char* reason;
+  const char* words;
+  const char* plural = "";
+};
+
+constexpr ReasonWords kReasonWords[] = {
     {kExcludedModel, "of other models"},
     {kExcludedTrajectory, "not in the trajectory"},
     {kExcludedAltloc, "of other alternate locations"},
-    {kExcludedVirtual, "virtual sites"},
+    {kExcludedVirtual, "virtual site", "s"},
     {kExcludedSelection, "not selected"},
     {kExcludedElement, "of unknown element"},
     {kExcludedRadius, "of radius zero"},
-    {kExcludedHydrogen, "hydrogen"},
+    {kExcludedHydrogen, "hydrogen", "s"},
     {kExcludedWater, "water"},
-    {kExcludedIon, "free ion"},
+    {kExcludedIon, "free ion", "s"},
     {kExcludedAssembly, "outside the assembly"},
 };
 
@@ -55,10 +61,11 @@ std::string label_of(const Atom& atom) {
 
 std::string reasons_text(const std::map<std::string, std::size_t>& excluded) {
   std::string text;
-  for (const auto& [reason, words] : kReasonWords) {
+  for (const auto& [reason, words, plural] : kReasonWords) {
     const auto found = excluded.find(reason);
     if (found == excluded.end()) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", with_thousands(found->second), words);
+    text += fmt::format("{}{} {}{}", text.empty() ? "" : ", ", with_thousands(found->second), words,
+                        found->second == 1 ? "" : plural);
   }
   return text;
 }

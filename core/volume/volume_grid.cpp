@@ -14,6 +14,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/math/geometry.h"
 
 namespace meniscus {
 namespace {
@@ -34,6 +35,18 @@ void check_frame(const std::string& path, const VolumeFrame& frame) {
   if (!(std::abs(glm::determinant(frame.step)) > kFlattest * edges))
     throw InputError(path, 0, "has axes that lie in one plane; correct its steps");
 }
+
+using geometry::real;
+using geometry::real3;
+using geometry::uint;
+using std::min;
+
+/// As shaders of pages have them, too.
+struct Values {
+  const float* values;
+  real grid_value(uint n) const { return values[n]; }
+#include "gpu_shaders/geometry/trilinear.glsl"
+};
 
 }  // namespace
 
@@ -62,26 +75,10 @@ VolumeGrid::VolumeGrid(const std::string& path, const VolumeFrame& frame, std::v
 
 double VolumeGrid::sample(const glm::dvec3& point) const {
   const glm::dvec3 place = to_index_ * (point - frame_.origin);
-  std::array<std::size_t, 3> low{};
-  std::array<double, 3> share{};
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto last = static_cast<double>(frame_.size[axis] - 1);
-    if (!(place[axis] >= 0.0 && place[axis] <= last)) return std::numeric_limits<double>::quiet_NaN();
-    low[axis] = std::min(static_cast<std::size_t>(place[axis]), frame_.size[axis] - 2);
-    share[axis] = place[axis] - static_cast<double>(low[axis]);
-  }
-  double sum = 0.0;
-  for (std::size_t corner = 0; corner < 8; ++corner) {
-    double weight = 1.0;
-    std::size_t at = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::size_t step = corner >> axis & 1;
-      weight *= step ? share[axis] : 1.0 - share[axis];
-      at = at * frame_.size[axis] + low[axis] + step;
-    }
-    sum += weight * static_cast<double>(values_[at]);
-  }
-  return sum;
+  const auto count = [&](int axis) { return static_cast<std::uint32_t>(frame_.size[axis]); };
+  Values values{values_.data()};
+  if (!values.on_grid(place, count(0), count(1), count(2))) return std::numeric_limits<double>::quiet_NaN();
+  return values.trilinear(place, count(0), count(1), count(2));
 }
 
 void check_volume_size(const std::string& path, std::size_t line, const std::array<std::int64_t, 3>& size) {

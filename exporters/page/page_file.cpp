@@ -217,6 +217,7 @@ json description_of(const PageFigure& figure, const Tables& tables) {
           {"fades_always", figure.fades_always},
           {"some_hidden", tables.some_hidden()},
           {"layers", layers_of(figure)},
+          {"map", tables.map()},
           {"samples", samples},
           {"samples_of_shade", kSamplesOfShade},
           {"labels", labels},

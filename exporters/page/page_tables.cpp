@@ -5,14 +5,18 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/color/color_maps.h"
 #include "core/image/color_space.h"
 #include "core/math/ball.h"
 #include "core/render/linear_colors.h"
@@ -24,6 +28,8 @@ namespace {
 
 constexpr std::size_t kMostTexels = std::size_t{2048} * 8192;  // of a table
 constexpr std::uint32_t kShapeIndex = 0xffffffffu;
+constexpr std::size_t kMapColors = 1024;  // of a volume map's scale
+constexpr double kMapSteps = 1 << 14;     // over its range: what its values are rounded to
 
 /// What is rounded to this is stored in less room: Å, or a part of a unit vector.
 constexpr float kRounding = 1.0f / (1 << 17);
@@ -113,7 +119,9 @@ Tables::Tables(const PageFigure& figure) : figure_(figure) {
                         static_cast<float>(ball.radius));
   if (figure.surface) add_surface(*figure.surface);
   if (figure.shapes) add_shapes(*figure.shapes);
+  add_map();
   round_tables();
+  check_size(map_.size(), "a volume map");
   check_size(3 * scene_.primitives.size(), "primitives");
   check_size(scene_.rows.size(), "rows of numbers");
 }
@@ -135,7 +143,50 @@ std::vector<PageTable> Tables::packed() const {
   tables.push_back(page_table("marks", marks_));
   tables.push_back(page_table("shown", shown_));
   tables.push_back(page_table("balls", balls_));
+  if (!map_.empty()) tables.push_back(page_table("map", map_));
   return tables;
+}
+
+void Tables::add_map() {
+  if (!figure_.surface || !figure_.surface->coloring.volume) return;
+  const Coloring& coloring = figure_.surface->coloring;
+  const ColorScale& scale = coloring.volume->scale;
+  const auto add = [&](float number) { map_.push_back(std::bit_cast<std::uint32_t>(number)); };
+  const auto add_color = [&](double number) {
+    const glm::vec3 color = linear_from_srgb(scale.color(number));
+    for (int n = 0; n < 3; ++n) add(color[n]);
+  };
+  for (std::size_t n = 0; n < kMapColors; ++n)
+    add_color(scale.range[0] + (scale.range[1] - scale.range[0]) * static_cast<double>(n) / (kMapColors - 1));
+  add_color(std::numeric_limits<double>::quiet_NaN());
+  map_atoms_ = map_.size();
+  for (std::uint32_t a = 0; a < atom_count(); ++a)
+    map_.push_back(a < coloring.atom.size() && coloring.by_volume(a) ? 0u : 1u);
+  map_values_ = map_.size();
+  // Finer than colours can be told apart.
+  const auto step = static_cast<float>(std::max((scale.range[1] - scale.range[0]) / kMapSteps, 1e-30));
+  map_.reserve(map_.size() + coloring.volume->grid.values().size());
+  for (const float value : coloring.volume->grid.values()) add(rounded(value, step));
+}
+
+nlohmann::json Tables::map() const {
+  if (map_.empty()) return nullptr;
+  const VolumePaint& paint = *figure_.surface->coloring.volume;
+  const VolumeFrame& grid = paint.grid.frame();
+  const glm::dmat3 to_index = glm::inverse(grid.step);
+  const glm::dvec3 first = to_index * (origin() - grid.origin);
+  nlohmann::json axes = nlohmann::json::array();
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int k = 0; k < 3; ++k) axes.push_back(to_index[k][axis]);
+    axes.push_back(first[axis]);
+  }
+  const auto& [low, high] = paint.scale.range;
+  // Where all numbers are equal they have the colour in the middle.
+  const double share = high > low ? 1.0 / (high - low) : 0.0;
+  return {{"axes", axes},
+          {"size", grid.size},
+          {"scale", {low, share, paint.offset}},
+          {"parts", {3 * kMapColors, map_atoms_, map_values_}}};
 }
 
 void Tables::add_surface(const SurfaceObject& object) {

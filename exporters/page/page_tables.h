@@ -8,10 +8,11 @@
 #include <vector>
 
 #include <glm/vec4.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "core/render/ray_cast_scene.h"
 #include "exporters/page/page_data.h"
-#include "exporters/page/page_file.h"
+#include "exporters/page/page_figure.h"
 
 namespace meniscus::page {
 
@@ -30,6 +31,8 @@ class Tables {
   bool color_by_kind() const { return figure_.surface && figure_.surface->coloring.kind; }
   bool some_hidden() const { return some_hidden_; }
   bool has_marks() const;
+  /// Of a volume map what painted.glsl asks for, but for its table; null: there is none.
+  nlohmann::json map() const;
 
   std::vector<PageTable> packed() const;
 
@@ -39,6 +42,7 @@ class Tables {
   void add_shapes(const ColoredShapes& shapes);
   void add_atoms(const Coloring& coloring, std::span<const std::uint32_t> shown);
   void round_tables();
+  void add_map();
 
   const PageFigure& figure_;
   PictureFrame frame_;
@@ -46,6 +50,8 @@ class Tables {
   RayCastScene scene_;
   std::vector<glm::vec4> colors_, balls_;
   std::vector<std::uint32_t> marks_, shown_;
+  std::vector<std::uint32_t> map_;  ///< painted.glsl's, floats as bits
+  std::size_t map_atoms_ = 0, map_values_ = 0;
   bool some_hidden_ = false;
 };
 

@@ -107,8 +107,6 @@ void check_scene(const Scene& scene) {
   const auto refuse = [](const std::string& option, const char* why) {
     throw RequestError(fmt::format("{}: pages do not show {} yet; leave it out, or use render", option, why));
   };
-  if (scene.molecule.color.by == ColorScheme::By::lipophilicity)
-    refuse(option_name("color") + " lipophilicity", "colours of points");
   if (!scene.figure.objects.empty()) refuse(option_name("object"), "objects with looks of their own");
   if (scene.figure.cuts.size() > kMostPlanes)
     throw RequestError(fmt::format("{}: pages show at most {} planes, and there are {}; leave some out",
@@ -146,7 +144,8 @@ PackedFrame scene_frame(const Scene& scene, Figure figure, const SceneFrame& fra
   shown.origin = frame.origin;
   shown.size = scene.picture.size();
   shown.look = look_of(scene.look, shown.size, scene.image.background,
-                       hues_of(scene.molecule.color, scene.legend.asked(), uses_atoms(scene.figure.cuts)));
+                       hues_of(scene.molecule.color, scene.legend.asked(), uses_atoms(scene.figure.cuts)),
+                       scene.molecule.patches.has_value());
   shown.views = frame.views;
   shown.fades_always = scene.look.depth_cue.has_value();
   const std::vector<Ball> balls = placed_balls(figure.molecule.objects);

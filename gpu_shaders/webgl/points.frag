@@ -15,6 +15,9 @@ uniform float thickens;              // 1: what is seen through is a film
 uniform usampler2D found_texels;  // of cast.frag
 #endif
 uniform usampler2D mark_texels;   // of atoms: Coloring::line_marks()
+#ifdef PAINTED
+#include "gpu_shaders/webgl/painted.glsl"
+#endif
 layout(location = 0) out uvec4 color;   // linear, premultiplied, as bits
 layout(location = 1) out uvec4 normal;  // towards the solvent, and the depth along the view axis, as bits
 layout(location = 2) out uvec4 what;    // atom, primitive, mark, t as bits
@@ -65,6 +68,16 @@ void main() {
   }
   vec4 of_atom = color_of(point.atom);
   vec3 albedo = params.color_by_kind != 0u && kind < kCylinder ? color_of(params.atom_count + kind).rgb : of_atom.rgb;
+#ifdef PAINTED
+  bool is_patch = kind < kCylinder;
+#ifdef LAYERS
+  is_patch = is_patch || met.y == kOnPlane;
+  float offset = met.y == kOnPlane ? 0.0 : map_scale.z;
+#else
+  float offset = map_scale.z;
+#endif
+  if (is_patch) albedo = painted(albedo, point.atom, x, point.normal, offset);
+#endif
   uint mark = entry(mark_texels, point.atom).x;
   float alpha = 1.0;
 #ifdef LAYERS

@@ -281,6 +281,25 @@ class RunsLikePictures(unittest.TestCase):
             self.assertEqual(done.returncode, 2)
             self.assertIn("--aovs needs the complete surface", done.stderr)
 
+    def check_frames(self, run, models):
+        """Pictures of a run, and of each model by the words that its frame has."""
+        size = ["--camera", json.dumps(CAMERA), "--size", "160x120", "--samples", "1", "-q", "--force"]
+        self.run_program("render", "run.pdb", "--frames", "all", "-o", "f_#.png", *size, *run)
+        for n, words in enumerate(models):
+            self.run_program("render", "run.pdb", "--model", str(n + 1), "-o", f"one_{n}.png", *size, *words)
+            self.assertTrue((self.pixels(f"f_{n}.png") == self.pixels(f"one_{n}.png")).all(), n)
+        self.assertFalse((self.pixels("one_0.png") == self.pixels("one_2.png")).all())
+
+    def test_numbers_of_a_file_where_atoms_come_and_go(self):
+        """One scale for all frames: that of all numbers."""
+        color = ["--color", "file", "--sticks", "within 4 of resid 2", "--color-by-file"]
+        rows = [[f"{n},{(n + 3 * frame) % 7}\n" for n in range(1, 11)] for frame in range(3)]
+        (self.folder / "moving.csv").write_text(
+            "frame,index,score\n" + "".join(f"{frame},{row}" for frame in range(3) for row in rows[frame]))
+        for frame in range(3):
+            (self.folder / f"at_{frame}.csv").write_text("index,score\n" + "".join(rows[frame]))
+        self.check_frames([*color, "moving.csv"], [[*color, f"at_{n}.csv", "--color-range", "0:6"] for n in range(3)])
+
     def test_comments_name_the_atoms_of_each_frame(self):
         words = ["export", "povray", "run.pdb", "--comments", "--select", "within 7.6 of resid 1", "-q", "--camera", json.dumps(CAMERA)]
         self.run_program(*words, "--frames", "all", "-o", "povray")

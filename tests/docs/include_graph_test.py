@@ -42,6 +42,7 @@ ORDER = [
     ["app/preview/window", "app/preview/server"],
     ["app/farm"],
     ["app/commands"],
+    ["app/bench"],
     ["app"],
 ]
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)

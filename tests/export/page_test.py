@@ -155,12 +155,14 @@ class PageTest(unittest.IsolatedAsyncioTestCase):
         for y, x in zip(*numpy.nonzero(far)):
             around = true_z[max(y - 1, 0):y + 2, max(x - 1, 0):x + 2]
             self.assertTrue(around.min() - 0.05 <= z[y, x] <= around.max() + 0.05, f"pixel {x}, {y}: {z[y, x]} Å")
+        return far.sum(), other_atom.sum(), other_color.sum(), differs.mean()
 
     async def test_pixels_are_those_of_render(self):
         async with self.browser() as page:
             await self.compare(page, UBIQUITIN)
             await self.shoot(page, "page_1ubq.png")
             await self.compare(page, UBIQUITIN, "--projection", "orthographic", "--color", "kind", "--preset", "flat")
+            await self.compare(page, UBIQUITIN, "--patches", "hydrophobicity > 1.5")
             await self.compare(page, TOXIN, "--color", "chain")
             await self.shoot(page, "page_1tii.png")
             await self.compare(page, TOXIN, "--show", "chain A", "--sticks", "chain C", "--zoom-to", "chain C")
@@ -198,6 +200,29 @@ class PageTest(unittest.IsolatedAsyncioTestCase):
             await self.compare(page, part, "--surface", "vdw", "--color", "residue")
             await self.compare(page, self.rings(), "--glycans", "resname NAG", "--bases", "resname LIG", "--hide-surface")
             await self.compare(page, self.rings(), "--bases", "resname LIG", "--opacity", "0.5")
+            self.assertEqual(page.complaints, [])
+
+    async def test_colours_of_points_are_those_of_render(self):
+        part, grid = self.part_of(UBIQUITIN, 1, 15), self.path("map.dx")
+        with open(part) as file:
+            places = [[float(row[30 + 8 * n:38 + 8 * n]) for n in range(3)] for row in file]
+        low, high = numpy.min(places, axis=0) - 6, numpy.max(places, axis=0) + [6, 6, 1]  # some of it is beyond the map
+        count = ((high - low) / 1.3).astype(int)
+        values = numpy.random.default_rng(1).normal(size=count)
+        with open(grid, "w") as file:
+            file.write("object 1 class gridpositions counts %d %d %d\norigin %f %f %f\ndelta 1.3 0.2 0\ndelta 0 1.3 0\ndelta 0 0 1.3\n"
+                       "object 2 class gridconnections counts %d %d %d\nobject 3 class array type double rank 0 items %d data follows\n"
+                       % (*count, *low, *count, values.size))
+            file.write("\n".join(f"{value:.6f}" for value in values.ravel()) + "\n")
+        by_map = ["--color-map-file", grid, "--color-range=-1:1"]
+        async with self.browser() as page:
+            await self.compare(page, part, *by_map, "--sticks", "resid 1-3")
+            await page.evaluate("meniscus.set_scheme(meniscus.figure.schemes.findIndex(({ name }) => name === 'residue'))")
+            by_residue, by_points = await self.cast(page), self.rendered(part, *by_map, "--sticks", "resid 1-3")
+            self.assertGreater((numpy.abs(by_residue[0] - by_points[0]).max(axis=2) > 0.1).mean(), 0.1)
+            await self.compare(page, part, *by_map, "--clip", "depth>0.4", "--opacity", "0.6", "--set", "surface.map_offset=1.4", "--color", "resid 5-9=orange")
+            await self.compare(page, part, "--color", "lipophilicity", "--projection", "orthographic")
+            await self.shoot(page, "page_lipophilicity.png")
             self.assertEqual(page.complaints, [])
 
     async def test_cuts_and_what_is_seen_through_are_those_of_render(self):

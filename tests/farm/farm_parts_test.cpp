@@ -30,7 +30,7 @@
 #include "app/farm/worker.h"
 #include "app/process/program_error.h"
 #include "core/base/text.h"
-#include "app/farm/read_bundle.h"
+#include "app/farm/check_bundle.h"
 #include "tests/support/run_program.h"
 
 namespace meniscus::farm {

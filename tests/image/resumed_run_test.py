@@ -28,8 +28,8 @@ class ResumedRuns(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
         (self.folder / "run.pdb").write_text(models(5))
 
-    def render(self, *words, code=0, name="f_##.png"):
-        done = subprocess.run([PROGRAM, "render", "run.pdb", "--frames", "all", "-o", name, "--size", "48x36", "--samples", "1", "--device", "cpu", *words],
+    def render(self, *words, code=0, name="f_##.png", run=("--frames", "all")):
+        done = subprocess.run([PROGRAM, "render", "run.pdb", *run, "-o", name, "--size", "48x36", "--samples", "1", "--device", "cpu", *words],
                               cwd=self.folder, capture_output=True, text=True)
         self.assertEqual(done.returncode, code, done.stderr)
         return done.stderr
@@ -50,6 +50,20 @@ class ResumedRuns(unittest.TestCase):
         self.assertEqual(self.pictures(), whole)
         self.assertEqual({name for name, time in self.times().items() if time == before[name]}, {"f_00.png", "f_02.png", "f_03.png"})
         self.assertIn("5 of 5 pictures are there", self.render("--resume"))
+
+    def test_one_picture(self):
+        one = {"name": "f_one.png", "run": ()}
+        self.render("--resume", **one)
+        whole, before = self.pictures(), self.times()
+        self.assertIn("1 of 1 pictures are there", self.render("--resume", **one))
+        self.assertEqual(self.times(), before)
+        self.assertIn("f_one.png was made of another scene", self.render("--resume", "--probe", "2", code=2, **one))
+        self.assertEqual(self.pictures(), whole)
+        self.assertIn("0 of 1 pictures are there", self.render("--resume", "--probe", "2", "--force", **one))
+        self.assertNotEqual(self.pictures(), whole)
+        (self.folder / "f_one.png").unlink()
+        self.render("--resume", **one)
+        self.assertEqual(self.pictures(), whole)
 
     def test_other_pictures_are_not_taken_for_them(self):
         self.render("--resume")

@@ -127,6 +127,27 @@ class Figures(unittest.TestCase):
                           commands=[{"command": "patch_kinds", "on": True},
                                     {"command": "represent", "as": "spheres", "selection": "chain A"}])
 
+    def test_copies_in_frames(self):
+        """Two rows of atoms, one a copy of the other; in the last frame they touch."""
+        with open(self.path("twice.pdb"), "w") as file:
+            file.write("REMARK 350 BIOMOLECULE: 1\nREMARK 350 APPLY THE FOLLOWING TO CHAINS: A\n")
+            for copy, shift in (1, 0.0), (2, 8.0):
+                for row in range(3):
+                    line = " ".join(f"{float(row == column):9.6f}" for column in range(3))
+                    file.write(f"REMARK 350   BIOMT{row + 1}   {copy} {line}     {shift if row == 1 else 0.0:10.5f}\n")
+            for model, step in enumerate((0.0, 0.4, 1.8)):
+                file.write(f"MODEL     {model + 1:4d}\n")
+                file.writelines(f"ATOM  {n + 1:5d}  CA  ALA A{n + 1:4d}    {2.0 * n:8.3f}{step * n:8.3f}{0.0:8.3f}  1.00 10.00           C\n"
+                                for n in range(6))
+                file.write("ENDMDL\n")
+        options = (self.path("twice.pdb"), "--assembly", "1", "--frames", "all", "--probe", "1.4")
+        for kind in "exact", "separate":
+            self.same_picture(*options, "--instances", kind, commands=[{"command": "frame", "index": 1}])
+        told = self.session(*options, "--instances", "exact", commands=[{"command": "next_frame"}] * 2)
+        self.assertEqual([reply["frame"] for reply in told], [1, 0])
+        refused = self.run_program("preview", *options, "--serve", "--instances", "exact", "--select", "within 5 of resid 1", code=2)
+        self.assertIn("add --select-once", refused.stderr)
+
     def test_models_and_frames(self):
         models = f"{DATA}/pdb2k39_truncated.pdb"
         commands = [{"command": "frame", "index": 2},
@@ -151,6 +172,22 @@ class Figures(unittest.TestCase):
         self.same("before.png", "after.png")
         done = self.run_program("preview", models, "--serve", "--color", "rmsf", code=2)
         self.assertIn("measured once, over all frames", done.stderr)
+
+        # Numbers of a file by frame, of which the legend has one scale.
+        with open(self.path("numbers.csv"), "w") as table:
+            table.write("frame,index,score\n")
+            table.writelines(f"{frame},{atom},{(7 * frame + atom) % 50}\n" for frame in range(3) for atom in range(1, 200))
+        numbers = ("--color", "file", "--color-by-file", self.path("numbers.csv"), "--color-column", "score", "--legend")
+        for run in (), ("--trajectory", f"{DATA}/dcd2k39_truncated.dcd"):
+            beside = [{"command": "represent", "as": "sticks", "selection": "resid 3"}, commands[2]]
+            for frame in 2, 1:
+                self.same_picture(models, *run, *numbers, commands=[{"command": "frame", "index": frame}, *beside])
+            with open(self.path("few.csv"), "w") as table:
+                with open(self.path("numbers.csv")) as all_frames:
+                    table.writelines(line for line in all_frames if not line.startswith("1,"))
+            few = [self.path("few.csv") if word == self.path("numbers.csv") else word for word in numbers]
+            replies = self.session(models, *run, *few, commands=[{"command": "next_frame"}] * 2)
+            self.assertEqual([reply["frame"] for reply in replies], [2, 0])
 
         with open(self.path("session.jsonl"), "w") as lines:
             lines.write('{"command":"render_command"}\n')
@@ -328,4 +365,4 @@ class Figures(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]], verbosity=2)

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/reduced_surface/cpu/exhaustive.h"
-#include "core/reduced_surface/rolling_probe/rolling_probe.h"
+#include "app/bench/rolling_probe.h"
 #include "tests/support/molecules.h"
 
 namespace meniscus::testing {

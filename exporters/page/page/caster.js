@@ -39,13 +39,14 @@ class Caster {
     this.show(figure);
   }
 
-  table_names() { return ["primitives", "rows", "marks"]; }
+  table_names() { return ["primitives", "rows", "marks", "map"]; }
 
   /// Makes what a frame is drawn from: textures of its tables, and its primitives in groups.
   prepare(frame) {
     if (this.ready.has(frame.number)) return this.ready.get(frame.number);
     const made = { textures: {}, ...this.grouped(frame.tables.primitives) };
-    for (const name of this.table_names()) made.textures[name] = this.table(frame.tables[name], name === "marks");
+    for (const name of this.table_names().filter((table) => table in frame.tables))
+      made.textures[name] = this.table(frame.tables[name], kSingle.has(name));
     this.ready.set(frame.number, made);
     return made;
   }
@@ -333,8 +334,11 @@ class Caster {
 
   /// Light on what was found. more: numbers, members of the block and defines that layers ask for.
   color_points(target, textures, { numbers = {}, values = {}, defines = [] } = {}) {
-    this.draw_whole(target, this.program("whole.vert", "points.frag", defines),
-      { ...this.scene_tables(), mark_texels: this.tables.marks, ...textures }, { pivot: this.frame.pivot, ...numbers },
+    const { map } = this.figure, paint = map ? { map_axes: map.axes, map_size: map.size, map_scale: map.scale, map_parts: map.parts,
+      map_is_shown: [this.scheme === 0 ? 1 : 0] } : {};
+    this.draw_whole(target, this.program("whole.vert", "points.frag", map ? [...defines, "PAINTED"] : defines),
+      { ...this.scene_tables(), mark_texels: this.tables.marks, ...(map ? { map_texels: this.tables.map } : {}), ...textures },
+      { pivot: this.frame.pivot, ...paint, ...numbers },
       { Parameters: { words: this.figure.cast, values: { color_by_kind: this.by_kind, ...values } } });
   }
 
@@ -437,6 +441,8 @@ class Caster {
 
 /// Members that are whole numbers; the others are floats.
 const kWholeMembers = new Set(["orthographic", "size", "map_size", "sample_index", "has_marks", "keeps_alpha", "tiles", "color_by_kind"]);
+/// Tables of records of one word.
+const kSingle = new Set(["marks", "map"]);
 /// Targets that one depth buffer serves.
 const kDeepTargets = ["found", "cap_atom"];
 /// Words of FinishParameters (gpu_shaders/look/parameters.glsl).

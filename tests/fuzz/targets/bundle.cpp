@@ -5,7 +5,7 @@
 
 #include "app/farm/bundle.h"
 #include "core/base/error.h"
-#include "app/farm/read_bundle.h"
+#include "app/farm/check_bundle.h"
 #include "tests/fuzz/target.h"
 
 namespace meniscus::fuzz {

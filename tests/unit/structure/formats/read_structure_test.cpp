@@ -40,7 +40,7 @@ TEST(RealEntries, CountsAreThePublishedOnes) {
 TEST(RealEntries, TheRibosomeLosesItsFreeIonsOnly) {
   const Structure ribosome = read_structure(kRibosome);
   EXPECT_EQ(ribosome.format, "mmCIF");
-  EXPECT_EQ(ribosome.report.sentence(), "165,175 atoms read; 187 free ion left out; 164,988 used");
+  EXPECT_EQ(ribosome.report.sentence(), "165,175 atoms read; 187 free ions left out; 164,988 used");
   ReadOptions keep;
   keep.keep_ions = true;
   EXPECT_EQ(read_structure(kRibosome, keep).atoms.size(), 165175u);
@@ -160,7 +160,7 @@ TEST(Classes, WaterAndIonsGoLigandsAndBoundMetalsStay) {
                            het("CL  ", " CL", "CL", 4) + het("FE  ", "HEM", "FE", 5) + het(" NA ", "HEM", " N", 5) +
                            het(" C1 ", "GOL", " C", 6);
   const Structure structure = read_text("a.pdb", text);
-  EXPECT_EQ(structure.report.sentence(), "7 atoms read; 1 water, 2 free ion left out; 4 used");
+  EXPECT_EQ(structure.report.sentence(), "7 atoms read; 1 water, 2 free ions left out; 4 used");
   EXPECT_EQ(structure.atoms[1].element, 26);
   EXPECT_EQ(structure.atoms[1].kind, AtomClass::ligand);
   ReadOptions keep;
@@ -235,14 +235,14 @@ TEST(Elements, AModifiedResidueKeepsTheMetalItStates) {
 TEST(Elements, VirtualSitesAreLeftOut) {
   const std::string text =
       PdbLine{}.text() + PdbLine{.name = " EP1", .residue = "LIG", .number = 2, .element = "  "}.text();
-  EXPECT_EQ(read_text("a.pdb", text).report.sentence(), "2 atoms read; 1 virtual sites left out; 1 used");
+  EXPECT_EQ(read_text("a.pdb", text).report.sentence(), "2 atoms read; 1 virtual site left out; 1 used");
 }
 
 TEST(Elements, MembraneDummiesAreLeftOut) {
   const std::string text =
       PdbLine{}.text() +
       PdbLine{.record = "HETATM", .name = " N  ", .residue = "DUM", .number = 2, .element = "  "}.text();
-  EXPECT_EQ(read_text("a.pdb", text).report.sentence(), "2 atoms read; 1 virtual sites left out; 1 used");
+  EXPECT_EQ(read_text("a.pdb", text).report.sentence(), "2 atoms read; 1 virtual site left out; 1 used");
 }
 
 TEST(Elements, ForceFieldResiduesWithoutColumnHoldNoExoticElements) {

@@ -307,7 +307,7 @@ TEST(Pdbqt, ChargesTypesAndPoses) {
   const std::string poses = "MODEL 1\nREMARK VINA RESULT: -9.1\n" + kPose + "ENDMDL\nMODEL 2\n" + kPose + "ENDMDL\n";
   const Structure structure = read_text("a.pdbqt", poses);
   EXPECT_EQ(structure.format, "PDBQT");
-  EXPECT_EQ(structure.report.sentence(), "8 atoms read; 4 of other models, 1 virtual sites left out; 3 used");
+  EXPECT_EQ(structure.report.sentence(), "8 atoms read; 4 of other models, 1 virtual site left out; 3 used");
   ASSERT_EQ(structure.atoms.size(), 3u);
   const int elements[] = {6, 7, 1};
   for (std::size_t n = 0; n < 3; ++n) EXPECT_EQ(structure.atoms[n].element, elements[n]) << n;

@@ -11,14 +11,14 @@
 
 #include "app/commands/commands.h"
 #include "core/scene/molecule.h"
-#include "app/commands/paper_bench.h"
+#include "app/bench/paper_bench.h"
 #include "app/options/property_options.h"
 #include "app/process/program_error.h"
 #include "core/base/text.h"
 #include "core/structure/formats/structure_formats.h"
 #include "app/reports/notes.h"
 #include "app/options/scene_options.h"
-#include "core/reduced_surface/rolling_probe/rolling_probe.h"
+#include "app/bench/rolling_probe.h"
 
 namespace meniscus {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The sequential rolling probe: first face, next face by smallest angle, restarts for components and cavities.
-#include "core/reduced_surface/rolling_probe/rolling_probe.h"
+#include "app/bench/rolling_probe.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/reduced_surface/rolling_probe/rolling_circle.h"
+#include "app/bench/rolling_circle.h"
 #include "core/reduced_surface/whole_spheres.h"
 #include "core/math/ball_grid.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Times frames from a turning camera, with a changing probe, and with moving atoms.
-#include "app/commands/paper_bench.h"
+#include "app/bench/paper_bench.h"
 
 #include <algorithm>
 #include <array>

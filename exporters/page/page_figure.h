@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a page shows, or what it shows at one frame of a run.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "core/camera/camera.h"
+#include "core/color/color_key.h"
+#include "core/queries/colored_shapes.h"
+#include "core/queries/surface_object.h"
+#include "core/render/annotation.h"
+#include "core/render/look.h"
+#include "core/render/picture_object.h"
+#include "core/structure/structure.h"
+
+namespace meniscus::page {
+
+/// Colours that readers can choose instead of the figure's own.
+struct PageScheme {
+  std::string name;                                ///< "chain", ...
+  ColorKey key;                                    ///< what they mean
+  std::vector<glm::vec3> colors;                   ///< sRGB: of the surface's atoms, then of those that shapes name
+  std::optional<std::array<glm::vec3, 3>> kind{};  ///< Coloring::kind
+};
+
+/// A view that readers choose by its name.
+struct PageView {
+  std::string name;
+  Camera camera;
+  std::vector<ClipPlane> clip{};  ///< cut the surface then, and no others do
+  float opacity = 1.0f;           ///< of the surface, times that of its atoms
+  bool looks_inside = false;      ///< as for hues_of()
+};
+
+/// A picture's file.
+struct StillPicture {
+  std::string type;  ///< "image/jpeg"
+  std::vector<std::uint8_t> bytes;
+};
+
+/// What a page shows, or what it shows at one frame of a run. Texts may come from files; what is pointed to must stay
+/// until the page is written.
+struct PageFigure {
+  std::string title;
+  std::string description;  ///< a sentence or two, for those who do not see the picture
+  std::vector<std::pair<std::string, std::string>> facts{};  ///< rows of its table
+  const SurfaceObject* surface = nullptr;                    ///< where it stands, one copy; nullptr: none
+  std::vector<ClipPlane> clip{};                             ///< cut it, at first
+  CapStyle cap{};                                            ///< where they do
+  bool thickens = false;                                     ///< PictureObject::thickens
+  const ColoredShapes* shapes = nullptr;                     ///< of atoms; nullptr: none
+  std::span<const Atom> atoms{};  ///< SurfaceObject::atom and those of shapes are places here
+  Camera camera;                  ///< at first
+  std::vector<PageView> views{};  ///< beside the first one
+  std::span<const PlaceLabel> labels{};
+  glm::ivec2 size{0};  ///< of the picture that the look was made for, pixels
+  Look look;
+  bool fades_always = false;  ///< into the distance; else not where readers look inside or see through the surface
+  std::string scheme;         ///< the name of its colours
+  std::vector<PageScheme> more_schemes{};
+  ColorKey key;                        ///< what its colours mean
+  StillPicture still;                  ///< for readers without WebGL 2; empty: none
+  std::string moment;                  ///< which frame it is, such as "frame 3", "2.500 ns"
+  std::optional<glm::dvec3> origin{};  ///< from where the records count, Å: of a run one; nothing: in its middle
+};
+
+inline constexpr std::size_t kMostPlanes = 8;
+
+}  // namespace meniscus::page

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Colours of points by a volume map, whose numbers are in one table: colours of its scale, of what it does not reach, a
+// number per atom that is 0 where the map colours it, and its values. As painted() in core/render/cpu/host_scene.cpp.
+#ifndef MENISCUS_WEBGL_PAINTED_GLSL
+#define MENISCUS_WEBGL_PAINTED_GLSL
+
+uniform usampler2D map_texels;
+uniform vec4 map_axes[3];   // a point's place along each axis: dot(xyz, x) + w
+uniform vec3 map_size;      // points along each axis
+uniform vec3 map_scale;     // the first number of its colours, how many numbers there are to one colour's share; its offset, Å
+uniform vec3 map_parts;     // where colours of what is missing, atoms and values begin
+uniform float map_is_shown; // 0: colours are by atoms
+
+float map_number(uint n) { return uintBitsToFloat(entry(map_texels, n).x); }
+
+real grid_value(uint n) { return map_number(uint(map_parts.z) + n); }
+
+#include "gpu_shaders/geometry/trilinear.glsl"
+
+vec3 map_color(uint first) { return vec3(map_number(first), map_number(first + 1u), map_number(first + 2u)); }
+
+// Linear. offset: Å outside of the surface.
+vec3 painted(vec3 of_atom, uint atom, vec3 x, vec3 normal, float offset) {
+  if (map_is_shown == 0.0 || entry(map_texels, uint(map_parts.y) + atom).x != 0u) return of_atom;
+  vec4 point = vec4(x + offset * normal, 1.0);
+  vec3 place = vec3(dot(map_axes[0], point), dot(map_axes[1], point), dot(map_axes[2], point));
+  uvec3 size = uvec3(map_size);
+  if (!on_grid(place, size.x, size.y, size.z)) return map_color(uint(map_parts.x));
+  float last = map_parts.x / 3.0 - 1.0;
+  float t = clamp((trilinear(place, size.x, size.y, size.z) - map_scale.x) * map_scale.y, 0.0, 1.0);
+  return map_color(3u * uint(t * last + 0.5));
+}
+
+#endif
