@@ -15,12 +15,13 @@ python=$folder/venv/bin/python
 "$python" -m pip wheel -q --no-deps -w "$folder/dist" .
 ls -l "$folder/dist"
 packages=(MDAnalysis mdtraj prody biotite biopython ase rdkit openmm gemmi pint astropy unyt joblib dask trimesh pyvista open3d)
-"$python" -m pip install -q "$folder"/dist/meniscus_ses-*.whl "${packages[@]}" mypy pyright
+"$python" -m pip install -q "$folder"/dist/meniscus_ses-*.whl "${packages[@]}" anywidget mypy pyright
 MENISCUS_PACKAGE=$PWD/exporters/bindings/python "$python" -B "$tests/types_test.py" mypy pyright
 cd "$folder"
 unset MENISCUS_LIBRARY MENISCUS_PACKAGE
 "$python" -c 'import meniscus; print("libmeniscus", meniscus.version(), meniscus.library_path())'
 "$python" -B "$tests/package_test.py"
 "$python" -B "$tests/structure_test.py"
-"$python" -B "$tests/examples_test.py" "${packages[@]}"
+"$python" -B "$tests/page_test.py"
+"$python" -B "$tests/examples_test.py" "${packages[@]}" anywidget
 "$python" -B "$tests/adapters_test.py" "${packages[@]}"

@@ -105,16 +105,16 @@ class Pages(unittest.TestCase):
             meniscus.page("1ubq.pdb")
 
     def test_what_cannot_be_shown_is_refused(self):
-        with self.assertRaisesRegex(meniscus.UsageError, "^color lipophilicity: pages do not show"):
-            meniscus.Scene(self.molecule, color="lipophilicity").show()
+        nine = meniscus.Scene(self.molecule, clip=[f"x>{-200 - n}" for n in range(9)], size="32x24")
+        with self.assertRaisesRegex(meniscus.UsageError, "^clip: pages show at most 8 planes, and there are 9"):
+            nine.show()
         with self.assertRaisesRegex(meniscus.UsageError, "no molecule"):
             meniscus.Scene().show()
         with self.assertRaisesRegex(meniscus.UsageError, "frame_height is 0"):
             self.scene.show(frame_height=0)
         # A notebook shows its picture then.
-        scene = meniscus.Scene(self.molecule, color="lipophilicity", size="32x24")
-        self.assertIsNone(scene._repr_html_())
-        self.assertTrue(scene._repr_png_().startswith(b"\x89PNG"))
+        self.assertIsNone(nine._repr_html_())
+        self.assertTrue(nine._repr_png_().startswith(b"\x89PNG"))
 
     def test_of_a_surface(self):
         structure = meniscus.read(self.molecule)

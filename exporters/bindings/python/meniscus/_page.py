@@ -134,6 +134,7 @@ def page(shown: Union[Page, Scene, Surface], path: Optional[Path] = None, *, src
     HTML puts into their pages. path: where the page is saved, which is its address in the frame, too, unless `src` is;
     None: all of it is in the frame's text. height: of the frame, CSS pixels. Errors are those of show() and Page.save().
 
+    >>> scene = meniscus.Scene("helix.pdb")
     >>> meniscus.page(scene, "helix.html", height=300, replace=True).startswith("<iframe ")
     True
     >>> "srcdoc" in meniscus.page(scene)

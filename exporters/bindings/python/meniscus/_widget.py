@@ -110,14 +110,24 @@ class Widget:
     """What widget() gives; a notebook shows it. Python sees the camera that readers turn and the atoms that they click,
     and changes the camera and the colours of what is already there.
 
-    model: the anywidget itself, for layouts of ipywidgets."""
+    model: the anywidget itself, for layouts of ipywidgets.
+
+    >>> import anywidget
+    >>> w = meniscus.widget(meniscus.Scene("helix.pdb", color="chain"))
+    >>> w
+    <meniscus.Widget of helix.pdb>"""
 
     def __init__(self, shown: Page) -> None:
         self.model: Any = _model(shown)
 
     @property
     def camera(self) -> Optional[Camera]:
-        """Where readers look from, Å; None before the page was shown. It can be set: what is shown then moves there."""
+        """Where readers look from, Å; None before the page was shown. It can be set: what is shown then moves there.
+
+        >>> import anywidget
+        >>> w.camera = meniscus.Camera((0, 0, 50), (0, 0, 0), (0, 1, 0))
+        >>> w.camera.position
+        (0.0, 0.0, 50.0)"""
         told = self.model.camera
         return None if told is None else _camera_of(told)
 
@@ -132,22 +142,41 @@ class Widget:
 
     @property
     def picked(self) -> Optional[Picked]:
-        """What was clicked at last; None: nothing yet, or the background."""
+        """What was clicked at last; None: nothing yet, or the background.
+
+        >>> import anywidget
+        >>> w.picked is None
+        True"""
         return _picked_of(self.model.picked)
 
     def on_pick(self, call: Callable[[Optional[Picked]], Any]) -> None:
-        """Calls with each new `picked`."""
+        """Calls with each new `picked`.
+
+        >>> import anywidget
+        >>> w.on_pick(lambda picked: print(picked.name))
+        >>> w.model.picked = {"atom": 3, "name": "A ALA 1 CB", "point": [0, 0, 0]}
+        A ALA 1 CB"""
         self.model.observe(lambda change: call(_picked_of(change["new"])), "picked")
 
     def on_camera(self, call: Callable[[Camera], Any]) -> None:
-        """Calls with each new `camera`, at most ten times a second while it moves."""
+        """Calls with each new `camera`, at most ten times a second while it moves.
+
+        >>> import anywidget
+        >>> w.on_camera(lambda camera: print(camera.target))
+        >>> w.camera = meniscus.Camera((0, 0, 50), (0, 0, 1), (0, 1, 0))
+        (0.0, 0.0, 1.0)"""
         self.model.observe(lambda change: call(_camera_of(change["new"])), "camera")
 
     def color_by(self, values: Any, *, low: Optional[float] = None, high: Optional[float] = None,
                  ramp: Any = ((0.23, 0.30, 0.75), (0.87, 0.87, 0.87), (0.71, 0.02, 0.15)), label: str = "") -> None:
         """Colours what is shown by an array: (n,) numbers, one an atom, or (n, 3) sRGB in [0, 1]. Numbers run along `ramp`,
         (m, 3) colours at even steps from `low` to `high`; None: the least and the greatest of them. NaN is grey. label: what
-        the page writes where the legend was. InputError where there is not one for each atom of a page that is shown."""
+        the page writes where the legend was. InputError where there is not one for each atom of a page that is shown.
+
+        >>> import anywidget
+        >>> w.color_by([0.0, 5.0, 10.0], ramp=[(0, 0, 0), (1, 1, 1)], label="charge")
+        >>> w.model.label, list(w.model.colors)
+        ('charge: 0 to 10', [0, 0, 0, 128, 128, 128, 255, 255, 255])"""
         given = real_array(values, "values")
         if given.ndim == 1:
             colors, label = _ramped(given, low, high, ramp, label)
@@ -161,7 +190,12 @@ class Widget:
             self.model.colors = np.rint(255 * np.clip(colors, 0, 1)).astype(np.uint8).tobytes()
 
     def reset_colors(self) -> None:
-        """Back to the colours that the page came with."""
+        """Back to the colours that the page came with.
+
+        >>> import anywidget
+        >>> w.reset_colors()
+        >>> w.model.colors
+        b''"""
         self.model.colors = b""
 
     def _repr_mimebundle_(self, **asked: Any) -> Any:
@@ -200,9 +234,8 @@ def widget(shown: Union[Page, Any], *, height: Optional[int] = None) -> Widget:
     """A scene, a surface or a page in a notebook, as Scene.show() has it, that Python goes on talking to: see Widget. It
     needs the package anywidget, and a running kernel. height: CSS pixels. Errors are those of show().
 
-        w = meniscus.widget(meniscus.Scene("1ubq.cif"))
-        w.on_pick(print)
-        w.color_by(meniscus.read("1ubq.cif").b_factors, label="B-factor")
-    """
+    >>> import anywidget
+    >>> w = meniscus.widget(meniscus.Scene("helix.pdb"), height=300)
+    >>> w.color_by(meniscus.read("helix.pdb").b_factors, label="B-factor")"""
     whole = page_of(shown)
     return Widget(whole if height is None else Page(whole.html, height))
