@@ -244,7 +244,7 @@ std::string still_of(const PageFigure& figure) {
 
 PackedFrame pack_frame(const PageFigure& figure) {
   const Tables tables(figure);
-  return {description_of(figure, tables),
+  return {std::make_shared<json>(description_of(figure, tables)),
           tables.packed(),
           figure.moment,
           {{"TITLE", markup_text(figure.title)},
@@ -258,17 +258,17 @@ void PageWriter::add(PackedFrame frame) {
   moments_.push_back(std::move(frame.moment));
   json tables = json::object();
   for (PageTable& table : frame.tables) tables[table.name] = {data_.add(std::move(table.packed)), table.stride};
-  frame.description["tables"] = std::move(tables);
+  (*frame.description)["tables"] = std::move(tables);
   frame.tables.clear();
   if (frames_.empty()) {
     first_ = std::move(frame);
-    described_ = deflated(first_.description).size();
+    described_ = deflated(*first_.description).size();
     frames_.push_back(0);
     return;
   }
   json own = json::object();
-  for (const auto& [name, value] : frame.description.items())
-    if (first_.description[name] != value) own[name] = value;
+  for (const auto& [name, value] : frame.description->items())
+    if ((*first_.description)[name] != value) own[name] = value;
   frames_.push_back(data_.add(deflated(own)));
 }
 
@@ -281,7 +281,7 @@ std::size_t PageWriter::bytes() const {
 }
 
 std::string PageWriter::text() const {
-  json description = first_.description;
+  json description = *first_.description;
   description["frames"] = frames_;
   description["moments"] = moments_;
   description["shaders"] = shaders();

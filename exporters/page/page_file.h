@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,7 @@ namespace meniscus::page {
 
 /// A figure that needs nothing else any more.
 struct PackedFrame {
-  nlohmann::json description;
+  std::shared_ptr<nlohmann::json> description;
   std::vector<PageTable> tables;
   std::string moment;
   std::vector<Filling> texts;  ///< of page.html
