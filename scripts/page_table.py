@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""page_table.py PROGRAM CHROMIUM FREESASA_DATA pixels | speed [FILE...]: tables of what pages of `export page` show in a
-browser, for docs/validation/pages.md.
+"""page_table.py PROGRAM CHROMIUM FREESASA_DATA pixels [NAME...] | speed FILE...: tables of what pages of `export page` show
+in a browser, for docs/validation/page-pixels.md.
 
-pixels: more than twenty molecules and scenes, each pixel beside that of `meniscus render`; ends with an error where more than
-one in a thousand differs, or an outline is off by more than half a pixel. speed: what a picture of each FILE costs."""
+pixels: more than twenty molecules and scenes, or those of the molecules named, each pixel beside that of `meniscus render`;
+ends with an error where more than one in a thousand differs, or an outline is off by more than half a pixel. speed: what a
+picture of each FILE costs."""
 
 import asyncio
 import json
@@ -59,7 +60,7 @@ SCENES = [
     (TOXIN, "--color", "chain"), (TOXIN, "--show", "chain A", "--sticks", "chain C", "--zoom-to", "chain C"),
     (TOXIN, "--clip", "depth>0.5", "--cap-hatching", "2", "--color", "chain"),
     (PROTEASE, "--look-into", "ligand", "--sticks", "ligand"), (PROTEASE, "--by", "chain", "--color", "chain"), (UBIQUITIN, "--color", "lipophilicity"), (f"{PYMOL}/demo/il2.pdb", "--color", "bfactor"), (f"{PYMOL}/demo/pept.pdb", "--color", "rainbow"),
-    (f"{FREESASA}/1a0q.pdb", "--color", "secondary", "--tube", "polymer", "--show", "resid 1-60"), (f"{FREESASA}/2jo4.pdb", "--color", "charge"),
+    (f"{FREESASA}/1a0q.pdb", "--color", "secondary", "--tube", "polymer", "--show", "resid 1-60"), (f"{FREESASA}/2jo4.pdb", "--color", "residue"),
     (f"{FREESASA}/1d3z.pdb", "--color", "index", "--view", "back"),
 ]
 
@@ -130,7 +131,8 @@ async def pixels(pages):
         lines.append(differs)
 
     pages.check = row
-    for molecule, *options in SCENES:
+    scenes = [scene for scene in SCENES if not FILES or pathlib.Path(scene[0]).stem in FILES]
+    for molecule, *options in scenes:
         words = [word.replace("{inside}", pages.path("inside.json")) for word in options]
         async with pages.browser() as page:
             await pages.compare(page, names.get(molecule, molecule), *words)
@@ -138,7 +140,7 @@ async def pixels(pages):
         shown = " ".join(f"'{word}'" if " " in word or ">" in word else word for word in options).replace("{inside}", "inside.json")
         print(f"| {pathlib.Path(molecule).stem} | `{shown or '(none)'}` | " +
               (" | ".join(str(n) for n in counts[:3]) + f" | {100 * counts[3]:.3f} % |" if counts else "failed | | | |"), flush=True)
-    print(f"{len(SCENES)} scenes of {page_test.SIZE[0]} x {page_test.SIZE[1]} pixels; not as they should be: {len(bad)}")
+    print(f"{len(scenes)} scenes of {page_test.SIZE[0]} x {page_test.SIZE[1]} pixels; not as they should be: {len(bad)}")
     for line in bad:
         print(line)
     return len(bad)

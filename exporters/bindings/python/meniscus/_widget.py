@@ -102,8 +102,11 @@ def _model(shown: Page) -> Any:
 
 
 def _camera_of(told: dict[str, Any]) -> Camera:
-    return Camera(tuple(told["position"]), tuple(told["target"]), tuple(told["up"]), told["projection"],
-                  told["vertical_fov"], told["height"])
+    def point(key: str) -> tuple[float, float, float]:
+        x, y, z = told[key]
+        return x, y, z
+
+    return Camera(point("position"), point("target"), point("up"), told["projection"], told["vertical_fov"], told["height"])
 
 
 class Widget:
