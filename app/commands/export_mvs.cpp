@@ -67,7 +67,8 @@ void run(const SceneCommand& asked) {
   };
   run.make({kMeshBytesPerAtom}, [&]() -> FigureRun::Sink { return make; });
   const int milliseconds = static_cast<int>(std::lround(1e3 / command.scene.film.frames_per_second));
-  const std::vector<std::byte> archive = mvs::mvsx_archive(states, title_of(command.scene), milliseconds);
+  const std::vector<std::byte> archive =
+      mvs::mvsx_archive(states, title_of(command.scene), {run.is_run(), milliseconds});
   OutputFile file(command.scene.output, command.existing());
   file.write(archive);
   file.commit();

@@ -206,6 +206,12 @@ const std::vector<Need>& needs() {
                 (asked.name() == "mesh" && asked.given("--camera") && !asked.any({"--tolerance", "--density"}));
        },
        "a mesh has no picture; they matter for --tolerance-pixels alone"},
+      {{"--width", "--height"},
+       [](const Asked& asked) {
+         return asked.name() != "mvs" || !asked.given("--tolerance") ||
+                (asked.given("--width") && asked.given("--height"));
+       },
+       "viewers choose the size, and --tolerance says how fine the mesh is"},
       {{"--show"},
        [](const Asked& asked) { return asked.name() != "pockets" || asked.given("--figure"); },
        "it says what --figure shows; --select takes some of the atoms"},

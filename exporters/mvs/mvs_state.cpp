@@ -125,9 +125,9 @@ json tree_of(const path_tracers::Scene& scene) {
   return {{"kind", "root"}, {"children", std::move(children)}};
 }
 
-std::vector<std::byte> mvsx_archive(std::span<const State> states, const std::string& title, int milliseconds) {
+std::vector<std::byte> mvsx_archive(std::span<const State> states, const std::string& title, const Sequence& sequence) {
   json whole{{"metadata", {{"title", title}, {"version", "1"}, {"timestamp", timestamp()}}}};
-  if (states.size() == 1) {
+  if (!sequence.is_run) {
     whole["kind"] = "single";
     whole["root"] = states.front().root;
   } else {
@@ -138,7 +138,7 @@ std::vector<std::byte> mvsx_archive(std::span<const State> states, const std::st
                            {"metadata",
                             {{"title", states[n].title},
                              {"key", fmt::format("frame_{}", n + 1)},
-                             {"linger_duration_ms", milliseconds},
+                             {"linger_duration_ms", sequence.milliseconds},
                              {"transition_duration_ms", 0}}}});
     whole["snapshots"] = std::move(snapshots);
   }
