@@ -136,6 +136,8 @@ struct Search {
   double limit;
   Wanted wanted;
 };
+template <typename Wanted>
+Search(double, Wanted) -> Search<Wanted>;
 
 struct Nearest {
   double operator()(const Foot& nearest) const { return nearest.distance; }
