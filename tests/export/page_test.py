@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The page of `export page` in a real browser, pixel by pixel against `render`: arguments PROGRAM CHROMIUM FREESASA_DATA,
-and then perhaps names of tests (PageTest.test_turns_and_picks).
+and then perhaps names of tests (PageTest.test_turns_and_picks), or --share N/OF for a part of all tests.
 
 With MENISCUS_SCREENSHOTS=FOLDER in the environment, pictures of the pages are left there to be looked at."""
 
@@ -483,5 +483,13 @@ class PageTest(unittest.IsolatedAsyncioTestCase):
         self.assertLessEqual(size, 2_000_000)
 
 
+def asked(words):
+    """The tests' names, or all other words."""
+    if not words or words[0] != "--share":
+        return words
+    n, of = map(int, words[1].split("/"))
+    return [f"PageTest.{name}" for name in unittest.defaultTestLoader.getTestCaseNames(PageTest)][n - 1::of]
+
+
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[4:])
+    unittest.main(argv=sys.argv[:1] + asked(sys.argv[4:]))
