@@ -23,7 +23,7 @@
 namespace meniscus {
 namespace {
 
-constexpr double kManyBytes = 50e6;
+constexpr double kLargeArchive = 50e6;
 
 /// What such a view cannot have is refused before anything is computed.
 void check(const SceneCommand& command) {
@@ -72,7 +72,7 @@ void run(const SceneCommand& asked) {
   OutputFile file(command.scene.output, command.existing());
   file.write(archive);
   file.commit();
-  if (static_cast<double>(archive.size()) > kManyBytes)
+  if (static_cast<double>(archive.size()) > kLargeArchive)
     say(command, fmt::format("warning: {} bytes, all of which viewers load; a larger --tolerance makes fewer triangles",
                              with_thousands(archive.size())));
   run.save_cameras();

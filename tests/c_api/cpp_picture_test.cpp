@@ -50,7 +50,7 @@ TEST(CppApiPictures, PagesAreTexts) {
   const std::vector<float> colors = {1, 0, 0, 0, 0, 1};
   EXPECT_NE(meniscus::Page(surface, nullptr, look, nullptr, colors).html(), page.html());
   EXPECT_THROW(meniscus::Page(surface, nullptr, look, nullptr, std::vector<float>(4)), meniscus::UsageError);
-  EXPECT_THROW(meniscus::Page(meniscus::Scene()), meniscus::UsageError);  // of no molecule
+  EXPECT_THROW(meniscus::Page{meniscus::Scene()}, meniscus::UsageError);  // of no molecule
 }
 
 }  // namespace
