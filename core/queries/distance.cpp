@@ -293,7 +293,7 @@ NearestPoint SurfaceDistance::operator()(const glm::dvec3& x) const {
 }
 
 bool SurfaceDistance::is_within(const glm::dvec3& x, double limit) const {
-  constexpr double kRounding = 1 + 1e-9;  // boxes are left out by rounded distances
+  constexpr double kLonger = 1 + 1e-9;  // boxes are left out by rounded distances
   const double probe_radius = index_->s.probe_radius;
   if (index_->in_sas_ball(x)) {
     // Once a place of the probe is near enough, another counts only if the point is within that probe.
@@ -301,11 +301,11 @@ bool SurfaceDistance::is_within(const glm::dvec3& x, double limit) const {
       if (place.distance < probe_radius) return 0.0;
       return std::abs(probe_radius - place.distance) <= limit ? probe_radius : place.distance;
     };
-    const Foot place = index_->nearest_accessible(x, Search{(probe_radius + limit) * kRounding, wanted});
+    const Foot place = index_->nearest_accessible(x, Search{(probe_radius + limit) * kLonger, wanted});
     if (place.distance >= probe_radius) return std::abs(probe_radius - place.distance) <= limit;
   }
   const auto wanted = [&](const Foot& foot) { return foot.distance <= limit ? 0.0 : foot.distance; };
-  return index_->nearest_part(x, Search{limit * kRounding, wanted}).distance <= limit;
+  return index_->nearest_part(x, Search{limit * kLonger, wanted}).distance <= limit;
 }
 
 }  // namespace meniscus
