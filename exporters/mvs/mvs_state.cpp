@@ -102,8 +102,9 @@ std::vector<json> nodes_of(const path_tracers::SceneItem& item, const glm::dvec3
   return nodes;
 }
 
-/// Its position is that of a viewer whose picture shows as much at the target whatever its angle is: viewers multiply
-/// the distance by 1 / (2 sin(fov / 2)) in perspective, and there is no word for the projection.
+/// Viewers multiply the distance to the target by 1 / (2 sin(fov / 2)), fov being their own field of view. So the
+/// camera is put where the picture is as high at the target as that of `camera`. MolViewSpec cannot name the
+/// projection.
 json camera_node(const Camera& camera) {
   const double half_angle = 0.5 * camera.vertical_fov * std::numbers::pi / 180.0;
   const glm::dvec3 reach = camera.position - camera.target;
