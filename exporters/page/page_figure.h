@@ -29,8 +29,9 @@ namespace meniscus::page {
 struct PageScheme {
   std::string name;                                ///< "chain", ...
   ColorKey key;                                    ///< what they mean
-  std::vector<glm::vec3> colors;                   ///< sRGB: of the surface's atoms, then of those that shapes name
+  std::vector<glm::vec3> colors;                   ///< sRGB: of the surface's atoms, then of those beside it
   std::optional<std::array<glm::vec3, 3>> kind{};  ///< Coloring::kind
+  std::optional<Look> look{};                      ///< instead of the figure's
 };
 
 /// A view that readers choose by its name.
@@ -40,6 +41,14 @@ struct PageView {
   std::vector<ClipPlane> clip{};  ///< cut the surface then, and no others do
   float opacity = 1.0f;           ///< of the surface, times that of its atoms
   bool looks_inside = false;      ///< as for hues_of()
+};
+
+/// What stands beside the surface that planes cut and readers see through: it is opaque and whole. Surfaces have the
+/// same probe, or none.
+struct PageObject {
+  const SurfaceObject* surface = nullptr;  ///< this one,
+  const ColoredShapes* shapes = nullptr;   ///< or these
+  bool has_own_colors = false;             ///< whatever scheme is chosen
 };
 
 /// A picture's file.
@@ -55,10 +64,11 @@ struct PageFigure {
   std::string description;  ///< a sentence or two, for those who do not see the picture
   std::vector<std::pair<std::string, std::string>> facts{};  ///< rows of its table
   const SurfaceObject* surface = nullptr;                    ///< where it stands, one copy; nullptr: none
+  bool has_own_colors = false;                               ///< as in PageObject
   std::vector<ClipPlane> clip{};                             ///< cut it, at first
   CapStyle cap{};                                            ///< where they do
   bool thickens = false;                                     ///< PictureObject::thickens
-  const ColoredShapes* shapes = nullptr;                     ///< of atoms; nullptr: none
+  std::vector<PageObject> beside{};                          ///< of atoms, too
   std::span<const Atom> atoms{};  ///< SurfaceObject::atom and those of shapes are places here
   Camera camera;                  ///< at first
   std::vector<PageView> views{};  ///< beside the first one

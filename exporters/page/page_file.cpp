@@ -144,11 +144,23 @@ std::string legend_of(const ColorKey& key) {
   return text + "</ul>";
 }
 
-json schemes_of(const PageFigure& figure, bool by_kind) {
+/// How points are lit and finished.
+json look_words(const PageFigure& figure, const Look& look, const Tables& tables) {
+  return {{"cast", words_of(cast_parameters(tables.placement(), look, tables.atom_count(), tables.color_by_kind()))},
+          {"finish", words_of(finish_parameters(look, tables.placement(), figure.size, 0, tables.has_marks()))},
+          {"specular", look.material.specular}};
+}
+
+/// look: of those that have another than the figure.
+json schemes_of(const PageFigure& figure, const Tables& tables) {
   json schemes = json::array();
-  schemes.push_back({{"name", figure.scheme}, {"legend", legend_of(figure.key)}, {"by_kind", by_kind}});
+  const auto add = [&](const std::string& name, const ColorKey& key, bool by_kind, const std::optional<Look>& look) {
+    schemes.push_back({{"name", name}, {"legend", legend_of(key)}, {"by_kind", by_kind}});
+    if (look) schemes.back()["look"] = look_words(figure, *look, tables);
+  };
+  add(figure.scheme, figure.key, tables.color_by_kind(), std::nullopt);
   for (const PageScheme& scheme : figure.more_schemes)
-    schemes.push_back({{"name", scheme.name}, {"legend", legend_of(scheme.key)}, {"by_kind", scheme.kind.has_value()}});
+    add(scheme.name, scheme.key, scheme.kind.has_value(), scheme.look);
   return schemes;
 }
 
@@ -189,7 +201,6 @@ json layers_of(const PageFigure& figure) {
           {"thickens", figure.thickens ? 1 : 0},
           {"seen_through", object.coloring.is_translucent() ? 1 : 0},
           {"whole", has_cuts(figure) || !object.coloring.hides_some()},
-          {"specular", figure.look.material.specular},
           {"surface_atoms", object.surface.atoms.size()},
           {"largest_ball", largest},
           {"probe", object.surface.probe_radius}};
@@ -208,9 +219,8 @@ json description_of(const PageFigure& figure, const Tables& tables) {
           {"views", views_of(figure, tables.origin())},
           {"origin", numbers(tables.origin())},
           {"background", {background.x, background.y, background.z}},
-          {"cast", words_of(cast_parameters(tables.placement(), look, tables.atom_count(), tables.color_by_kind()))},
+          {"look", look_words(figure, look, tables)},
           {"occlusion", words_of(occlusion_parameters(look, figure.size, 0))},
-          {"finish", words_of(finish_parameters(look, tables.placement(), figure.size, 0, tables.has_marks()))},
           {"has_shade", look.ambient_occlusion > 0.0f},
           {"has_lines", look.widest_line() > 0.0f},
           {"line_step", look.line_step},
@@ -221,7 +231,7 @@ json description_of(const PageFigure& figure, const Tables& tables) {
           {"samples", samples},
           {"samples_of_shade", kSamplesOfShade},
           {"labels", labels},
-          {"schemes", schemes_of(figure, tables.color_by_kind())},
+          {"schemes", schemes_of(figure, tables)},
           {"names", names_of(figure.atoms)}};
 }
 

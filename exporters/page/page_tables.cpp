@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -27,7 +28,8 @@ namespace meniscus::page {
 namespace {
 
 constexpr std::size_t kMostTexels = std::size_t{2048} * 8192;  // of a table
-constexpr std::uint32_t kShapeIndex = 0xffffffffu;
+/// Where a primitive belongs, in the place of its index; both are set in that of shapes.
+constexpr std::uint32_t kIsBeside = 1, kHasOwnColors = 2, kShapeIndex = 0xffffffffu;
 constexpr std::size_t kMapColors = 1024;  // of a volume map's scale
 constexpr double kMapSteps = 1 << 14;     // over its range: what its values are rounded to
 
@@ -80,6 +82,14 @@ PictureFrame frame_around(const glm::dvec3& pivot) {
   return frame;
 }
 
+/// The only one that there is beside 0.
+double probe_of(const PageFigure& figure) {
+  double probe = figure.surface ? figure.surface->surface.probe_radius : 0.0;
+  for (const PageObject& object : figure.beside)
+    if (object.surface) probe = std::max(probe, object.surface->surface.probe_radius);
+  return probe;
+}
+
 /// sRGB, red lowest: of atoms, then of kinds.
 std::vector<std::uint32_t> color_words(const PageScheme& scheme) {
   std::vector<std::uint32_t> words;
@@ -106,19 +116,27 @@ Tables::Tables(const PageFigure& figure) : figure_(figure) {
     objects.emplace_back().surface = &figure.surface->surface;
     objects.back().coloring = &figure.surface->coloring;
   }
-  if (figure.shapes) {
-    objects.emplace_back().shapes = &figure.shapes->shapes;
-    objects.back().coloring = &figure.shapes->coloring;
+  for (const PageObject& object : figure.beside) {
+    PictureObject& made = objects.emplace_back();
+    if (object.surface) made.surface = &object.surface->surface;
+    if (object.shapes) made.shapes = &object.shapes->shapes;
+    made.coloring = object.surface ? &object.surface->coloring : &object.shapes->coloring;
   }
   const std::vector<Ball> balls = enclosing_balls(objects);
   frame_ = frame_around(figure.origin.value_or(middle_of(balls)));
-  placement_ = place_atoms(balls, figure.surface ? figure.surface->surface.probe_radius : 0.0, frame_);
+  placement_ = place_atoms(balls, probe_of(figure), frame_);
   placement_.slack += kRoundingSlack;
   for (const Ball& ball : balls)
     balls_.emplace_back(rounded(glm::vec3(ball.center - frame_.pivot), kColorRounding),
                         static_cast<float>(ball.radius));
-  if (figure.surface) add_surface(*figure.surface);
-  if (figure.shapes) add_shapes(*figure.shapes);
+  // What planes cut is packed whole: the points of hidden atoms, too, tell what is solid.
+  if (figure.surface) add_surface(*figure.surface, has_cuts(figure), figure.has_own_colors ? kHasOwnColors : 0);
+  for (const PageObject& object : figure.beside) {
+    if (object.surface)
+      add_surface(*object.surface, false, kIsBeside | (object.has_own_colors ? kHasOwnColors : 0));
+    else
+      add_shapes(*object.shapes);
+  }
   add_map();
   round_tables();
   check_size(map_.size(), "a volume map");
@@ -132,8 +150,8 @@ bool Tables::has_marks() const {
 
 std::vector<PageTable> Tables::packed() const {
   std::vector<glm::vec4> colors = colors_;
-  if (color_by_kind())
-    for (const glm::vec3& color : *figure_.surface->coloring.kind) colors.emplace_back(linear_from_srgb(color), 1.0f);
+  if (kind_)
+    for (const glm::vec3& color : *kind_) colors.emplace_back(linear_from_srgb(color), 1.0f);
   std::vector<ray_cast::Primitive> primitives = scene_.primitives;
   for (std::size_t n = primitives.size(); n-- > 1;) primitives[n].first_row -= primitives[n - 1].first_row;
   std::vector<PageTable> tables{page_table("primitives", primitives), page_table("rows", scene_.rows),
@@ -148,9 +166,8 @@ std::vector<PageTable> Tables::packed() const {
 }
 
 void Tables::add_map() {
-  if (!figure_.surface || !figure_.surface->coloring.volume) return;
-  const Coloring& coloring = figure_.surface->coloring;
-  const ColorScale& scale = coloring.volume->scale;
+  if (!paint_) return;
+  const ColorScale& scale = paint_->scale;
   const auto add = [&](float number) { map_.push_back(std::bit_cast<std::uint32_t>(number)); };
   const auto add_color = [&](double number) {
     const glm::vec3 color = linear_from_srgb(scale.color(number));
@@ -160,18 +177,17 @@ void Tables::add_map() {
     add_color(scale.range[0] + (scale.range[1] - scale.range[0]) * static_cast<double>(n) / (kMapColors - 1));
   add_color(std::numeric_limits<double>::quiet_NaN());
   map_atoms_ = map_.size();
-  for (std::uint32_t a = 0; a < atom_count(); ++a)
-    map_.push_back(a < coloring.atom.size() && coloring.by_volume(a) ? 0u : 1u);
+  map_.insert(map_.end(), has_color_.begin(), has_color_.end());
   map_values_ = map_.size();
   // Finer than colours can be told apart.
   const auto step = static_cast<float>(std::max((scale.range[1] - scale.range[0]) / kMapSteps, 1e-30));
-  map_.reserve(map_.size() + coloring.volume->grid.values().size());
-  for (const float value : coloring.volume->grid.values()) add(rounded(value, step));
+  map_.reserve(map_.size() + paint_->grid.values().size());
+  for (const float value : paint_->grid.values()) add(rounded(value, step));
 }
 
 nlohmann::json Tables::map() const {
   if (map_.empty()) return nullptr;
-  const VolumePaint& paint = *figure_.surface->coloring.volume;
+  const VolumePaint& paint = *paint_;
   const VolumeFrame& grid = paint.grid.frame();
   const glm::dmat3 to_index = glm::inverse(grid.step);
   const glm::dvec3 first = to_index * (origin() - grid.origin);
@@ -189,35 +205,49 @@ nlohmann::json Tables::map() const {
           {"parts", {3 * kMapColors, map_atoms_, map_values_}}};
 }
 
-void Tables::add_surface(const SurfaceObject& object) {
-  // What planes cut is packed whole: the points of hidden atoms, too, tell what is solid.
-  pack_scene(object.surface, has_cuts(figure_) ? Coloring() : object.coloring, frame_, scene_);
+/// whole: with what touches hidden atoms only. place: of the primitives, as kIsBeside and others say.
+void Tables::add_surface(const SurfaceObject& object, bool whole, std::uint32_t place) {
+  add_records(pack_scene(object.surface, whole ? Coloring() : object.coloring, frame_), place);
+  if (object.coloring.volume) paint_ = object.coloring.volume;
+  if (object.coloring.kind && !(place & kHasOwnColors)) kind_ = object.coloring.kind;
+  const std::uint32_t first_atom = atom_count();
   add_atoms(object.coloring, object.atom);
+  for (std::uint32_t a = 0; a < object.atom.size(); ++a)
+    if (object.coloring.by_volume(a)) has_color_[first_atom + a] = 0;
 }
 
 void Tables::add_shapes(const ColoredShapes& shapes) {
   RayCastScene beside;
-  beside.slack = placement_.slack;
-  pack_shapes(shapes.shapes, shapes.coloring, frame_, beside.slack, beside);
-  const auto first_row = static_cast<std::uint32_t>(scene_.rows.size());
-  const std::uint32_t first_atom = atom_count();
-  for (ray_cast::Primitive primitive : beside.primitives) {
-    primitive.first_row += first_row;
-    primitive.atom += first_atom;
-    if (primitive.kind == ray_cast::kCylinder) primitive.second_atom += first_atom;
-    // A sphere of its own is told from the patch of an atom by its index.
-    primitive.patch_index = kShapeIndex;
-    if (primitive.kind == ray_cast::kTriangle)
-      for (std::uint32_t corner = 3; corner < 6; ++corner) {
-        float& atom = beside.rows[primitive.first_row - first_row + corner].w;
-        atom = std::bit_cast<float>(std::bit_cast<std::uint32_t>(atom) + first_atom);
-      }
-    scene_.primitives.push_back(primitive);
-  }
-  scene_.rows.insert(scene_.rows.end(), beside.rows.begin(), beside.rows.end());
+  pack_shapes(shapes.shapes, shapes.coloring, frame_, placement_.slack, beside);
+  // A sphere of its own is told from the patch of an atom by its index.
+  add_records(std::move(beside), kShapeIndex);
   std::vector<std::uint32_t> all(shapes.coloring.atom.size());
   for (std::uint32_t n = 0; n < all.size(); ++n) all[n] = n;
   add_atoms(shapes.coloring, all);
+}
+
+/// Behind those that are there.
+void Tables::add_records(RayCastScene more, std::uint32_t place) {
+  const auto first_row = static_cast<std::uint32_t>(scene_.rows.size());
+  const std::uint32_t first_atom = atom_count();
+  const auto rename = [&](std::uint32_t row) {
+    float& atom = more.rows[row].w;
+    atom = std::bit_cast<float>(std::bit_cast<std::uint32_t>(atom) + first_atom);
+  };
+  for (ray_cast::Primitive primitive : more.primitives) {
+    const std::uint32_t first = primitive.first_row, kind = primitive.kind;
+    if (kind == ray_cast::kTriangle)
+      for (std::uint32_t corner = 3; corner < 6; ++corner) rename(first + corner);
+    if (kind == ray_cast::kConcave)  // whose contacts are counted where others have an atom
+      for (std::uint32_t n = 1 + primitive.plane_count; n < row_count(primitive); ++n) rename(first + n);
+    else
+      primitive.atom += first_atom;
+    if (kind == ray_cast::kToroidal || kind == ray_cast::kCylinder) primitive.second_atom += first_atom;
+    primitive.first_row += first_row;
+    primitive.patch_index = place;
+    scene_.primitives.push_back(primitive);
+  }
+  scene_.rows.insert(scene_.rows.end(), more.rows.begin(), more.rows.end());
 }
 
 void Tables::add_atoms(const Coloring& coloring, std::span<const std::uint32_t> shown) {
@@ -229,6 +259,7 @@ void Tables::add_atoms(const Coloring& coloring, std::span<const std::uint32_t> 
   marks.resize(shown.size(), 0);
   marks_.insert(marks_.end(), marks.begin(), marks.end());
   shown_.insert(shown_.end(), shown.begin(), shown.end());
+  has_color_.resize(shown_.size(), 1);
   some_hidden_ = some_hidden_ || coloring.hides_some();
 }
 
@@ -243,7 +274,6 @@ void Tables::round_tables() {
     primitive.bound = rounded_bound(primitive.bound);
     primitive.nearest = 0.0f;
     primitive.tie_key = 0;
-    if (primitive.patch_index != kShapeIndex) primitive.patch_index = 0;
   }
 }
 

@@ -2,11 +2,15 @@
 // The records of a page's figure: primitives and their numbers, colours, marks, and the balls of atoms.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <nlohmann/json_fwd.hpp>
 
@@ -19,7 +23,7 @@ namespace meniscus::page {
 /// Whether planes cut the surface in any view.
 bool has_cuts(const PageFigure& figure);
 
-/// Everything that counts atoms does so here: those of the surface, then those of shapes.
+/// Everything that counts atoms does so here: those of the surface, then those beside it.
 class Tables {
  public:
   /// Throws CapacityError for more than textures hold.
@@ -28,7 +32,7 @@ class Tables {
   const glm::dvec3& origin() const { return frame_.pivot; }  ///< from where the records count, Å
   const ScenePlacement& placement() const { return placement_; }
   std::uint32_t atom_count() const { return static_cast<std::uint32_t>(shown_.size()); }
-  bool color_by_kind() const { return figure_.surface && figure_.surface->coloring.kind; }
+  bool color_by_kind() const { return kind_.has_value(); }
   bool some_hidden() const { return some_hidden_; }
   bool has_marks() const;
   /// Of a volume map what painted.glsl asks for, but for its table; null: there is none.
@@ -38,8 +42,9 @@ class Tables {
 
  private:
   void check_size(std::size_t texels, const char* what) const;
-  void add_surface(const SurfaceObject& object);
+  void add_surface(const SurfaceObject& object, bool whole, std::uint32_t place);
   void add_shapes(const ColoredShapes& shapes);
+  void add_records(RayCastScene more, std::uint32_t place);
   void add_atoms(const Coloring& coloring, std::span<const std::uint32_t> shown);
   void round_tables();
   void add_map();
@@ -52,6 +57,9 @@ class Tables {
   std::vector<std::uint32_t> marks_, shown_;
   std::vector<std::uint32_t> map_;  ///< painted.glsl's, floats as bits
   std::size_t map_atoms_ = 0, map_values_ = 0;
+  std::shared_ptr<const VolumePaint> paint_;      ///< of the map
+  std::vector<std::uint32_t> has_color_;          ///< of atoms: 0 where the map colours them
+  std::optional<std::array<glm::vec3, 3>> kind_;  ///< Coloring::kind
   bool some_hidden_ = false;
 };
 

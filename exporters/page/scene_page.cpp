@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <span>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -47,9 +49,10 @@ const char* words_of(SurfaceKind kind) {
 std::string description_of(const Molecule& molecule, const Scene& scene, std::string_view name) {
   const std::string atoms = with_thousands(molecule.structure.atoms.size());
   if (scene.figure.hides_surface) return fmt::format("{}: {} atoms", name, atoms);
-  const std::string title = key_of(molecule).title;
+  const ColorKey key = key_of(molecule);
+  const std::string title = !key.title.empty() ? key.title : key.classes.empty() ? "one colour" : "what is chosen";
   return fmt::format("The {} surface of {}, {} atoms, coloured by {}", words_of(scene.molecule.surface.kind), name,
-                     atoms, title.empty() ? "one colour" : title);
+                     atoms, title);
 }
 
 std::pair<std::string, std::string> patches_fact(const Surface& surface) {
@@ -68,26 +71,106 @@ std::vector<std::pair<std::string, std::string>> facts_of(const Molecule& molecu
   return facts;
 }
 
-/// Colours of one frame. Where it has none of this scheme its points have those that they have already.
-PageScheme scheme_at(const OtherColors& other, const Structure& structure, const SurfaceObject* surface,
-                     const ColoredShapes* shapes, const Representations& representations) {
+/// Colours of one frame. Where it has none of this scheme its points have those that they have already. parts: the
+/// figure's colours, in the order of its parts; recolored: makes the same of the scheme.
+PageScheme scheme_at(const OtherColors& other, const std::vector<const Coloring*>& parts,
+                     const std::function<std::vector<Coloring>()>& recolored) {
   PageScheme made{other.name, other.key, {}, {}};
   const auto add = [&](const Coloring& coloring) {
     made.colors.insert(made.colors.end(), coloring.atom.begin(), coloring.atom.end());
+    if (coloring.kind) made.kind = coloring.kind;
   };
   try {
-    if (surface) {
-      const Coloring coloring = color_object(structure, surface->atom, other.scheme, 0);
-      add(coloring);
-      made.kind = coloring.kind;
-    }
-    add(shown_shapes(structure, representations, other.scheme).coloring);
+    for (const Coloring& coloring : recolored()) add(coloring);
   } catch (const InputError&) {
     made.colors.clear();
-    if (surface) add(surface->coloring);
-    if (shapes) add(shapes->coloring);
+    for (const Coloring* coloring : parts) add(*coloring);
   }
   return made;
+}
+
+bool is_cut_or_seen_through(const PictureObject& object) { return object.surface && needs_layers(object); }
+
+/// Where the objects of a picture stand in a page. Throws RequestError for two that are cut or seen through, and for
+/// probes that differ.
+void place_objects(const std::vector<PictureObject>& objects, const SurfaceObject& whole, const BesideSurface& beside,
+                   const FigureRequest& request, PageFigure& shown) {
+  const auto refuse = [](const char* why) {
+    throw RequestError(fmt::format("{}: pages show {}; make them alike, or use render", option_name("object"), why));
+  };
+  const bool is_cut_by_views =
+      std::ranges::any_of(shown.views, [](const PageView& view) { return !view.clip.empty() || view.opacity < 1.0f; });
+  const auto is_layered = [&](const PictureObject& object) {
+    return is_cut_or_seen_through(object) || (object.surface == &whole.surface && is_cut_by_views);
+  };
+  if (std::ranges::count_if(objects, is_layered) > 1) refuse("one surface that is cut or seen through, not several");
+  auto main = std::ranges::find_if(objects, is_layered);
+  if (main == objects.end()) main = std::ranges::find_if(objects, [](const auto& o) { return o.surface != nullptr; });
+  std::optional<double> probe;
+  for (auto object = objects.begin(); object != objects.end(); ++object) {
+    PageObject made;
+    const auto same = [&](const FigureObject& other) {
+      return object->surface ? other.surface && &other.surface->surface == object->surface
+                             : &other.shapes.shapes == object->shapes;
+    };
+    const auto own = std::ranges::find_if(beside.objects, same);
+    if (own != beside.objects.end())
+      made = {own->surface ? &*own->surface : nullptr, own->surface ? nullptr : &own->shapes,
+              request.objects[static_cast<std::size_t>(own - beside.objects.begin())].color.has_value()};
+    else
+      made = {object->surface ? &whole : nullptr, object->shapes ? &beside.shapes : nullptr, false};
+    if (object->surface && object->surface->probe_radius > 0.0) {
+      if (probe && *probe != object->surface->probe_radius) refuse("surfaces of one probe, not of several");
+      probe = object->surface->probe_radius;
+    }
+    if (object != main) {
+      shown.beside.push_back(made);
+      continue;
+    }
+    shown.surface = made.surface;
+    shown.has_own_colors = made.has_own_colors;
+    shown.clip = object->clip;
+    shown.cap = object->cap;
+    shown.thickens = object->thickens;
+    // Views say how the molecule's surface is cut.
+    if (made.surface != &whole)
+      for (PageView& view : shown.views) {
+        view.clip = object->clip;
+        view.opacity = 1.0f;
+      }
+  }
+}
+
+const Coloring& coloring_of(const PageObject& object) {
+  return object.surface ? object.surface->coloring : object.shapes->coloring;
+}
+
+void add_schemes(const std::vector<OtherColors>& others, const Figure& figure, const FigureRequest& request,
+                 const SurfaceObject& whole, PageFigure& shown) {
+  const Structure& structure = figure.molecule.structure;
+  std::vector<PageObject> parts = shown.beside;
+  if (shown.surface) parts.insert(parts.begin(), {shown.surface, nullptr, false});
+  std::vector<const Coloring*> own;
+  for (const PageObject& part : parts) own.push_back(&coloring_of(part));
+  BesideSurface beside = figure.beside;
+  // What is the n-th object here was so there.
+  const auto there = [&](const PageObject& part) -> const Coloring& {
+    if (part.shapes == &figure.beside.shapes) return beside.shapes.coloring;
+    for (std::size_t n = 0; n < beside.objects.size(); ++n) {
+      const FigureObject& here = figure.beside.objects[n];
+      if (part.shapes == &here.shapes) return beside.objects[n].shapes.coloring;
+      if (here.surface && part.surface == &*here.surface) return beside.objects[n].surface->coloring;
+    }
+    throw std::logic_error("the page has a part that its figure lacks");
+  };
+  for (const OtherColors& other : others)
+    shown.more_schemes.push_back(scheme_at(other, own, [&] {
+      color_beside(structure, request, other.scheme, beside);
+      std::vector<Coloring> made;
+      for (const PageObject& part : parts)
+        made.push_back(part.surface == &whole ? color_object(structure, whole.atom, other.scheme, 0) : there(part));
+      return made;
+    }));
 }
 
 }  // namespace
@@ -107,7 +190,16 @@ void check_scene(const Scene& scene) {
   const auto refuse = [](const std::string& option, const char* why) {
     throw RequestError(fmt::format("{}: pages do not show {} yet; leave it out, or use render", option, why));
   };
-  if (!scene.figure.objects.empty()) refuse(option_name("object"), "objects with looks of their own");
+  for (const FigureObjectRequest& object : scene.figure.objects) {
+    const ColorScheme& color = object.color ? *object.color : scene.molecule.color;
+    if (!object.material.empty()) refuse(option_name("object"), "objects of their own material");
+    if (object.shapes && !object.opacities.empty())
+      refuse(option_name("object"), "sticks, balls and the like that are seen through");
+    if (!object.shapes && color.of_points()) refuse(option_name("object"), "objects coloured by a map");
+    if (object.color && color.by == ColorScheme::By::kind)
+      refuse(option_name("object"), "objects coloured by kind of patch");
+    if (object.cuts.size() > kMostPlanes) refuse(option_name("object"), "objects cut by so many planes");
+  }
   if (scene.figure.cuts.size() > kMostPlanes)
     throw RequestError(fmt::format("{}: pages show at most {} planes, and there are {}; leave some out",
                                    option_name("clip"), kMostPlanes, scene.figure.cuts.size()));
@@ -143,9 +235,14 @@ PackedFrame scene_frame(const Scene& scene, Figure figure, const SceneFrame& fra
   shown.moment = frame.moment;
   shown.origin = frame.origin;
   shown.size = scene.picture.size();
-  shown.look = look_of(scene.look, shown.size, scene.image.background,
-                       hues_of(scene.molecule.color, scene.legend.asked(), uses_atoms(scene.figure.cuts)),
-                       scene.molecule.patches.has_value());
+  // Colours by a scale are those of its legend, so that a scheme may have a look of its own.
+  const auto look_by = [&](ColorScheme scheme) {
+    scheme.opacities = scene.molecule.color.opacities;
+    return look_of(scene.look, shown.size, scene.image.background,
+                   hues_of(scheme, scene.legend.asked(), uses_atoms(scene.figure.cuts)),
+                   scene.molecule.patches.has_value());
+  };
+  shown.look = look_by(scene.molecule.color);
   shown.views = frame.views;
   shown.fades_always = scene.look.depth_cue.has_value();
   const std::vector<Ball> balls = placed_balls(figure.molecule.objects);
@@ -154,22 +251,16 @@ PackedFrame scene_frame(const Scene& scene, Figure figure, const SceneFrame& fra
   shown.facts.insert(shown.facts.end(), frame.facts.begin(), frame.facts.end());
   const std::vector<PictureObject> objects =
       picture_objects(surface.surface, surface.coloring, scene.figure, &figure.beside, frame.camera, balls);
-  for (const PictureObject& object : objects) {
-    if (object.shapes) shown.shapes = &figure.beside.shapes;
-    if (!object.surface) continue;
-    shown.surface = &surface;
-    shown.clip = object.clip;
-    shown.cap = object.cap;
-    shown.thickens = object.thickens;
-  }
+  place_objects(objects, surface, figure.beside, scene.figure, shown);
   const Annotations annotations = annotations_of(scene.annotations, figure.molecule.structure);
   shown.labels = annotations.labels;
   shown.atoms = atoms;
-  shown.scheme = scheme_word(figure.molecule.color);
-  for (const OtherColors& other : frame.others)
-    shown.more_schemes.push_back(scheme_at(other, figure.molecule.structure, shown.surface,
-                                           shown.shapes ? &figure.beside.shapes : nullptr,
-                                           scene.figure.representations));
+  const ColorScheme& scheme = figure.molecule.color;
+  shown.scheme = scheme.by == ColorScheme::By::fixed || !scheme.rules.empty() ? "given" : scheme_word(scheme);
+  add_schemes(frame.others, figure, scene.figure, surface, shown);
+  for (std::size_t n = 0; n < frame.others.size(); ++n)
+    if (frame.others[n].scheme.uses_scale() != scene.molecule.color.uses_scale())
+      shown.more_schemes[n].look = look_by(frame.others[n].scheme);
   if (encode) shown.still = encode(small_picture(objects, frame.camera, shown.size, shown.look), shown.look);
   return pack_frame(shown);
 }
@@ -208,8 +299,13 @@ std::string surface_page(const Surface& surface, const Coloring& colors, const S
   shown.fades_always = look.look.depth_cue.has_value();
   shown.scheme = "given";
   if (structure)
-    for (const OtherColors& other : other_colors(*structure, {}))
-      shown.more_schemes.push_back(scheme_at(other, *structure, &object, nullptr, {}));
+    for (const OtherColors& other : other_colors(*structure, {})) {
+      shown.more_schemes.push_back(scheme_at(
+          other, {&colors}, [&] { return std::vector{color_object(*structure, object.atom, other.scheme, 0)}; }));
+      if (other.scheme.uses_scale())
+        shown.more_schemes.back().look =
+            look_of(look.look, shown.size, look.image.background, hues_of(other.scheme, false, false));
+    }
   std::vector<PictureObject> objects(1);
   objects.front().surface = &object.surface;
   objects.front().coloring = &object.coloring;

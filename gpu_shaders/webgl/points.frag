@@ -18,6 +18,7 @@ uniform usampler2D mark_texels;   // of atoms: Coloring::line_marks()
 #ifdef PAINTED
 #include "gpu_shaders/webgl/painted.glsl"
 #endif
+const uint kHasOwnColors = 2u;   // of exporters/page/page_tables.cpp
 layout(location = 0) out uvec4 color;   // linear, premultiplied, as bits
 layout(location = 1) out uvec4 normal;  // towards the solvent, and the depth along the view axis, as bits
 layout(location = 2) out uvec4 what;    // atom, primitive, mark, t as bits
@@ -54,6 +55,7 @@ void main() {
   vec3 x = ray.p + ray.d * t;
   SurfacePoint point;
   uint kind = kCylinder;  // or any other that is no patch
+  bool has_own_color = true;
 #ifdef LAYERS
   if (met.y == kOnPlane) {
     point = cap_point(pixel, met.z);
@@ -62,12 +64,13 @@ void main() {
   {
     Primitive primitive = load_primitive(met.y);
     kind = primitive.kind;
+    has_own_color = (primitive.patch_index & kHasOwnColors) != 0u;
     if (kind == kCylinder) point = cylinder_point(primitive, x);
     else if (kind == kTriangle) point = triangle_point(primitive, x);
     else point = surface_point(primitive, x);
   }
   vec4 of_atom = color_of(point.atom);
-  vec3 albedo = params.color_by_kind != 0u && kind < kCylinder ? color_of(params.atom_count + kind).rgb : of_atom.rgb;
+  vec3 albedo = params.color_by_kind != 0u && !has_own_color ? color_of(params.atom_count + kind).rgb : of_atom.rgb;
 #ifdef PAINTED
   bool is_patch = kind < kCylinder;
 #ifdef LAYERS

@@ -4,6 +4,7 @@
 const kTableColumns = 2048;  // of gpu_shaders/webgl/tables.glsl
 const kNoPrimitive = 0xffffffff;
 const kToroidal = 1, kCylinder = 3;
+const kIsBeside = 1;    // of exporters/page/page_tables.cpp
 const kBuckets = 4096;  // of depth, front to back
 
 /// A figure cannot be drawn here, in a sentence for its reader.
@@ -90,15 +91,15 @@ class Caster {
   /// Primitives of one shader are drawn together.
   grouped(words) {
     const numbers = new Float32Array(words.buffer), primitive_count = words.length / 12;
-    const centers = new Float32Array(3 * primitive_count), radii = new Float32Array(primitive_count), groups = [[], [], [], []];
+    const centers = new Float32Array(3 * primitive_count), radii = new Float32Array(primitive_count), groups = [[], [], [], [], []];
     for (let n = 0; n < primitive_count; ++n) {
       centers.set(numbers.subarray(12 * n, 12 * n + 3), 3 * n);
       radii[n] = numbers[12 * n + 3];
-      const kind = words[12 * n + 7], is_shape = kind >= kCylinder || words[12 * n + 8] === kNoPrimitive;
-      groups[is_shape ? (kind >= kCylinder ? 3 : 2) : kind === kToroidal ? 1 : 0].push(n);
+      const kind = words[12 * n + 7], is_beside = words[12 * n + 8] & kIsBeside ? 2 : 0;
+      groups[kind >= kCylinder ? 4 : is_beside + (kind === kToroidal ? 1 : 0)].push(n);
     }
     return { primitive_count, centers, radii,
-      groups: groups.map((list, n) => ({ define: ["", "TORI", "", "SHAPES"][n], of_surface: n < 2, list: Uint32Array.from(list) })) };
+      groups: groups.map((list, n) => ({ define: ["", "TORI", "", "TORI", "SHAPES"][n], of_surface: n < 2, list: Uint32Array.from(list) })) };
   }
 
   /// scheme: its place among the figure's.
@@ -107,6 +108,7 @@ class Caster {
     const made_of = [words, own_colors, this.hidden], is_same = made_of.every((part, n) => part === this.colors_of?.[n]);
     this.by_kind = schemes[scheme].by_kind ? 1 : 0;
     this.scheme = scheme;
+    this.look = schemes[scheme].look ?? this.figure.look;
     if (is_same) return;
     const own = new Float32Array(own_colors.buffer), colors = scheme > 0 ? new Float32Array(4 * words.length) : own.slice();
     if (scheme > 0)
@@ -339,7 +341,7 @@ class Caster {
     this.draw_whole(target, this.program("whole.vert", "points.frag", map ? [...defines, "PAINTED"] : defines),
       { ...this.scene_tables(), mark_texels: this.tables.marks, ...(map ? { map_texels: this.tables.map } : {}), ...textures },
       { pivot: this.frame.pivot, ...paint, ...numbers },
-      { Parameters: { words: this.figure.cast, values: { color_by_kind: this.by_kind, ...values } } });
+      { Parameters: { words: this.look.cast, values: { color_by_kind: this.by_kind, ...values } } });
   }
 
   /// name: of the depths of the first sample, which are the map of shade where the picture has no other; shared: by how
@@ -357,7 +359,7 @@ class Caster {
     const wanted = [...(effects.shade ? ["AMBIENT_OCCLUSION"] : []), ...(effects.lines ? ["SILHOUETTES"] : []), ...defines];
     this.draw_whole(target, this.program("whole.vert", "finish.frag", wanted), { normal_texels: normal, sample_texels: color, what_texels: what,
       ...(effects.shade ? { shade_texels: this.pixels.shade } : {}), sum_texels: sum }, {},
-      { Parameters: { words: this.figure.finish, values: { ...this.depth_range, ...this.line_widths(), ...(this.fades ? {} : { depth_cue: 0 }), ...values } } });
+      { Parameters: { words: this.look.finish, values: { ...this.depth_range, ...this.line_widths(), ...(this.fades ? {} : { depth_cue: 0 }), ...values } } });
   }
 
   /// Footprints of some primitives or balls, in their order. kind: of a program's vertex shader.
@@ -373,19 +375,19 @@ class Caster {
     gl.bufferData(gl.ARRAY_BUFFER, list, gl.STREAM_DRAW);
     gl.vertexAttribIPointer(0, 1, gl.UNSIGNED_INT, 0, 0);
     this.use(made, textures, { pivot: this.frame.pivot, depth_range: this.range, ...numbers });
-    this.set_block(made, "Parameters", this.figure.cast, {});
+    this.set_block(made, "Parameters", this.look.cast, {});
     gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, list.length);
   }
 
   /// The nearest primitive at each pixel.
-  find(groups, { textures = {}, numbers = {}, defines = [] } = {}) {
+  find(groups, { textures = {}, numbers = {}, defines = [], hides_some = this.hides_some() } = {}) {
     const gl = this.gl;
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.targets.found);
     gl.clearBufferuiv(gl.COLOR, 0, [0, kNoPrimitive, 0, 0]);
     gl.clearBufferfv(gl.DEPTH, 0, [1]);
     for (const group of groups) {
       if (group.list.length === 0) continue;
-      const wanted = [...(group.define ? [group.define] : []), ...(this.hides_some() ? ["SOME_HIDDEN"] : []), ...defines];
+      const wanted = [...(group.define ? [group.define] : []), ...(hides_some ? ["SOME_HIDDEN"] : []), ...defines];
       this.draw_footprints(group.sorted, this.program("footprint.vert", "cast.frag", wanted),
         { ...this.scene_tables(), ...textures }, numbers, this.targets.found);
     }
@@ -394,7 +396,7 @@ class Caster {
   /// Lines grow with the picture, as those of presets do.
   line_widths() {
     const { figure, whole } = this, shorter = Math.min(...whole), growth = shorter / Math.min(...figure.size);
-    const view = new Float32Array(Uint32Array.from(figure.finish).buffer), widths = {};
+    const view = new Float32Array(Uint32Array.from(this.look.finish).buffer), widths = {};
     for (const [name, word] of Object.entries(kLineWords)) widths[name] = Math.min(16, view[word] * growth);
     const step = figure.line_step * shorter;
     return { ...widths, step_pixels: Math.max(step, 2), fade_pixels: 2 * step };

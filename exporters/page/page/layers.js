@@ -87,7 +87,7 @@ class LayeredCaster extends Caster {
     const opaque_normal = first ? pixels.opaque_first_normal : pixels.opaque_normal;
     const seen = first ? targets.first : targets.seen, opaque = first ? targets.opaque_first : targets.opaque;
     this.begin_sample(sample);
-    this.find(this.groups.filter((group) => !group.of_surface));
+    this.find(this.groups.filter((group) => !group.of_surface), { hides_some: super.hides_some() });
     this.color_points(targets.shapes, { found_texels: pixels.found });
     for (const [attachment, texture] of [[0, pixels.opaque_color], [1, opaque_normal], [1, seen_normal], [2, pixels.opaque_what], [2, seen_what]])
       this.copy(targets.shapes, attachment, texture);
@@ -106,7 +106,7 @@ class LayeredCaster extends Caster {
       this.finish(targets.behind, { ...on_behind, sum: pixels[from] }, effects, { sample_index: 0 });
       this.draw_whole(targets[to], this.program("whole.vert", "layer_sum.frag"), { over_texels: pixels[this.over], first_texels: pixels.seen_color,
         front_texels: pixels.front, ink_texels: pixels.ink, behind_texels: pixels.behind, sum_texels: pixels[from] }, {},
-        { Parameters: { words: this.figure.finish, values: { ...this.line_widths(), sample_index: sample } } });
+        { Parameters: { words: this.look.finish, values: { ...this.line_widths(), sample_index: sample } } });
     }
     this.summed = { texture: pixels[to], samples: sample + 1 };
   }
@@ -122,8 +122,8 @@ class LayeredCaster extends Caster {
   /// From hit to hit, at most `count` of them. counts: the device is asked which of them are there. seen, opaque: targets that keep the first one that is seen, and the opaque one.
   walk(seen, opaque, count, counts) {
     const { gl, figure, pixels, targets } = this, numbers = this.layer_numbers(), layers = ["LAYERS"];
-    const surface = this.groups.filter((group) => group.of_surface), block = { Parameters: { words: figure.cast, values: {} } };
-    const lit = this.is_seen_through() ? { specular: this.layers.specular } : {};
+    const surface = this.groups.filter((group) => group.of_surface), block = { Parameters: { words: this.look.cast, values: {} } };
+    const lit = this.is_seen_through() ? { specular: this.look.specular } : {};
     let [over, state, next] = ["over", "state", "other_"];
     this.draw_whole(targets.ray, this.program("whole.vert", "layer_start.frag"), this.scene_tables(), numbers, block);
     if (counts) this.queries.forEach((query) => gl.deleteQuery(query));
