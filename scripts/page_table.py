@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""page_table.py PROGRAM CHROMIUM FREESASA_DATA pixels [NAME...] | speed FILE...: tables of what pages of `export page` show
-in a browser, for docs/validation/page-pixels.md.
+"""page_table.py PROGRAM CHROMIUM FREESASA_DATA pixels [NAME...] | turning [FOLDER] | speed FILE...: tables of what pages of
+`export page` show in a browser, for docs/validation/page-pixels.md.
 
 pixels: more than twenty molecules and scenes, or those of the molecules named, each pixel beside that of `meniscus render`;
-ends with an error where more than one in a thousand differs, or an outline is off by more than half a pixel. speed: what a
-picture of each FILE costs."""
+ends with an error where more than one in a thousand differs, or an outline is off by more than half a pixel. turning: thirty
+steps of a whole turn, each beside the picture by `meniscus render` from the same camera, and the draft of each; an error, too,
+where a pixel shows the background though there is a surface. FOLDER: for pictures of all frames (of the second film from 100
+on), the page's beside the one by render and the draft. speed: what a picture of each FILE costs."""
 
 import asyncio
 import json
@@ -19,7 +21,9 @@ sys.argv[1:] = [PROGRAM, CHROMIUM, FREESASA]
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests/export"))
 
-import page_test
+import numpy
+import OpenImageIO
+import page_case
 from browser import Browser
 
 PYMOL = "/usr/share/pymol/data"
@@ -102,8 +106,31 @@ SPEED = """(() => {
   return { ...found, fragments, primitives: caster.primitive_count };
 })()"""
 
+# Films of a turn, and of which atoms.
+FILMS = [
+    (TOXIN, "--color", "chain"),
+    (UBIQUITIN, "--color", "residue", "--opacity", "0.5", "--opacity", "resid 1-20=1", "--clip", "1,0.2,0<36", "--tube", "polymer"),
+]
+STEPS = 30
+STEP = f"meniscus.camera = orbited(meniscus.camera, {2 / STEPS}, 0)"  # of a whole turn
+CAMERA = """(() => {
+  const { position, target, up, orthographic, fov, height } = meniscus.camera, { origin } = meniscus.figure;
+  const size = orthographic ? { height } : { vertical_fov: fov };
+  return { position: plus(position, origin), target: plus(target, origin), up, projection: orthographic ? "orthographic" : "perspective", ...size };
+})()"""
+# Where a draft has met something: the one of moving views, half as wide as the picture.
+DRAFT_SIZE = tuple(side // 2 for side in page_case.SIZE)
+DRAFT = """(() => {
+  const viewer = meniscus, caster = viewer.caster, [width, height] = [%d, %d];
+  caster.begin(viewer.camera, width, height);
+  caster.cast(0, { shade: false, lines: false, draft: true });
+  const what = caster.read(0, 0, width, height, 2), met = [];
+  for (let n = 1; n < what.length; n += 4) met.push(what[n] === kNoPrimitive ? 0 : 1);
+  return met;
+})()""" % DRAFT_SIZE
 
-class Pages(page_test.PageTest):
+
+class Pages(page_case.PageCase):
     def runTest(self):
         pass
 
@@ -140,10 +167,55 @@ async def pixels(pages):
         shown = " ".join(f"'{word}'" if " " in word or ">" in word else word for word in options).replace("{inside}", "inside.json")
         print(f"| {pathlib.Path(molecule).stem} | `{shown or '(none)'}` | " +
               (" | ".join(str(n) for n in counts[:3]) + f" | {100 * counts[3]:.3f} % |" if counts else "failed | | | |"), flush=True)
-    print(f"{len(scenes)} scenes of {page_test.SIZE[0]} x {page_test.SIZE[1]} pixels; not as they should be: {len(bad)}")
+    print(f"{len(scenes)} scenes of {page_case.SIZE[0]} x {page_case.SIZE[1]} pixels; not as they should be: {len(bad)}")
     for line in bad:
         print(line)
     return len(bad)
+
+
+async def turning(pages):
+    """A hole: a pixel of the background amid those, of the picture by render, that have a surface."""
+    width, height = page_case.SIZE
+    print("| molecule | options | frames | most that differ in one | holes | holes of drafts |\n|---|---|--:|--:|--:|--:|")
+    bad = 0
+    for film, (molecule, *options) in enumerate(FILMS):
+        differ, holes, draft_holes = [], 0, 0
+        async with pages.browser() as page:
+            await pages.load(page, pages.export(molecule, "--size", f"{width}x{height}", *options))
+            for step in range(STEPS):
+                await page.evaluate(STEP)
+                with open(pages.path("turned.json"), "w") as file:
+                    json.dump(await page.evaluate(CAMERA), file)
+                from_there = (molecule, *options, "--camera", pages.path("turned.json"))
+                wanted, found = pages.rendered(*from_there), await pages.cast(page)
+                small, draft = pages.rendered(*from_there, size=DRAFT_SIZE), numpy.reshape(await page.evaluate(DRAFT), DRAFT_SIZE[::-1]) == 1
+                solid, met = numpy.isfinite(wanted[1]), numpy.isfinite(found[1])
+                off = (solid != met) | (numpy.abs(numpy.where(met, found[1], 0) - numpy.where(solid, wanted[1], 0)) > 2e-3)
+                off |= (found[2] != wanted[2]) | (numpy.abs(found[0] - wanted[0]).max(axis=2) > 2 / 255)
+                differ.append(off.mean())
+                holes += (inside(solid) & ~met).sum()
+                draft_holes += (inside(numpy.isfinite(small[1])) & ~draft).sum()
+                if FILES:
+                    both = numpy.concatenate([found[0], wanted[0], numpy.repeat(numpy.repeat(draft, 2, 0), 2, 1)[:, :, None] * numpy.ones(3)], axis=1)
+                    save(both, os.path.join(FILES[0], f"{100 * film + step:03d}.png"))
+        shown = " ".join(f"'{word}'" if " " in word or "<" in word else word for word in options)
+        print(f"| {pathlib.Path(molecule).stem} | `{shown}` | {STEPS} | {100 * max(differ):.3f} % | {holes} | {draft_holes} |", flush=True)
+        bad += max(differ) > 1e-3 or holes > 0 or draft_holes > 0
+    return bad
+
+
+def inside(solid):
+    """Pixels whose neighbours have a surface, too: outlines may be off by half a pixel."""
+    around = numpy.pad(solid, 1)
+    return numpy.all([around[1 + y:around.shape[0] - 1 + y, 1 + x:around.shape[1] - 1 + x] for y in (-1, 0, 1) for x in (-1, 0, 1)], axis=0)
+
+
+def save(pixels, path):
+    height, width, channels = pixels.shape
+    out = OpenImageIO.ImageOutput.create(path)
+    out.open(path, OpenImageIO.ImageSpec(width, height, channels, OpenImageIO.UINT8))
+    out.write_image(numpy.ascontiguousarray(numpy.clip(255 * pixels + 0.5, 0, 255).astype(numpy.uint8)))
+    out.close()
 
 
 async def speed(pages):
@@ -154,7 +226,7 @@ async def speed(pages):
         for size in ((640, 480), (1280, 960)):
             found = []
             for draft in ("true", "false"):
-                async with Browser(CHROMIUM, (500, 300), page_test.SOFTWARE_GL) as page:
+                async with Browser(CHROMIUM, (500, 300), page_case.SOFTWARE_GL) as page:
                     await pages.load(page, page_path)
                     found.append(await page.evaluate(SPEED % (*size, draft)))
             draft, rest = found
@@ -168,7 +240,7 @@ def main():
     pages = Pages()
     with tempfile.TemporaryDirectory() as folder:
         pages.folder = type("Folder", (), {"name": folder})
-        sys.exit(1 if asyncio.run({"pixels": pixels, "speed": speed}[WHAT](pages)) else 0)
+        sys.exit(1 if asyncio.run({"pixels": pixels, "turning": turning, "speed": speed}[WHAT](pages)) else 0)
 
 
 if __name__ == "__main__":

@@ -136,8 +136,11 @@ class Browser:
         raise AssertionError(f"never true: {script}; the page says: "
                              + str(await self.evaluate("document.getElementById('message').textContent")))
 
-    async def open(self, url):
+    async def navigate(self, url):
         await self.send("Page.navigate", url=url)
+
+    async def open(self, url):
+        await self.navigate(url)
         await self.at_rest()
 
     async def at_rest(self, seconds=60):
