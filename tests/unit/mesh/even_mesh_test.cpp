@@ -241,7 +241,8 @@ TEST(EvenMesh, IsFoundByToleranceWhereBallsCrowd) {
   EXPECT_LT(farthest_from(mesh, tessellate(surface, {0.2, false}).positions), 0.1);
 }
 
-/// Bare balls meet in concave creases, at which mending slivers took the mesh away from what it had reached, for minutes.
+/// Bare balls meet in concave creases, at which mending slivers took the mesh away from what it had reached, for
+/// minutes.
 TEST(EvenMesh, IsFoundByToleranceWhereBareBallsMeet) {
   const Surface surface = compute_surface_cpu(ubiquitin(), 0.0);
   const double tolerance = 0.2;
@@ -250,7 +251,8 @@ TEST(EvenMesh, IsFoundByToleranceWhereBareBallsMeet) {
   EXPECT_TRUE(crossing_triangles(mesh.positions, mesh.triangles).empty());
   const SurfaceDistance distance(surface);
   for (const auto& [a, b, c] : mesh.triangles)
-    ASSERT_LT(std::abs(distance((mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3.0).distance), tolerance);
+    ASSERT_LT(std::abs(distance((mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3.0).distance),
+              tolerance);
   EXPECT_LT(farthest_from(mesh, tessellate(surface, {0.1, false}).positions), kBackward * tolerance);
 }
 
