@@ -151,7 +151,7 @@ class EvenMeshing {
         base_ = base_mesh(surface_, walk_, Beginning::patches, RemeshTuning::kept_base * options_.tolerance);
       start(watched);
       if (attempt >= RemeshTuning::first_frozen && !contracted_) freeze_watched();
-      const std::vector<std::uint32_t> bad = even_out();
+      const std::vector<std::uint32_t> bad = even_out(attempt >= RemeshTuning::first_unmended);
       if (bad.empty()) break;
       if (attempt == (contracted_ ? RemeshTuning::contracted_attempts : RemeshTuning::attempts))
         throw OpenSurfaceError(
@@ -183,8 +183,9 @@ class EvenMeshing {
       mesh_->vertex(v).frozen = mesh_->guard().watches(v);
   }
 
-  /// Returns triangles that pass through others and would not part, or that would not come near enough, or none.
-  std::vector<std::uint32_t> even_out() {
+  /// Returns triangles that pass through others and would not part, or that would not come near enough, or none. If
+  /// slivers may stay, none are mended in a mesh that is as promised already.
+  std::vector<std::uint32_t> even_out(bool slivers_may_stay) {
     Remesher remesher(*mesh_);
     if (sizes_.by_density()) remesher.approach();
     for (int round = 0; round < RemeshTuning::rounds; ++round) {
@@ -196,6 +197,8 @@ class EvenMeshing {
     for (int n = 1;; ++n) {
       if (!sizes_.by_density())
         if (std::vector<std::uint32_t> far = come_near(most); !far.empty()) return far;
+      if (slivers_may_stay && !sizes_.by_density() && crossing(*mesh_).empty() && nearness_.reaches_all(*mesh_))
+        return {};
       mend(crossing(*mesh_));
       std::vector<std::uint32_t> bad = crossing(*mesh_);
       if (!bad.empty() || sizes_.by_density()) return bad;
@@ -226,7 +229,7 @@ class EvenMeshing {
       } else {
         mender().reach(far);
       }
-      mend(triangles_of(far));
+      if (far.size() <= mesh_->links().triangle_count() / RemeshTuning::most_mended) mend(triangles_of(far));
       far = nearness_.too_far(*mesh_);
       idle = far.size() < fewest ? 0 : idle + 1;
       fewest = std::min(fewest, far.size());

@@ -125,6 +125,9 @@ struct RemeshTuning {
   /// How often all begins again, with an eye on the places where triangles crossed, and from which attempt on these
   /// keep to the base, which is as near as promised then; contact faces that are points are not a base to keep to.
   static constexpr int attempts = 6, first_frozen = 2, contracted_attempts = 2;
+  /// The attempt from which on slivers may stay: where creases crowd, mending them takes the mesh away from points that
+  /// it reached.
+  static constexpr int first_unmended = 4;
   /// How these places grow with each attempt.
   static constexpr double wider = 1.7;
 
@@ -137,6 +140,8 @@ struct RemeshTuning {
   static constexpr int idle_refinements = 2;
   /// So few triangles that are too far away are mended one by one.
   static constexpr std::size_t few_far = 100;
+  /// Where more than one in so many are, smaller triangles help; mending takes minutes.
+  static constexpr std::uint32_t most_mended = 20;
   /// Edges around those that are too far away become shorter by this factor.
   static constexpr double finer = 0.7;
   /// Refinements that make more triangles than these lead nowhere.

@@ -241,6 +241,21 @@ TEST(EvenMesh, IsFoundByToleranceWhereBallsCrowd) {
   EXPECT_LT(farthest_from(mesh, tessellate(surface, {0.2, false}).positions), 0.1);
 }
 
+/// Bare balls meet in concave creases, at which mending slivers took the mesh away from what it had reached, for
+/// minutes.
+TEST(EvenMesh, IsFoundByToleranceWhereBareBallsMeet) {
+  const Surface surface = compute_surface_cpu(ubiquitin(), 0.0);
+  const double tolerance = 0.2;
+  const TriangleMesh mesh = even_mesh(surface, {0.0, tolerance, {}}).mesh;
+  expect_same_topology(surface, mesh);
+  EXPECT_TRUE(crossing_triangles(mesh.positions, mesh.triangles).empty());
+  const SurfaceDistance distance(surface);
+  for (const auto& [a, b, c] : mesh.triangles)
+    ASSERT_LT(std::abs(distance((mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3.0).distance),
+              tolerance);
+  EXPECT_LT(farthest_from(mesh, tessellate(surface, {0.1, false}).positions), kBackward * tolerance);
+}
+
 TEST(EvenMesh, UbiquitinHasNoSlivers) {
   const Surface surface = compute_surface_cpu(ubiquitin(), kWater);
   const TriangleMesh mesh = even_mesh(surface, {0.0, 0.05, {}}).mesh;
