@@ -71,14 +71,21 @@ float meet_torus(uint torus, PixelRay ray, float from) {
 #endif
 }
 
+bool shows_shape(Primitive primitive, vec3 x) {
+  if (!some_hidden) return true;
+  return shows(primitive.kind == kCylinder ? cylinder_point(primitive, x).atom : triangle_point(primitive, x).atom);
+}
+
 float meet_shape(Primitive primitive, PixelRay ray, float from) {
   if (primitive.kind == kCylinder) {
     CylinderMeeting meeting = meet_cylinder(primitive, ray.p, ray.d);
-    if (meeting.near_found && meeting.near_t > from) return meeting.near_t;
-    return meeting.far_found && meeting.far_t > from ? meeting.far_t : kMiss;
+    if (meeting.near_found && meeting.near_t > from && shows_shape(primitive, ray.p + ray.d * meeting.near_t))
+      return meeting.near_t;
+    bool far = meeting.far_found && meeting.far_t > from;
+    return far && shows_shape(primitive, ray.p + ray.d * meeting.far_t) ? meeting.far_t : kMiss;
   }
   TriangleHit hit = meet_triangle(primitive, ray.p, ray.d);
-  return hit.found && hit.t > from ? hit.t : kMiss;
+  return hit.found && hit.t > from && shows_shape(primitive, ray.p + ray.d * hit.t) ? hit.t : kMiss;
 }
 
 void main() {

@@ -16,8 +16,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "preview"))
 from browser import Browser
 
 SITE, AXE, FOLDER = (pathlib.Path(argument) for argument in sys.argv[1:4])
-PAGES = ["index.html", "tutorials/first-figure.html", "how-to/figures.html", "reference/options/info.html",
-         "explanation/how-it-works.html", "validation/benchmarks.html", "how-to/1tii.html"]
+PAGES = ["how-to/1tii.html", "tutorials/first-figure.html", "how-to/figures.html", "reference/options/info.html",
+         "explanation/how-it-works.html", "validation/benchmarks.html", "index.html"]  # the last one has the search
 WIDTHS = {"desktop": (1280, 900), "phone": (390, 844)}
 
 

@@ -125,6 +125,11 @@ class PageTest(PageCase):
             self.check("cut, chain A alone", await self.cast(page), self.rendered(few, *look, "--show", "chain A", "--clip", clip))
             await page.evaluate("meniscus.show_chains(new Set(meniscus.figure.names.chains)), meniscus.opacity = 0.5, meniscus.set_cut(0)")
             self.check("seen through", await self.cast(page), self.rendered(few, *look, "--opacity", "0.5"))
+            # Sticks go with their chain, also where the surface is cut.
+            await self.load(page, self.export(few, "--size", size, "--color", "chain", "--camera", camera, "--sticks", "backbone", "--clip", clip))
+            await page.evaluate("meniscus.figure.look.finish[%d] = 0" % DEPTH_CUE)
+            await page.evaluate("meniscus.show_chains(new Set(['A']))")
+            self.check("sticks of chain A", await self.cast(page), self.rendered(few, *look, "--show", "chain A", "--clip", clip, "--sticks", "backbone and chain A"))
             self.assertEqual(page.complaints, [])
 
     async def test_views_are_those_of_their_files(self):

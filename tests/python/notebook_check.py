@@ -19,7 +19,7 @@ import urllib.request
 
 import numpy as np
 from PIL import Image
-from playwright.sync_api import sync_playwright
+from playwright.sync_api import Error, sync_playwright
 
 CHROMIUM = sys.argv.pop(1)
 UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
@@ -99,8 +99,15 @@ class NotebookTest(unittest.TestCase):
     def run_cell(self, n):
         """Runs cell n, and waits until it has ended. Its text."""
         cell = self.page.locator(".jp-Notebook .jp-Cell").nth(n)
-        cell.scroll_into_view_if_needed()
-        cell.locator(".jp-InputArea-editor").click()
+        for attempt in range(5):  # JupyterLab makes cells anew while it loads
+            try:
+                cell.scroll_into_view_if_needed()
+                cell.locator(".jp-InputArea-editor").click()
+                break
+            except Error:
+                if attempt == 4:
+                    raise
+                time.sleep(1)
         before = cell.locator(".jp-InputPrompt").first.inner_text()
         self.page.keyboard.press("Control+Enter")
         for _ in range(600):
