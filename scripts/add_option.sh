@@ -41,7 +41,7 @@ small=(--size 64x48 --samples 1 -q)
 expect "its file count" test "$(grep -rlw sparkle core app exporters gpu_shaders | wc -l)" = 3
 expect "the command line" "$program" render two.xyzr -o a.png "${small[@]}" --sparkle 2 --save-scene a.json
 expect "a value out of range" says "--sparkle: '9' is not a number from 0 to 5" "$program" render two.xyzr -o b.png --sparkle 9
-expect "the help" says "--sparkle F .*this test knows" "$program" render --help
+expect "the help" says "--sparkle F .*this test knows" "$program" render --help-all
 expect "completion" says "sparkle" "$program" completion bash
 expect "manual pages" "$program" help --man man
 expect "a manual page of it" says "sparkle" cat man/meniscus-render.1
