@@ -23,7 +23,7 @@ sys.path.insert(0, str(ROOT / "tests/export"))
 
 import numpy
 import OpenImageIO
-import page_case
+import figure_page
 from browser import Browser
 
 PYMOL = "/usr/share/pymol/data"
@@ -119,7 +119,7 @@ CAMERA = """(() => {
   return { position: plus(position, origin), target: plus(target, origin), up, projection: orthographic ? "orthographic" : "perspective", ...size };
 })()"""
 # Where a draft has met something: the one of moving views, half as wide as the picture.
-DRAFT_SIZE = tuple(side // 2 for side in page_case.SIZE)
+DRAFT_SIZE = tuple(side // 2 for side in figure_page.SIZE)
 DRAFT = """(() => {
   const viewer = meniscus, caster = viewer.caster, [width, height] = [%d, %d];
   caster.begin(viewer.camera, width, height);
@@ -130,7 +130,7 @@ DRAFT = """(() => {
 })()""" % DRAFT_SIZE
 
 
-class Pages(page_case.PageCase):
+class Pages(figure_page.PageCase):
     def runTest(self):
         pass
 
@@ -167,7 +167,7 @@ async def pixels(pages):
         shown = " ".join(f"'{word}'" if " " in word or ">" in word else word for word in options).replace("{inside}", "inside.json")
         print(f"| {pathlib.Path(molecule).stem} | `{shown or '(none)'}` | " +
               (" | ".join(str(n) for n in counts[:3]) + f" | {100 * counts[3]:.3f} % |" if counts else "failed | | | |"), flush=True)
-    print(f"{len(scenes)} scenes of {page_case.SIZE[0]} x {page_case.SIZE[1]} pixels; not as they should be: {len(bad)}")
+    print(f"{len(scenes)} scenes of {figure_page.SIZE[0]} x {figure_page.SIZE[1]} pixels; not as they should be: {len(bad)}")
     for line in bad:
         print(line)
     return len(bad)
@@ -175,7 +175,7 @@ async def pixels(pages):
 
 async def turning(pages):
     """A hole: a pixel of the background amid those, of the picture by render, that have a surface."""
-    width, height = page_case.SIZE
+    width, height = figure_page.SIZE
     print("| molecule | options | frames | most that differ in one | holes | holes of drafts |\n|---|---|--:|--:|--:|--:|")
     bad = 0
     for film, (molecule, *options) in enumerate(FILMS):
@@ -226,7 +226,7 @@ async def speed(pages):
         for size in ((640, 480), (1280, 960)):
             found = []
             for draft in ("true", "false"):
-                async with Browser(CHROMIUM, (500, 300), page_case.SOFTWARE_GL) as page:
+                async with Browser(CHROMIUM, (500, 300), figure_page.SOFTWARE_GL) as page:
                     await pages.load(page, page_path)
                     found.append(await page.evaluate(SPEED % (*size, draft)))
             draft, rest = found

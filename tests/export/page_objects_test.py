@@ -7,7 +7,7 @@ import subprocess
 import sys
 import unittest
 
-from page_case import PROGRAM, SIZE, UBIQUITIN, PageCase
+from figure_page import PROGRAM, SIZE, UBIQUITIN, PageCase
 
 
 class PageObjectsTest(PageCase):

@@ -14,7 +14,7 @@ import unittest
 
 import numpy
 import OpenImageIO
-from page_case import DEPTH_CUE, PROGRAM, PROTEASE, SIZE, TOXIN, UBIQUITIN, PageCase
+from figure_page import DEPTH_CUE, PROGRAM, PROTEASE, SIZE, TOXIN, UBIQUITIN, PageCase
 
 
 class PageTest(PageCase):
