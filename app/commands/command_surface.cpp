@@ -113,9 +113,12 @@ void add_surface(CLI::App& command) {
     declared->options.take();
     // Parts of surfaces are cut out by planes, and rays meet patches within theirs.
     const Division& division = declared->state.scene.molecule.division;
-    declared->state.scene.molecule.surface.drawn =
-        division.components || division.cavities != Cavities::keep || declared->state.open_sky;
-    declared->state.summary_csv.empty() ? print_surface(declared->state) : print_summary(declared->state);
+    SurfaceCommand& asked = declared->state;
+    MoleculeRequest& molecule = asked.scene.molecule;
+    molecule.surface.drawn = division.components || division.cavities != Cavities::keep || asked.open_sky;
+    molecule.surface.summed =
+        !molecule.surface.drawn && !molecule.patches && asked.cavity_csv.empty() && asked.gradient_csv.empty();
+    asked.summary_csv.empty() ? print_surface(asked) : print_summary(asked);
   });
 }
 

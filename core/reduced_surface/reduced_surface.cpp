@@ -124,11 +124,11 @@ double probe_decision_weight(double probe_radius, std::size_t index) {
   return grown * grown;
 }
 
-std::vector<double> decision_weights(std::span<const Ball> atoms, double probe_radius) {
+std::vector<double> decision_weights(std::span<const Ball> atoms, double probe_radius, AtomNumbers numbers) {
   std::vector<double> weights(atoms.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, atoms.size(), 4096), [&](const auto& range) {
     for (std::size_t a = range.begin(); a != range.end(); ++a)
-      weights[a] = decision_weight(atoms[a].radius + probe_radius, a);
+      weights[a] = decision_weight(atoms[a].radius + probe_radius, number_of(numbers, static_cast<std::uint32_t>(a)));
   });
   return weights;
 }

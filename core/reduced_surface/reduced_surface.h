@@ -15,6 +15,14 @@ namespace meniscus {
 
 struct Ball;
 
+/// The numbers by which radii grow (decision_weights()), rising, one an atom. Empty: each atom's index. Atoms taken out
+/// of many keep the numbers they had there, so that what is decided about them stays the same.
+using AtomNumbers = std::span<const std::uint32_t>;
+
+inline std::uint32_t number_of(AtomNumbers numbers, std::uint32_t atom) {
+  return numbers.empty() ? atom : numbers[atom];
+}
+
 /// An exposed arc of the SAS circle of atoms i < j (an RS edge), counter-clockwise about the axis from i to j.
 /// It begins where it leaves the SAS ball of atom `begin_by` and ends where it enters that of `end_by`;
 /// both are kNone for a free edge (a whole circle).
@@ -32,7 +40,8 @@ struct ReducedSurface {
   std::vector<RsArc> arcs;
   std::vector<std::uint32_t> lone_atoms;  ///< SAS spheres that meet no other and lie in none, sorted
   std::vector<std::uint32_t> lost_atoms;  ///< of which arcs must be missing, sorted; none unless there is a fault
-  double exact_within = 0.0;  ///< Å by which radii may have to change at most for all decisions to be theirs
+  double exact_within = 0.0;           ///< Å by which radii may have to change at most for all decisions to be theirs
+  std::vector<std::uint32_t> numbers;  ///< of atoms that are part of more: theirs in the whole, AtomNumbers
   bool operator==(const ReducedSurface&) const = default;
 };
 
@@ -45,10 +54,10 @@ struct CircleStats {
 };
 
 /// The squared SAS radii in which every sign decision is taken: (r_i + p + g_i)^2, with g_i between 1e-9 and 1.5e-9 Å,
-/// different for each index. Touching thereby counts as overlapping, in any orientation; and n-fold contacts fall
+/// different for each number. Touching thereby counts as overlapping, in any orientation; and n-fold contacts fall
 /// apart into consistent threefold ones (a perturbation that is the same for all predicates, so no two circles can
 /// disagree). Positions, areas and volumes are computed from the unchanged radii.
-std::vector<double> decision_weights(std::span<const Ball> atoms, double probe_radius);
+std::vector<double> decision_weights(std::span<const Ball> atoms, double probe_radius, AtomNumbers numbers = {});
 
 /// Golden-ratio hash of an index to [0, 1): neighbouring indices land far apart.
 double scattered(std::size_t index);

@@ -10,6 +10,7 @@
 #include "core/gpu/egl_context.h"
 #include "core/queries/compare.h"
 #include "core/scene/surface_kind.h"
+#include "core/surface/blocks.h"
 #include "core/surface/gpu/gpu_engine.h"
 #include "core/surface/compute_surface.h"
 
@@ -71,8 +72,11 @@ Surface SurfaceComputer::compute(std::span<const Ball> balls) {
   }
   const double probe_radius = rolling_probe(request_.kind, request_.probe_radius);
   if (!engine_) engine_ = make_engine(on_cpu_, request_.gl);
-  Surface surface = compute_surface(*engine_, balls, probe_radius, clock_,
-                                    request_.drawn || request_.verify ? ClipPlanes::listed : ClipPlanes::left_out);
+  const bool summed = request_.summed && is_on_cpu();
+  Surface surface =
+      summed ? compute_sums(balls, probe_radius, clock_)
+             : compute_surface(*engine_, balls, probe_radius, clock_,
+                               request_.drawn || request_.verify ? ClipPlanes::listed : ClipPlanes::left_out);
   device_ = engine_->device();
   if (request_.verify) verify(surface, balls, probe_radius);
   return surface;

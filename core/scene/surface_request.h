@@ -36,6 +36,7 @@ struct SurfaceRequest {
   /// With `verify`, a further look at each closed surface, such as by its mesh; throws OpenSurfaceError. May be empty.
   std::function<void(const Surface&)> check;
   bool drawn = true;                        ///< false: for numbers only, see ClipPlanes::left_out
+  bool summed = false;                      ///< only totals, components and areas of atoms: tables may be left out
   int threads = 0;                          ///< CPU threads; 0: all
   StageTiming timing = StageTiming::rough;  ///< exact: someone looks at the times of stages
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -36,10 +37,8 @@ std::vector<Ball> grown_balls(std::span<const Ball> balls, int attempt) {
   return grown;
 }
 
-Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs, StageClock* clock,
-                         CuspTracer* tracer, ClipPlanes planes, const ReducedComponents* cut_within) {
-  StageClock unused;
-  StageClock& stages = clock ? *clock : unused;
+Surface build_surface(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs, StageClock& stages,
+                      CuspTracer& tracer, ClipPlanes planes, const ReducedComponents* cut_within) {
   Surface surface;
   surface.probe_radius = probe_radius;
   surface.atoms.assign(atoms.begin(), atoms.end());
@@ -58,25 +57,35 @@ Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const
   CuspParts cusps;
   {
     const auto stage = stages.stage("singularities");
-    const auto cpu_tracer = tracer ? nullptr : make_cpu_cusp_tracer();
-    cusps =
-        find_cusps(atoms, probe_radius, rolling.probes, surface.toroidal, tracer ? *tracer : *cpu_tracer, cut_within);
+    cusps = find_cusps(atoms, probe_radius, rolling.probes, surface.toroidal, tracer, cut_within);
   }
-  {
-    const auto stage = stages.stage("primitives");
-    list_concave_patches(surface, rolling.probes, cusps);
-    build_boundary(surface, rolling.probes, cusps, rs);
-    if (planes == ClipPlanes::listed) trim_convex_patches(surface, rs);
-  }
-  const auto stage = stages.stage("area and volume");
-  // Where patches have no planes the few that the checks ask for are found for them alone.
-  std::optional<ConvexTrimmer> trimmer;
-  std::once_flag asked;
-  const auto find_planes = [&](std::uint32_t c, PlaneChoice choice) {
-    std::call_once(asked, [&] { trimmer.emplace(surface, rs); });
-    return trimmer->planes_of(c, choice);
+  const auto stage = stages.stage("primitives");
+  list_concave_patches(surface, rolling.probes, cusps);
+  build_boundary(surface, rolling.probes, cusps, rs);
+  if (planes == ClipPlanes::listed) trim_convex_patches(surface, rs);
+  return surface;
+}
+
+ConvexPlanes planes_when_asked(const Surface& surface, const ReducedSurface& rs) {
+  struct Trimmer {
+    std::once_flag asked;
+    std::optional<ConvexTrimmer> found;
   };
-  const ConvexPlanes convex = planes == ClipPlanes::left_out ? ConvexPlanes(find_planes) : listed_planes(surface);
+  return [&surface, &rs, trimmer = std::make_shared<Trimmer>()](std::uint32_t c, PlaneChoice choice) {
+    std::call_once(trimmer->asked, [&] { trimmer->found.emplace(surface, rs); });
+    return trimmer->found->planes_of(c, choice);
+  };
+}
+
+Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs, StageClock* clock,
+                         CuspTracer* tracer, ClipPlanes planes, const ReducedComponents* cut_within) {
+  StageClock unused;
+  StageClock& stages = clock ? *clock : unused;
+  const auto cpu_tracer = tracer ? nullptr : make_cpu_cusp_tracer();
+  Surface surface = build_surface(atoms, probe_radius, rs, stages, tracer ? *tracer : *cpu_tracer, planes, cut_within);
+  if (surface.faces.empty() && !surface.certificate.open_atoms.empty()) return surface;
+  const auto stage = stages.stage("area and volume");
+  const ConvexPlanes convex = planes == ClipPlanes::left_out ? planes_when_asked(surface, rs) : listed_planes(surface);
   certify(surface, measure_surface(surface, convex), convex);
   return surface;
 }
@@ -91,19 +100,35 @@ void require_closed(const Surface& surface) {
                          atoms + "); nothing was written; please report this structure");
 }
 
+SurfaceCounts& SurfaceCounts::operator+=(const SurfaceCounts& more) {
+  for (const auto count :
+       {&SurfaceCounts::convex, &SurfaceCounts::toroidal, &SurfaceCounts::concave, &SurfaceCounts::free_edges,
+        &SurfaceCounts::spindle, &SurfaceCounts::fixed_probes, &SurfaceCounts::arcs})
+    this->*count += more.*count;
+  return *this;
+}
+
 SurfaceCounts Surface::counts() const {
+  if (sums) return sums->counts;
+  return counts_of(*this, [](std::uint32_t) { return true; });
+}
+
+SurfaceCounts counts_of(const Surface& s, const std::function<bool(std::uint32_t)>& is_counted) {
   SurfaceCounts n;
   // A part of a surface may hold several patches of one atom or probe; they are next to each other.
-  for (std::size_t c = 0; c < convex.size(); ++c) n.convex += c == 0 || convex[c].atom != convex[c - 1].atom;
-  n.toroidal = toroidal.size();
-  for (std::size_t c = 0; c < concave.size(); ++c) {
-    if (c > 0 && concave[c].center == concave[c - 1].center) continue;
+  for (std::size_t c = 0; c < s.convex.size(); ++c)
+    n.convex += (c == 0 || s.convex[c].atom != s.convex[c - 1].atom) && is_counted(s.convex[c].atom);
+  for (std::size_t c = 0; c < s.concave.size(); ++c) {
+    if (c > 0 && s.concave[c].center == s.concave[c - 1].center) continue;
+    if (!is_counted(first_atom(s, s.concave[c]))) continue;
     ++n.fixed_probes;
-    n.concave += concave[c].face_count > 0;
+    n.concave += s.concave[c].face_count > 0;
   }
-  for (const ToroidalPatch& patch : toroidal) {
+  for (const ToroidalPatch& patch : s.toroidal) {
+    if (!is_counted(patch.atom[0])) continue;
+    ++n.toroidal;
     n.free_edges += patch.free();
-    n.spindle += spindle(patch);
+    n.spindle += s.spindle(patch);
   }
   n.arcs = n.toroidal - n.free_edges;
   return n;

@@ -292,8 +292,7 @@ class AreaDivider {
     if (std::abs(sum - s_.area) <= noise && least >= -noise) return;
     throw OpenSurfaceError(
         fmt::format("the areas of atoms, {} Å² in sum and {} Å² the least, do not make up the surface's {} Å²; nothing "
-                    "was written; "
-                    "please report this structure",
+                    "was written; please report this structure",
                     sum, least, s_.area));
   }
 
@@ -478,7 +477,10 @@ class ShareLister {
 
 AtomShares atom_shares(const Surface& surface) { return ShareLister(surface).run(); }
 
-AtomAreas atom_areas(const Surface& surface) { return std::move(AreaDivider(surface).run().front()); }
+AtomAreas atom_areas(const Surface& surface) {
+  if (surface.sums) return {surface.sums->atom_surface, surface.sums->atom_accessible};
+  return std::move(AreaDivider(surface).run().front());
+}
 
 std::vector<AtomAreas> atom_areas(const Surface& surface, std::span<const std::uint32_t> group_of_face,
                                   std::uint32_t count) {
@@ -486,6 +488,7 @@ std::vector<AtomAreas> atom_areas(const Surface& surface, std::span<const std::u
 }
 
 double accessible_area(const Surface& surface) {
+  if (surface.sums) return surface.sums->accessible;
   double area = 0.0;
   for (const ConvexPatch& patch : surface.convex)
     for (const Face& face : faces_of(surface, patch)) area += accessible_area_over(surface, patch, face);

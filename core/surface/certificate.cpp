@@ -33,11 +33,11 @@ std::array<glm::dvec3, 32> spread_directions() {
 
 class Examination {
  public:
-  Examination(Surface& surface, const MeasurementDoubts& doubts, const ConvexPlanes& planes)
+  Examination(const Surface& surface, const MeasurementDoubts& doubts, const ConvexPlanes& planes)
       : s_(surface), doubts_(doubts), planes_(planes) {}
 
-  void run() {
-    check_components();
+  std::vector<std::uint32_t> run(bool with_components) {
+    if (with_components) check_components();
     check_faces();
     for_each(s_.convex, [&](std::size_t c) { check_atom(static_cast<std::uint32_t>(c)); });
     for (const std::uint32_t f : doubts_.disputed) add_atoms_of(s_.faces[f]);
@@ -45,11 +45,11 @@ class Examination {
       check_contacts(s_.concave[n]);
       check_planes(s_.concave[n]);
     });
-    std::vector<std::uint32_t>& all = s_.certificate.open_atoms;
+    std::vector<std::uint32_t> all;
     for (const std::vector<std::uint32_t>& found : open_) all.insert(all.end(), found.begin(), found.end());
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
-    s_.certificate.closed = all.empty();
+    return all;
   }
 
  private:
@@ -71,17 +71,8 @@ class Examination {
   }
 
   void check_components() {
-    const double p = s_.probe_radius;
     std::vector<char> bad(s_.components.size(), 0);
-    for (std::size_t c = 0; c < bad.size(); ++c) {
-      const Component& component = s_.components[c];
-      const double slack = kSlack * (1 + component.area);
-      const double most =
-          component.kind == ComponentKind::cavity ? -4 * std::numbers::pi / 3 * p * p * p + slack : kLargest;
-      const double least = component.kind == ComponentKind::cavity ? -kLargest : -slack;
-      const bool sided = component.volume >= least && component.volume <= most;
-      bad[c] = component.euler % 2 != 0 || component.euler > 2 || !sided;
-    }
+    for (std::size_t c = 0; c < bad.size(); ++c) bad[c] = !is_sound(s_.components[c], s_.probe_radius);
     if (std::ranges::find(bad, 1) == bad.end()) return;
     for (const Face& face : s_.faces)
       if (bad[face.component]) add_atoms_of(face);
@@ -175,7 +166,7 @@ class Examination {
     add_atoms_of(patch);
   }
 
-  Surface& s_;
+  const Surface& s_;
   const MeasurementDoubts& doubts_;
   const ConvexPlanes& planes_;
   const std::array<glm::dvec3, 32> spread_ = spread_directions();
@@ -185,7 +176,26 @@ class Examination {
 }  // namespace
 
 void certify(Surface& surface, const MeasurementDoubts& doubts, const ConvexPlanes& planes) {
-  Examination(surface, doubts, planes).run();
+  std::vector<std::uint32_t>& open = surface.certificate.open_atoms;
+  const std::vector<std::uint32_t> found = Examination(surface, doubts, planes).run(true);
+  open.insert(open.end(), found.begin(), found.end());
+  std::sort(open.begin(), open.end());
+  open.erase(std::unique(open.begin(), open.end()), open.end());
+  surface.certificate.closed = open.empty();
+}
+
+std::vector<std::uint32_t> unsound_atoms(const Surface& surface, const MeasurementDoubts& doubts,
+                                         const ConvexPlanes& planes) {
+  return Examination(surface, doubts, planes).run(false);
+}
+
+bool is_sound(const Component& component, double probe_radius) {
+  const bool is_cavity = component.kind == ComponentKind::cavity;
+  const double slack = kSlack * (1 + component.area), p = probe_radius;
+  const double most = is_cavity ? -4 * std::numbers::pi / 3 * p * p * p + slack : kLargest;
+  const double least = is_cavity ? -kLargest : -slack;
+  const bool sided = component.volume >= least && component.volume <= most;
+  return component.euler % 2 == 0 && component.euler <= 2 && sided;
 }
 
 void certify(Surface& surface, const MeasurementDoubts& doubts) { certify(surface, doubts, listed_planes(surface)); }

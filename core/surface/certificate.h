@@ -20,6 +20,14 @@ namespace meniscus {
 ///  its
 ///    planes and its borders give one area (divided_area()).
 void certify(Surface& surface, const MeasurementDoubts& doubts, const ConvexPlanes& planes);
+
+/// Of these the first and the last but one: those of a component as a whole.
+bool is_sound(const Component& component, double probe_radius);
+
+/// All others: the atoms at which they fail, in rising order.
+std::vector<std::uint32_t> unsound_atoms(const Surface& surface, const MeasurementDoubts& doubts,
+                                         const ConvexPlanes& planes);
+
 void certify(Surface& surface, const MeasurementDoubts& doubts);  ///< by the planes that its tables list
 
 }  // namespace meniscus

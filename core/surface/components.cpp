@@ -150,12 +150,6 @@ namespace {
 // No axis, diagonal or other direction that molecules are likely to be aligned with.
 const glm::dvec3 kDirection = glm::normalize(glm::dvec3(0.5377266, 0.3183099, 0.7788008));
 
-struct Farthest {
-  double border = -std::numeric_limits<double>::infinity();
-  double convex = border;
-  double concave = border;
-};
-
 double farthest_of(const Border& border) {
   const glm::dvec3 across = kDirection - border.axis * glm::dot(border.axis, kDirection);
   const double length = glm::length(across), middle = glm::dot(border.center, kDirection);
@@ -174,7 +168,7 @@ class SideTest {
   SideTest(const Surface& surface, const ConvexPlanes& planes)
       : s_(surface), planes_(planes), farthest_(surface.components.size()) {}
 
-  std::vector<ComponentKind> run() {
+  std::vector<Farthest> run() {
     look_at_borders();
     look_at_poles(
         s_.convex, [&](const ConvexPatch& patch) { return s_.atoms[patch.atom]; },
@@ -189,12 +183,7 @@ class SideTest {
             return std::span(s_.planes).subspan(s_.concave[n].first_plane, s_.concave[n].plane_count());
           },
           &Farthest::concave);
-    std::vector<ComponentKind> kinds;
-    for (const Farthest& f : farthest_) {
-      const bool cavity = s_.probe_radius > 0 ? f.concave > std::max(f.convex, f.border) : !(f.convex > f.border);
-      kinds.push_back(cavity ? ComponentKind::cavity : ComponentKind::outer);
-    }
-    return kinds;
+    return std::move(farthest_);
   }
 
  private:
@@ -290,8 +279,26 @@ class SideTest {
 
 }  // namespace
 
-std::vector<ComponentKind> side_of_components(const Surface& surface, const ConvexPlanes& planes) {
+void Farthest::include(const Farthest& other) {
+  border = std::max(border, other.border);
+  convex = std::max(convex, other.convex);
+  concave = std::max(concave, other.concave);
+}
+
+std::vector<Farthest> farthest_of_components(const Surface& surface, const ConvexPlanes& planes) {
   return SideTest(surface, planes).run();
+}
+
+ComponentKind side_of(const Farthest& f, double probe_radius) {
+  const bool cavity = probe_radius > 0 ? f.concave > std::max(f.convex, f.border) : !(f.convex > f.border);
+  return cavity ? ComponentKind::cavity : ComponentKind::outer;
+}
+
+std::vector<ComponentKind> side_of_components(const Surface& surface, const ConvexPlanes& planes) {
+  std::vector<ComponentKind> kinds;
+  for (const Farthest& farthest : farthest_of_components(surface, planes))
+    kinds.push_back(side_of(farthest, surface.probe_radius));
+  return kinds;
 }
 
 }  // namespace meniscus

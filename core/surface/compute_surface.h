@@ -32,6 +32,14 @@ Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const
                          StageClock* clock = nullptr, CuspTracer* tracer = nullptr,
                          ClipPlanes planes = ClipPlanes::listed, const ReducedComponents* cut_within = nullptr);
 
+/// The tables of the same, neither measured nor certified. Certificate::open_atoms names atoms at which they do not
+/// close; if no probe could be placed there are no faces.
+Surface build_surface(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs, StageClock& clock,
+                      CuspTracer& tracer, ClipPlanes planes, const ReducedComponents* cut_within = nullptr);
+
+/// The planes of the few convex patches that are asked for, of a surface that lists none. Both live longer.
+ConvexPlanes planes_when_asked(const Surface& surface, const ReducedSurface& rs);
+
 /// Throws OpenSurfaceError, naming atoms by their index, unless the certificate says the surface is closed.
 void require_closed(const Surface& surface);
 

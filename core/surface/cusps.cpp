@@ -92,7 +92,7 @@ class CuspSearch {
     problem_.weights.resize(probes_.count());
     resize_large(problem_.sides, probes_.sides.size());
     tbb::parallel_for(std::size_t{0}, probes_.count(), [&](std::size_t s) {
-      problem_.weights[s] = probe_decision_weight(p_, s);
+      problem_.weights[s] = probe_decision_weight(p_, probes_.numbers.empty() ? s : probes_.numbers[s]);
       for (std::uint32_t n = probes_.first_side[s]; n < probes_.first_side[s + 1]; ++n) {
         const ToroidalPatch& patch = toroidal_[probes_.sides[n].toroidal];
         CuspSide& side = problem_.sides[n];

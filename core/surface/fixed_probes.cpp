@@ -43,7 +43,7 @@ struct Triple {
 class Placement {
  public:
   Placement(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs)
-      : atoms_(atoms), probe_radius_(probe_radius), arcs_(rs.arcs) {}
+      : atoms_(atoms), probe_radius_(probe_radius), arcs_(rs.arcs), numbers_(rs.numbers) {}
 
   RollingParts run() {
     collect_triples();
@@ -63,6 +63,7 @@ class Placement {
   };
 
   double extended(std::uint32_t atom) const { return atoms_[atom].radius + probe_radius_; }
+  double weight(std::uint32_t atom) const { return decision_weight(extended(atom), number_of(numbers_, atom)); }
 
   // Buckets arc ends by their smallest atom, then sorts the small buckets: cheaper than one large sort. In a bucket
   // they first are as threads come; sorted, no two are equal.
@@ -152,11 +153,9 @@ class Placement {
       const glm::dvec3 d = atoms_[atom].center - atoms_[arc.i].center;
       return q::real3(d.x, d.y, d.z);
     };
-    const q::real w = decision_weight(extended(arc.i), arc.i);
-    const q::Circle circle = q::circle_of_two_spheres(local(arc.j), w, decision_weight(extended(arc.j), arc.j));
-    const auto covered = [&](std::uint32_t k) {
-      return q::covered_by(circle, w, local(k), decision_weight(extended(k), k));
-    };
+    const q::real w = weight(arc.i);
+    const q::Circle circle = q::circle_of_two_spheres(local(arc.j), w, weight(arc.j));
+    const auto covered = [&](std::uint32_t k) { return q::covered_by(circle, w, local(k), weight(k)); };
     return q::arc_vanishes(covered(arc.begin_by), covered(arc.end_by));
   }
 
@@ -265,9 +264,8 @@ class Placement {
     const RsArc& arc = arcs_[n];
     const glm::dvec3 origin = atoms_[arc.i].center;
     const double ri = extended(arc.i), rj = extended(arc.j);
-    const geometry::RollingArc whole =
-        geometry::whole_turn(origin, atoms_[arc.j].center - origin, ri, rj, decision_weight(ri, arc.i),
-                             decision_weight(rj, arc.j), probe_radius_);
+    const geometry::RollingArc whole = geometry::whole_turn(origin, atoms_[arc.j].center - origin, ri, rj,
+                                                            weight(arc.i), weight(arc.j), probe_radius_);
     ToroidalPatch patch;
     patch.atom = {arc.i, arc.j};
     patch.center = whole.center;
@@ -321,6 +319,18 @@ class Placement {
     for (std::uint32_t s = 0; s < members_.size(); ++s)
       if (open[s])
         for (std::uint32_t a : triples_[members_[s].first].atom) parts_.open_atoms.push_back(a);
+    if (!numbers_.empty()) number_probes();
+  }
+
+  // By their atoms, so that a probe has one number whichever other probes there are.
+  void number_probes() {
+    FixedProbes& probes = parts_.probes;
+    probes.numbers.resize(probes.count());
+    for (std::uint32_t s = 0; s < probes.count(); ++s) {
+      std::uint32_t number = 0;
+      for (const ProbeSide& side : probes.sides_of(s)) number = number * 0x9e3779b1u + numbers_[side.from] + 1;
+      probes.numbers[s] = number;
+    }
   }
 
   // How many sides of a triple belong to arcs that have not vanished.
@@ -359,6 +369,7 @@ class Placement {
   std::span<const Ball> atoms_;
   double probe_radius_;
   const std::vector<RsArc>& arcs_;
+  AtomNumbers numbers_;
   std::vector<Triple> triples_;
   std::vector<glm::dvec3> position_;      // per triple
   std::vector<double> height_;            // per triple

@@ -26,6 +26,7 @@ struct FixedProbes {
   std::vector<double> height;  ///< least distance from the probe to a plane of three of its contacts
   std::vector<std::uint32_t> first_side;
   std::vector<ProbeSide> sides;
+  std::vector<std::uint32_t> numbers;  ///< by which probe_decision_weight() grows them; empty: their indices
 
   std::size_t count() const { return position.size(); }
   std::span<const ProbeSide> sides_of(std::uint32_t probe) const {

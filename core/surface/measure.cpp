@@ -24,50 +24,40 @@ constexpr double kRounding = 1e-9;  // of a solid angle
 constexpr double kMisfit = 1e-9;    // of a loop, beyond which its turning is not trusted
 constexpr double kShort = 1e-6;  // of an arc, radian on the sphere: the way that corners turn hangs on next to nothing
 
-struct FaceIntegrals {
-  double area = 0.0;      // Å²
-  double flux = 0.0;      // integral of x·n, Å³; a third of it is the face's share of the volume
+struct Trust {
   bool doubtful = false;  // corners are blurred: the area was integrated about a pole
   bool disputed = false;  // the two closed forms give different areas
 };
 
+struct FaceIntegrals {
+  double area = 0.0;  // Å²
+  double flux = 0.0;  // integral of x·n, Å³
+  Trust trust;
+};
+
 class Measurement {
  public:
-  Measurement(Surface& surface, const ConvexPlanes& planes) : s_(surface), planes_(planes) {
-    glm::dvec3 low(0.0), high(0.0);
-    for (std::size_t a = 0; a < s_.atoms.size(); ++a) {
-      low = a ? glm::min(low, s_.atoms[a].center) : s_.atoms[a].center;
-      high = a ? glm::max(high, s_.atoms[a].center) : s_.atoms[a].center;
-    }
-    origin_ = 0.5 * (low + high);
-  }
+  Measurement(Surface& surface, const glm::dvec3& origin, const ConvexPlanes& planes)
+      : s_(surface), planes_(planes), origin_(origin) {}
 
-  MeasurementDoubts run() {
-    MeasurementDoubts doubts;
-    std::vector<FaceIntegrals> measured(s_.faces.size());
+  MeasuredFaces run() {
+    MeasuredFaces all;
+    all.flux.resize(s_.faces.size());
+    std::vector<Trust> trust(s_.faces.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, s_.faces.size(), 64), [&](const auto& range) {
       std::vector<SphereArc> loop;
       for (std::size_t f = range.begin(); f != range.end(); ++f) {
-        measured[f] = measure(s_.faces[f], loop);
-        s_.faces[f].area = measured[f].area;
+        const FaceIntegrals measured = measure(s_.faces[f], loop);
+        s_.faces[f].area = measured.area;
+        all.flux[f] = measured.flux;
+        trust[f] = measured.trust;
       }
     });
     for (std::uint32_t f = 0; f < s_.faces.size(); ++f) {
-      Component& component = s_.components[s_.faces[f].component];
-      component.area += s_.faces[f].area;
-      component.volume += measured[f].flux / 3;
-      if (measured[f].doubtful) doubts.doubtful.push_back(f);
-      if (measured[f].disputed) doubts.disputed.push_back(f);
+      if (trust[f].doubtful) all.doubts.doubtful.push_back(f);
+      if (trust[f].disputed) all.doubts.disputed.push_back(f);
     }
-    const std::vector<ComponentKind> sides = side_of_components(s_, planes_);
-    for (std::size_t c = 0; c < s_.components.size(); ++c) {
-      Component& component = s_.components[c];
-      component.kind = sides[c];
-      s_.area += component.area;
-      s_.volume += component.volume;
-    }
-    sort_components();
-    return doubts;
+    return all;
   }
 
  private:
@@ -101,10 +91,10 @@ class Measurement {
     if (misfit > kMisfit) {
       const double turned = area;
       area = area_about_pole(face, center, radius, seen_from_inside, loop);
-      integrals.doubtful = true;
-      integrals.disputed = !(std::abs(area - turned) <= 1e-5 + 8 * misfit);
+      integrals.trust.doubtful = true;
+      integrals.trust.disputed = !(std::abs(area - turned) <= 1e-5 + 8 * misfit);
     } else if (shortest < kShort) {
-      integrals.disputed =
+      integrals.trust.disputed =
           !(std::abs(area - area_about_pole(face, center, radius, seen_from_inside, loop)) <= 1e-5 + 8 * kShort);
     }
     // What rounding and blurred corners may have taken from nothing or added to everything.
@@ -190,32 +180,60 @@ class Measurement {
     return integrals;
   }
 
-  void sort_components() {
-    std::vector<std::uint32_t> order(s_.components.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t x, std::uint32_t y) {
-      const Component &a = s_.components[x], &b = s_.components[y];
-      return a.kind != b.kind ? a.kind < b.kind : area_rank(a.area) > area_rank(b.area);
-    });
-    std::vector<std::uint32_t> rank(order.size());
-    std::vector<Component> sorted;
-    for (std::uint32_t n = 0; n < order.size(); ++n) {
-      rank[order[n]] = n;
-      sorted.push_back(s_.components[order[n]]);
-    }
-    s_.components = std::move(sorted);
-    for (Face& face : s_.faces) face.component = rank[face.component];
-  }
-
   Surface& s_;
   const ConvexPlanes& planes_;
-  glm::dvec3 origin_{0.0};
+  const glm::dvec3 origin_;
 };
 
 }  // namespace
 
+glm::dvec3 middle_of(std::span<const Ball> atoms) {
+  glm::dvec3 low(0.0), high(0.0);
+  for (std::size_t a = 0; a < atoms.size(); ++a) {
+    low = a ? glm::min(low, atoms[a].center) : atoms[a].center;
+    high = a ? glm::max(high, atoms[a].center) : atoms[a].center;
+  }
+  return 0.5 * (low + high);
+}
+
+MeasuredFaces measure_faces(Surface& surface, const glm::dvec3& origin, const ConvexPlanes& planes) {
+  return Measurement(surface, origin, planes).run();
+}
+
+std::vector<std::uint32_t> sort_components(std::vector<Component>& components) {
+  std::vector<std::uint32_t> order(components.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t x, std::uint32_t y) {
+    const Component &a = components[x], &b = components[y];
+    return a.kind != b.kind ? a.kind < b.kind : area_rank(a.area) > area_rank(b.area);
+  });
+  std::vector<std::uint32_t> rank(order.size());
+  std::vector<Component> sorted;
+  for (std::uint32_t n = 0; n < order.size(); ++n) {
+    rank[order[n]] = n;
+    sorted.push_back(components[order[n]]);
+  }
+  components = std::move(sorted);
+  return rank;
+}
+
 MeasurementDoubts measure_surface(Surface& surface, const ConvexPlanes& planes) {
-  return Measurement(surface, planes).run();
+  MeasuredFaces measured = measure_faces(surface, middle_of(surface.atoms), planes);
+  for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
+    Component& component = surface.components[surface.faces[f].component];
+    component.area += surface.faces[f].area;
+    component.volume += measured.flux[f] / 3;
+  }
+  const std::vector<ComponentKind> sides = side_of_components(surface, planes);
+  for (std::size_t c = 0; c < surface.components.size(); ++c) {
+    Component& component = surface.components[c];
+    component.kind = sides[c];
+    surface.area += component.area;
+    surface.volume += component.volume;
+  }
+  const std::vector<std::uint32_t> rank = sort_components(surface.components);
+  for (Face& face : surface.faces) face.component = rank[face.component];
+  return std::move(measured.doubts);
 }
 
 MeasurementDoubts measure_surface(Surface& surface) { return measure_surface(surface, listed_planes(surface)); }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/surface/primitives.h"
@@ -15,6 +16,23 @@ struct MeasurementDoubts {
   std::vector<std::uint32_t> doubtful;  ///< corners do not fit their circles: measured by a second closed form
   std::vector<std::uint32_t> disputed;  ///< those of them on whose area the two closed forms do not agree
 };
+
+/// Half-way between the outermost centres: from there volumes are measured, so that rounding is least.
+glm::dvec3 middle_of(std::span<const Ball> atoms);
+
+/// What faces contribute to their components, beside Face::area.
+struct MeasuredFaces {
+  std::vector<double>
+      flux;  ///< of each face: the integral of x·n over it, Å³; a third of it is its share of the volume
+  MeasurementDoubts doubts;
+};
+
+/// Fills in Face::area. origin: x of the integrals is measured from it.
+MeasuredFaces measure_faces(Surface& surface, const glm::dvec3& origin, const ConvexPlanes& planes);
+
+/// Sorts components as they are listed: outer ones first, then cavities, each by falling area. Returns the new place of
+/// each.
+std::vector<std::uint32_t> sort_components(std::vector<Component>& components);
 
 /// Fills in Face::area, Component::{area, volume, kind}, Surface::{area, volume}, and sorts the components: outer ones
 /// first, then cavities, each by falling area. Areas by Gauss-Bonnet, volumes by the divergence theorem; both are

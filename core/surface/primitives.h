@@ -15,6 +15,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -167,6 +168,14 @@ struct SurfaceCounts {
   std::size_t spindle = 0;       ///< toroidal patches that cross their axis
   std::size_t fixed_probes = 0;  ///< distinct positions: closer than 1e-6 Å is one probe with n contacts
   std::size_t arcs = 0;          ///< RS edges with two ends; 2*arcs = sum of contacts over fixed probes
+  SurfaceCounts& operator+=(const SurfaceCounts& more);
+};
+
+/// What the tables of a surface add up to, where they were computed block by block and let go (blocks.h).
+struct SurfaceSums {
+  SurfaceCounts counts;
+  double accessible = 0.0;                            ///< Å²: the solvent-accessible area
+  std::vector<double> atom_surface, atom_accessible;  ///< Å², one an atom: AtomAreas
 };
 
 /// The complete solvent-excluded surface of one set of balls. Patches are sorted by their atom indices.
@@ -189,12 +198,21 @@ struct Surface {
 
   std::vector<Component> components;
   Certificate certificate;
-  double area = 0.0;    ///< Å²
-  double volume = 0.0;  ///< Å³ of the solid: outer components minus cavities
+  double area = 0.0;                        ///< Å²
+  double volume = 0.0;                      ///< Å³ of the solid: outer components minus cavities
+  std::shared_ptr<const SurfaceSums> sums;  ///< if the tables from `convex` to `faces` were let go; else none
 
   SurfaceCounts counts() const;
   bool spindle(const ToroidalPatch& t) const { return crosses_axis(t, atoms, probe_radius); }
 };
+
+/// The lowest of the atoms that a re-entrant patch touches.
+inline std::uint32_t first_atom(const Surface& surface, const ConcavePatch& patch) {
+  return surface.contacts[patch.first_contact];
+}
+
+/// Of the patches whose lowest atom is counted.
+SurfaceCounts counts_of(const Surface& surface, const std::function<bool(std::uint32_t atom)>& is_counted);
 
 /// Where the clip planes of convex patches (by their index) come from: the tables of a surface, or code that finds them
 /// for the few that are asked for.

@@ -62,7 +62,8 @@ class ConvexTrimmer::Search {
   enum Column : std::size_t { kX, kY, kZ, kWeight, kColumnCount };
 
  public:
-  Search(const Surface& surface, const ReducedSurface& rs) : s_(surface), largest_(largest_radius(surface)) {
+  Search(const Surface& surface, const ReducedSurface& rs)
+      : s_(surface), numbers_(rs.numbers), largest_(largest_radius(surface)) {
     list_arcs(rs);
   }
 
@@ -175,7 +176,9 @@ class ConvexTrimmer::Search {
     return deepest;
   }
 
-  double weight(std::uint32_t a) const { return decision_weight(s_.atoms[a].radius + s_.probe_radius, a); }
+  double weight(std::uint32_t a) const {
+    return decision_weight(s_.atoms[a].radius + s_.probe_radius, number_of(numbers_, a));
+  }
 
   // All balls, cell by cell. Swallowed ones cover nothing: where they reach beyond the atom that holds them, by 1e-6 Å
   // at most, their planes would take half of a patch.
@@ -204,6 +207,7 @@ class ConvexTrimmer::Search {
   }
 
   const Surface& s_;
+  AtomNumbers numbers_;
   double largest_;
   mutable std::once_flag balls_asked_;
   mutable std::optional<Balls> balls_;

@@ -46,8 +46,9 @@ struct Worker {
 class Enumeration {
  public:
   Enumeration(std::span<const Ball> atoms, double probe_radius, std::span<const double> weights,
-              const std::vector<bool>& swallowed, double roundoff)
+              const std::vector<bool>& swallowed, double roundoff, AtomNumbers numbers)
       : atom_count_(atoms.size()),
+        numbers_(numbers),
         search_(atoms, probe_radius, weights, swallowed),
         groups_((search_.size() + kGroup - 1) / kGroup),
         workers_([roundoff] { return Worker(std::max(roundoff, geometry::kUnitRoundoff)); }) {}
@@ -160,8 +161,8 @@ class Enumeration {
     const std::size_t doubtful = w.contour.doubtful_count();
     w.contour.expose(b.center, b.weight, w.nearest_first, skip);
     if (w.contour.doubtful_count() > doubtful)
-      w.ties.look(w.contour, w.nearest_first, skip, search_.atom(place),
-                  [&](std::uint32_t label) { return search_.atom(label); });
+      w.ties.look(w.contour, w.nearest_first, skip, number_at(place),
+                  [&](std::uint32_t label) { return number_at(label); });
   }
 
   // By atoms: those of each are together and are sorted already.
@@ -181,7 +182,10 @@ class Enumeration {
     return arcs;
   }
 
+  std::uint32_t number_at(std::size_t place) const { return number_of(numbers_, search_.atom(place)); }
+
   std::size_t atom_count_;
+  AtomNumbers numbers_;
   NeighborSearch search_;
   std::vector<Group> groups_;
   tbb::enumerable_thread_specific<Worker> workers_;
@@ -189,14 +193,16 @@ class Enumeration {
 
 }  // namespace
 
-ReducedSurface enumerate_reduced_surface(std::span<const Ball> atoms, double probe_radius, CircleStats* stats) {
-  const std::vector<double> weights = decision_weights(atoms, probe_radius);
+ReducedSurface enumerate_reduced_surface(std::span<const Ball> atoms, double probe_radius, CircleStats* stats,
+                                         AtomNumbers numbers) {
+  const std::vector<double> weights = decision_weights(atoms, probe_radius, numbers);
   double protruding = 0;
   const std::vector<bool> swallowed = swallowed_atoms(atoms, &protruding);
   const double roundoff = growth_as_roundoff(weights);
   CircleStats found;
   ReducedSurface rs;
-  rs.arcs = Enumeration(atoms, probe_radius, weights, swallowed, roundoff).run(found);
+  rs.numbers.assign(numbers.begin(), numbers.end());
+  rs.arcs = Enumeration(atoms, probe_radius, weights, swallowed, roundoff, numbers).run(found);
   rs.exact_within = decided_within(roundoff, found.ties, protruding);
   if (stats) *stats = found;
   find_whole_spheres(atoms, weights, swallowed, rs);

@@ -8,8 +8,9 @@
 
 namespace meniscus {
 
-/// atoms in Å, probe_radius >= 0 in Å. Works on all cores TBB may use; the result does not depend on their number.
-ReducedSurface enumerate_reduced_surface(std::span<const Ball> atoms, double probe_radius,
-                                         CircleStats* stats = nullptr);
+/// atoms in Å, probe_radius >= 0 in Å; numbers: of atoms that are part of more. Works on all cores TBB may use; the
+/// result does not depend on their number.
+ReducedSurface enumerate_reduced_surface(std::span<const Ball> atoms, double probe_radius, CircleStats* stats = nullptr,
+                                         AtomNumbers numbers = {});
 
 }  // namespace meniscus

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Surfaces computed block by block have the numbers of the whole surface, to the last bit; blocks that do not fit are
+// not closed.
+#include "core/surface/blocks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/base/stage_clock.h"
+#include "core/math/spiral.h"
+#include "core/surface/atom_areas.h"
+#include "core/surface/compute_surface.h"
+#include "tests/support/molecules.h"
+
+namespace meniscus::testing {
+namespace {
+
+using Blocks = std::vector<std::vector<std::uint32_t>>;
+
+Surface in_blocks(const Balls& balls, double probe_radius, const Blocks& blocks) {
+  StageClock unused;
+  return attempt_surface_in_blocks(balls, probe_radius, blocks, halo_reach(balls, probe_radius), unused);
+}
+
+void expect_equal(const Surface& blocks, const Surface& whole) {
+  ASSERT_TRUE(blocks.certificate.closed);
+  ASSERT_TRUE(blocks.sums);
+  EXPECT_EQ(blocks.area, whole.area);
+  EXPECT_EQ(blocks.volume, whole.volume);
+  ASSERT_EQ(blocks.components.size(), whole.components.size());
+  for (std::size_t c = 0; c < whole.components.size(); ++c) {
+    EXPECT_EQ(blocks.components[c].kind, whole.components[c].kind) << c;
+    EXPECT_EQ(blocks.components[c].area, whole.components[c].area) << c;
+    EXPECT_EQ(blocks.components[c].volume, whole.components[c].volume) << c;
+    EXPECT_EQ(blocks.components[c].euler, whole.components[c].euler) << c;
+  }
+  const SurfaceCounts a = blocks.counts(), b = whole.counts();
+  EXPECT_EQ(a.convex, b.convex);
+  EXPECT_EQ(a.toroidal, b.toroidal);
+  EXPECT_EQ(a.concave, b.concave);
+  EXPECT_EQ(a.free_edges, b.free_edges);
+  EXPECT_EQ(a.spindle, b.spindle);
+  EXPECT_EQ(a.fixed_probes, b.fixed_probes);
+  EXPECT_EQ(a.arcs, b.arcs);
+  EXPECT_EQ(accessible_area(blocks), accessible_area(whole));
+  const AtomAreas of_blocks = atom_areas(blocks), of_whole = atom_areas(whole);
+  EXPECT_EQ(of_blocks.surface, of_whole.surface);
+  EXPECT_EQ(of_blocks.accessible, of_whole.accessible);
+}
+
+TEST(Blocks, EachAtomIsInOneBlock) {
+  const Balls balls = gas(3, 1000, 40, 1.2, 1.9);
+  const Blocks blocks = divide_into_blocks(balls, 130);
+  EXPECT_EQ(blocks.size(), 8u);
+  std::vector<int> count(balls.size(), 0);
+  for (const std::vector<std::uint32_t>& block : blocks) {
+    EXPECT_LE(block.size(), 130u);
+    EXPECT_TRUE(std::ranges::is_sorted(block));
+    for (const std::uint32_t a : block) ++count[a];
+  }
+  EXPECT_EQ(std::ranges::count(count, 1), 1000);
+}
+
+TEST(Blocks, HaveTheNumbersOfTheWhole) {
+  const Balls toxin = enterotoxin();
+  for (const double probe : {0.0, 1.4, 2.5}) {
+    const Surface whole = compute_surface_cpu(toxin, probe);
+    for (const std::size_t most : {3000u, 900u, 250u}) {
+      SCOPED_TRACE(::testing::Message() << "probe " << probe << ", blocks of " << most);
+      expect_equal(in_blocks(toxin, probe, divide_into_blocks(toxin, most)), whole);
+    }
+  }
+}
+
+// A hollow ball of atoms: each of its two components has pieces in all blocks. Bored through, it is one of genus 1.
+TEST(Blocks, ShareComponents) {
+  Balls shell;
+  for (std::size_t n = 0; n < 900; ++n) shell.push_back({14.0 * spiral_direction(n, 900), 1.7});
+  const Surface hollow = compute_surface_cpu(shell, kWater);
+  ASSERT_EQ(hollow.components.size(), 2u);
+  ASSERT_EQ(hollow.components[1].kind, ComponentKind::cavity);
+  expect_equal(in_blocks(shell, kWater, divide_into_blocks(shell, 100)), hollow);
+  std::erase_if(shell, [](const Ball& b) { return std::hypot(b.center.x, b.center.y) < 6; });
+  const Surface bored = compute_surface_cpu(shell, kWater);
+  ASSERT_EQ(bored.components.size(), 1u);
+  ASSERT_EQ(bored.components[0].euler, 0);
+  expect_equal(in_blocks(shell, kWater, divide_into_blocks(shell, 100)), bored);
+}
+
+TEST(Blocks, GasesInBlocks) {
+  for (std::uint32_t n = 0; n < 60; ++n) {
+    const Balls balls = gas(n, 300, 14 + n % 20, 1.0, 2.0);
+    const double probe = 0.5 * (n % 5);
+    SCOPED_TRACE(::testing::Message() << "gas " << n);
+    expect_equal(in_blocks(balls, probe, divide_into_blocks(balls, 40)), compute_surface_cpu(balls, probe));
+  }
+}
+
+// On a lattice with equal radii almost everything ties. What one block decides all have to.
+TEST(Blocks, DecideTiesAlike) {
+  const Balls crystal = lattice(9, 9, 9, 3.0);
+  const Surface whole = compute_surface_cpu(crystal, kWater);
+  const Surface blocks = in_blocks(crystal, kWater, divide_into_blocks(crystal, 100));
+  ASSERT_TRUE(blocks.certificate.closed);
+  EXPECT_NEAR(blocks.area, whole.area, 1e-9 * whole.area);
+  EXPECT_NEAR(blocks.volume, whole.volume, 1e-9 * whole.volume);
+  EXPECT_EQ(blocks.components.size(), whole.components.size());
+}
+
+// A block without any halo sees nothing of the others: that is closed, and wrong. So the reach is not left to callers
+// of compute_sums().
+TEST(Blocks, WithHalosTooThinAreNotClosed) {
+  const Balls toxin = enterotoxin();
+  StageClock unused;
+  for (const double reach : {2.0, 4.0}) {
+    const Surface open = attempt_surface_in_blocks(toxin, kWater, divide_into_blocks(toxin, 900), reach, unused);
+    EXPECT_FALSE(open.certificate.closed) << reach;
+    EXPECT_FALSE(open.certificate.open_atoms.empty()) << reach;
+  }
+}
+
+TEST(Blocks, HaloHoldsAllThatReaches) {
+  const Balls row = collinear(40, 1.5);
+  const std::vector<std::uint32_t> larger =
+      with_halo(row, std::vector<std::uint32_t>{10, 11, 12}, halo_reach(row, kWater));
+  const auto reached = static_cast<std::uint32_t>((2 * kCarbon + 4 * kWater) / 1.5);  // 9 Å
+  EXPECT_EQ(larger.front(), 10 - reached);
+  EXPECT_EQ(larger.back(), 12 + reached);
+}
+
+}  // namespace
+}  // namespace meniscus::testing
