@@ -29,6 +29,69 @@ namespace {
   throw InputError(file.path, line, "is not a readable mmCIF file: " + escaped(what));
 }
 
+constexpr std::size_t kRowsAtOnce = 4096;
+
+struct StreamedDocument : gemmi::cif::Document {
+  const TakeAtomRows* take = nullptr;
+  bool in_atoms = false;      // of the loop that is read
+  std::size_t row_count = 0;  // of it, handed over
+
+  gemmi::cif::Loop& loop() { return items_->back().loop; }
+
+  // The table may also be in a save frame, where nobody looks for atoms.
+  void begin_values() { in_atoms = items_ == &blocks.back().items && loop().tags.front().starts_with("_atom_site."); }
+
+  void hand_over() {
+    const std::size_t rows = loop().values.size() / loop().tags.size();
+    if (rows == 0) return;
+    (*take)(blocks.back(), row_count);
+    loop().values.clear();
+    row_count += rows;
+  }
+};
+
+// gemmi's actions, and what is done besides.
+template <typename Rule>
+struct StreamAction : gemmi::cif::Action<Rule> {};
+
+template <>
+struct StreamAction<gemmi::cif::rules::loop_value> {
+  template <typename Input>
+  static void apply(const Input& in, StreamedDocument& out) {
+    gemmi::cif::Action<gemmi::cif::rules::loop_value>::apply(in, out);
+    if (out.loop().values.size() == 1 && out.row_count == 0) out.begin_values();
+    if (out.in_atoms && out.loop().values.size() == kRowsAtOnce * out.loop().tags.size()) out.hand_over();
+  }
+};
+
+template <>
+struct StreamAction<gemmi::cif::rules::loop> {
+  template <typename Input>
+  static void apply(const Input& in, StreamedDocument& out) {
+    gemmi::cif::Action<gemmi::cif::rules::loop>::apply(in, out);
+    if (out.in_atoms) out.hand_over();
+    out.in_atoms = false;
+    out.row_count = 0;
+  }
+};
+
+gemmi::cif::Document stream(const TextFile& file, const TakeAtomRows& take) {
+  tao::pegtl::memory_input<> in(file.text.data(), file.text.size(), "cif");
+  StreamedDocument document;
+  document.take = &take;
+  tao::pegtl::parse<gemmi::cif::rules::file, StreamAction, gemmi::cif::Errors>(in, document);
+  gemmi::cif::check_for_missing_values(document);
+  gemmi::cif::check_for_duplicates(document);
+  return document;
+}
+
+// What was not handed over while it was read: of BinaryCIF, and of tables with a single atom, without a loop.
+gemmi::cif::Document hand_over_rest(gemmi::cif::Document document, const TakeAtomRows& take) {
+  for (gemmi::cif::Block& block : document.blocks)
+    if (block.find("_atom_site.", {"Cartn_x"}).length() > 0) take(block, 0);
+  return document;
+}
+
 }  // namespace
 
 bool is_binary_cif(std::string_view bytes) {
@@ -44,12 +107,14 @@ bool is_binary_cif(std::string_view bytes) {
   });
 }
 
-gemmi::cif::Document parse_cif(const TextFile& file) {
-  if (is_binary_cif(file.text)) return read_binary_cif(file);
+gemmi::cif::Document parse_cif(const TextFile& file, const TakeAtomRows& take) {
+  if (is_binary_cif(file.text)) return hand_over_rest(read_binary_cif(file), take);
   try {
-    return gemmi::cif::read_memory(file.text.data(), file.text.size(), "cif");
+    return hand_over_rest(stream(file, take), take);
   } catch (const std::bad_alloc&) {
     throw;  // the machine's fault, not the file's
+  } catch (const InputError&) {
+    throw;
   } catch (const std::exception& error) {
     rethrow_parse_error(file, error.what());
   }

@@ -97,7 +97,7 @@ std::map<std::string, std::string> descriptions_of(cif::Block& block) {
 }  // namespace
 
 std::vector<Assembly> read_mmcif_assemblies(const TextFile& file) {
-  cif::Document document = parse_cif(file);
+  cif::Document document = parse_cif(file, [](cif::Block&, std::size_t) {});
   std::vector<Assembly> assemblies;
   std::size_t motions = 0;
   for (cif::Block& block : document.blocks) {

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
+#include <string>
+#include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gemmi/elem.hpp>
@@ -72,18 +74,18 @@ const std::vector<std::string> kColumns{"Cartn_x",
                                         "?group_PDB"};
 
 /// The line of a row of _atom_site; rows are one line each in all but hand-made files, otherwise the loop's first line.
-std::size_t line_of_row(const TextFile& file, const cif::Table& table, int row, const std::string& value) {
+std::size_t line_of_row(const TextFile& file, const cif::Table& table, std::size_t row, const std::string& value) {
   if (!table.loop_item || table.loop_item->line_number < 0) return 0;  // BinaryCIF has no lines
   const auto loop_line = static_cast<std::size_t>(table.loop_item->line_number);
   std::size_t begin = 0;
   std::size_t line = 1;
-  int rows_seen = -1;
+  std::size_t rows_seen = 0;
   while (begin < file.text.size()) {
     const std::size_t end = std::min(file.text.find('\n', begin), file.text.size());
     const std::string_view text(file.text.data() + begin, end - begin);
     const bool value_line =
         line > loop_line && !text.empty() && text[0] != '_' && text[0] != '#' && !text.starts_with("loop_");
-    if (value_line && ++rows_seen == row) return text.find(value) != std::string_view::npos ? line : loop_line;
+    if (value_line && rows_seen++ == row) return text.find(value) != std::string_view::npos ? line : loop_line;
     begin = end + 1;
     ++line;
   }
@@ -95,16 +97,9 @@ std::string_view without_uncertainty(const std::string& value) {
   return std::string_view(value).substr(0, value.find('('));
 }
 
-cif::Table atom_table(const TextFile& file, cif::Document& document, std::vector<Warning>& warnings) {
-  std::vector<cif::Table> tables;
-  for (cif::Block& block : document.blocks) {
-    cif::Table table = block.find("_atom_site.", kColumns);
-    if (table.ok() && table.length() > 0) tables.push_back(table);
-  }
-  if (tables.size() > 1)
-    warnings.emplace_back(fmt::format("{} data blocks hold atoms; the first is used", tables.size()));
-  if (!tables.empty()) return tables.front();
-  for (cif::Block& block : document.blocks) {
+/// Says why a file has no atoms.
+[[noreturn]] void refuse_without_atoms(const TextFile& file, const cif::Document& document) {
+  for (const cif::Block& block : document.blocks) {
     for (const char* tag : {"_atom_site_fract_x", "_atom_site.fract_x"}) {
       if (block.has_tag(tag)) {
         throw InputError(
@@ -123,14 +118,15 @@ char first_letter(const std::string& value) {
 }
 
 /// The number that the text begins with; 0 where it begins with none.
-std::int32_t residue_number(const TextFile& file, const cif::Table& table, const cif::Table::Row& row) {
+std::int32_t residue_number(const TextFile& file, const cif::Table& table, std::size_t number_of_row,
+                            const cif::Table::Row& row) {
   const std::string& value = row.one_of(kAuthSeq, kLabelSeq);
   std::string_view digits = trimmed(value);
   if (digits.starts_with('+')) digits.remove_prefix(1);
   std::int32_t number = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
   if (error == std::errc::result_out_of_range) {
-    throw InputError(file.path, line_of_row(file, table, row.row_index, value),
+    throw InputError(file.path, line_of_row(file, table, number_of_row, value),
                      fmt::format("the residue number {} is larger than any; correct it", in_quotes(value)));
   }
   return number;
@@ -143,7 +139,7 @@ float kept_number(const std::string& value) {
   return fits ? static_cast<float>(number) : std::numeric_limits<float>::quiet_NaN();
 }
 
-Atom read_row(const TextFile& file, const cif::Table& table, const cif::Table::Row& row) {
+Atom read_row(const TextFile& file, const cif::Table& table, std::size_t number_of_row, const cif::Table::Row& row) {
   Atom atom;
   for (int axis = 0; axis < 3; ++axis) {
     const std::string& value = row[static_cast<std::size_t>(axis)];
@@ -151,7 +147,7 @@ Atom read_row(const TextFile& file, const cif::Table& table, const cif::Table::R
     if (parse_number(without_uncertainty(value), number) && std::abs(number) <= kLargestCoordinate) {
       atom.position[axis] = number;
     } else {
-      parse_coordinate(file, line_of_row(file, table, row.row_index, value), "xyz"[axis], value);
+      parse_coordinate(file, line_of_row(file, table, number_of_row, value), "xyz"[axis], value);
     }
   }
   const auto text = [&](Column first, Column second) { return cif::as_string(row.one_of(first, second)); };
@@ -159,7 +155,7 @@ Atom read_row(const TextFile& file, const cif::Table& table, const cif::Table::R
   atom.residue_name = text(kAuthComp, kLabelComp);
   atom.chain = text(kAuthAsym, kLabelAsym);
   atom.subchain = text(kLabelAsym, kAuthAsym);
-  atom.residue_number = residue_number(file, table, row);
+  atom.residue_number = residue_number(file, table, number_of_row, row);
   if (row.has2(kInsertion)) atom.insertion_code = first_letter(row[kInsertion]);
   if (row.has2(kAlt)) atom.altloc = first_letter(row[kAlt]);
   if (row.has2(kOccupancy)) atom.occupancy = kept_number(row[kOccupancy]);
@@ -241,43 +237,113 @@ std::string experiment_of(cif::Document& document) {
   return {};
 }
 
-FileContents read(const TextFile& file, const ModelChoice& choice) {
-  cif::Document document = parse_cif(file);
-  FileContents contents;
-  cif::Table table = atom_table(file, document, contents.warnings);
-  const std::map<std::string, ResidueStatement> entities = entities_of(document);
-  const std::map<LabelledResidue, float> confidences = confidences_of(document);
-  contents.experiment = experiment_of(document);
-  ResidueCounter residues(contents.atoms);
-  std::map<std::string, std::int32_t> models;
-  std::vector<AtomHints> hints;
-  WarningCollector without_symbol;
-  for (const cif::Table::Row row : table) {
-    const std::int32_t next_model = static_cast<std::int32_t>(models.size()) + 1;
-    const std::int32_t model = models.try_emplace(row.has(kModel) ? row[kModel] : "1", next_model).first->second;
-    if (!choice.takes(model)) {
-      ++contents.other_model_atoms;
-      continue;
+/// Numbers texts of which few differ, those of neighbouring rows as a rule not at all.
+class TextNumbers {
+ public:
+  std::uint32_t number(const std::string& text) {
+    if (last_ == texts_.size() || texts_[last_] != text) {
+      const auto [known, is_new] = numbers_.try_emplace(text, static_cast<std::uint32_t>(texts_.size()));
+      if (is_new) texts_.push_back(text);
+      last_ = known->second;
     }
-    Atom atom = read_row(file, table, row);
+    return static_cast<std::uint32_t>(last_);
+  }
+
+  const std::string& text(std::uint32_t number) const { return texts_[number]; }
+  std::size_t count() const { return texts_.size(); }
+
+ private:
+  std::unordered_map<std::string, std::uint32_t> numbers_;
+  std::vector<std::string> texts_;
+  std::size_t last_ = 0;
+};
+
+/// The atoms of a file. What other tables say of them may come later in the file, so it is added at the end.
+class AtomRows {
+ public:
+  AtomRows(const TextFile& file, const ModelChoice& choice) : file_(file), choice_(choice) {}
+
+  /// Of the first block with atoms; others are counted.
+  void take(cif::Block& block, std::size_t first) {
+    cif::Table table = block.find("_atom_site.", kColumns);
+    if (!table.ok()) return;
+    if (first == 0) is_first_ = ++blocks_ == 1;
+    if (!is_first_) return;
+    for (const cif::Table::Row row : table) take(table, first + static_cast<std::size_t>(row.row_index), row);
+  }
+
+  FileContents finish(cif::Document& document) {
+    if (blocks_ == 0) refuse_without_atoms(file_, document);
+    if (blocks_ > 1)
+      contents_.warnings.emplace_back(fmt::format("{} data blocks hold atoms; the first is used", blocks_));
+    contents_.experiment = experiment_of(document);
+    contents_.models = models_.count();
+    without_symbol_.warn(contents_.warnings, "no element symbol; elements were guessed from the names");
+    add_confidences(confidences_of(document));
+    classify_atoms(contents_.atoms, contents_.warnings, hints(entities_of(document)));
+    mark_secondary_structure(contents_.atoms, secondary_ranges(document));
+    return std::move(contents_);
+  }
+
+ private:
+  /// What an atom is called in other tables.
+  struct Names {
+    std::uint32_t entity, residue;
+    bool heteroatom;
+  };
+
+  void take(const cif::Table& table, std::size_t number, const cif::Table::Row& row) {
+    const auto model = static_cast<std::int32_t>(models_.number(row.has(kModel) ? row[kModel] : "1")) + 1;
+    if (!choice_.takes(model)) {
+      ++contents_.other_model_atoms;
+      return;
+    }
+    Atom atom = read_row(file_, table, number, row);
     atom.model = model;
-    if (!confidences.empty()) {
-      const auto confidence = confidences.find({row.has2(kModel) ? row.str(kModel) : "1", atom.subchain,
-                                                row.has(kLabelSeq) ? row.str(kLabelSeq) : std::string()});
+    residues_.number(atom);
+    if (atom.element == 0) without_symbol_.add(label_of(atom));
+    names_.push_back({texts_.number(row.has2(kEntityId) ? cif::as_string(row[kEntityId]) : std::string()),
+                      labels_.number(row.has(kLabelSeq) ? row.str(kLabelSeq) : std::string()),
+                      row.has2(kGroup) && row[kGroup] == "HETATM"});
+    contents_.atoms.push_back(std::move(atom));
+  }
+
+  void add_confidences(const std::map<LabelledResidue, float>& confidences) {
+    for (std::size_t a = 0; a < contents_.atoms.size() && !confidences.empty(); ++a) {
+      Atom& atom = contents_.atoms[a];
+      const std::string& model = models_.text(static_cast<std::uint32_t>(atom.model - 1));
+      const auto confidence = confidences.find(
+          {cif::is_null(model) ? "1" : cif::as_string(model), atom.subchain, labels_.text(names_[a].residue)});
       if (confidence != confidences.end()) atom.confidence = confidence->second;
     }
-    residues.number(atom);
-    if (atom.element == 0) without_symbol.add(label_of(atom));
-    const auto statement = entities.find(row.has2(kEntityId) ? cif::as_string(row[kEntityId]) : std::string());
-    hints.push_back({.residue = statement == entities.end() ? ResidueStatement::none : statement->second,
-                     .heteroatom = row.has2(kGroup) && row[kGroup] == "HETATM"});
-    contents.atoms.push_back(std::move(atom));
   }
-  contents.models = models.size();
-  without_symbol.warn(contents.warnings, "no element symbol; elements were guessed from the names");
-  classify_atoms(contents.atoms, contents.warnings, hints);
-  mark_secondary_structure(contents.atoms, secondary_ranges(document));
-  return contents;
+
+  std::vector<AtomHints> hints(const std::map<std::string, ResidueStatement>& entities) const {
+    std::vector<AtomHints> hints;
+    hints.reserve(names_.size());
+    for (const Names& names : names_) {
+      const auto statement = entities.find(texts_.text(names.entity));
+      hints.push_back({.residue = statement == entities.end() ? ResidueStatement::none : statement->second,
+                       .heteroatom = names.heteroatom});
+    }
+    return hints;
+  }
+
+  const TextFile& file_;
+  const ModelChoice& choice_;
+  FileContents contents_;
+  ResidueCounter residues_{contents_.atoms};
+  TextNumbers models_, texts_, labels_;
+  std::vector<Names> names_;  // one an atom
+  WarningCollector without_symbol_;
+  std::size_t blocks_ = 0;
+  bool is_first_ = false;
+};
+
+FileContents read(const TextFile& file, const ModelChoice& choice) {
+  AtomRows rows(file, choice);
+  cif::Document document = parse_cif(file, [&](cif::Block& block, std::size_t first) { rows.take(block, first); });
+  return rows.finish(document);
 }
 
 FileContents read_binary(const TextFile& file, const ModelChoice& choice) {
