@@ -11,7 +11,8 @@ using glm::ivec2;
 using glm::vec3;
 using kernel::kNothing;
 
-/// A cast block as the shared sources want to see it. kInside: all pixels that they ask for, the map's aside, lie in it.
+/// A cast block as the shared sources want to see it. kInside: all pixels that they ask for, the map's aside, lie in
+/// it.
 template <bool kInside>
 struct LookedAtBlock {
   explicit LookedAtBlock(const LaneLook& look)

@@ -349,7 +349,8 @@ inline real4 load(const glm::vec4* values) {
 #if MENISCUS_LANES == 8 && defined(__x86_64__)
   __m256 rows[4];
   for (int n = 0; n < 4; ++n)
-    rows[n] = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(&values[n].x)), _mm_loadu_ps(&values[n + 4].x), 1);
+    rows[n] =
+        _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(&values[n].x)), _mm_loadu_ps(&values[n + 4].x), 1);
   turn(rows);
   return {Floats(rows[0]), Floats(rows[1]), Floats(rows[2]), Floats(rows[3])};
 #else
