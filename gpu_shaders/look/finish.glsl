@@ -7,7 +7,7 @@
 
 // Mean over 4 x 4 pixels, as a square of 5 x 5 whose rim counts half; pixels of other surfaces do not count, unless there
 // are no others.
-GEOMETRY real mean_visibility(integer2 pixel, real depth) {
+GEOMETRY real mean_visibility(pixel_row pixel, real depth) {
   real3 p = position_at(pixel, depth);
   real3 normal = facing(hit_normal_at(pixel), to_viewer_at(p));
   real tolerance = 0.3 + 2.0 * pixel_size_at(depth);
@@ -15,7 +15,7 @@ GEOMETRY real mean_visibility(integer2 pixel, real depth) {
   real weights = real(1e-9);
   for (int y = -2; y <= 2; ++y)
     for (int x = -2; x <= 2; ++x) {
-      integer2 other = pixel + integer2(x, y);
+      pixel_row other = pixel + ivec2(x, y);
       real other_depth = shade_depth_or_nothing(other);
       truth counts = other_depth != real(kNothing);
       real off_plane = abs(dot(normal, position_at(other, other_depth) - p));
@@ -28,7 +28,7 @@ GEOMETRY real mean_visibility(integer2 pixel, real depth) {
 }
 
 // A sample's colour in the shade: its light, and its highlight, which needs more of the sky to be open.
-GEOMETRY real3 shaded(real3 color, real alpha, integer2 pixel, real depth) {
+GEOMETRY real3 shaded(real3 color, real alpha, pixel_row pixel, real depth) {
   real visible = mix(real(1.0), mean_visibility(pixel, depth), real(params.ambient_occlusion));
   real3 lit = color * visible;
   if (params.specular == 0.0) return lit;
@@ -53,7 +53,7 @@ GEOMETRY truth may_step(real depth_a, real depth_b) {
 }
 
 // By how much the depths of two pixels that met something differ, but for what the slope of the flatter one explains; Å.
-GEOMETRY real jump_between(integer2 a, real depth_a, integer2 b, real depth_b) {
+GEOMETRY real jump_between(pixel_row a, real depth_a, pixel_row b, real depth_b) {
   real3 viewer_a = to_viewer_at(position_at(a, depth_a));
   real3 viewer_b = to_viewer_at(position_at(b, depth_b));
   real facing_a = dot(facing(hit_normal_at(a), viewer_a), viewer_a);
@@ -64,7 +64,7 @@ GEOMETRY real jump_between(integer2 a, real depth_a, integer2 b, real depth_b) {
 }
 
 // How strong that line is: from none at a small step to full at a large one.
-GEOMETRY real step_ink(integer2 a, real depth_a, integer2 b, real depth_b) {
+GEOMETRY real step_ink(pixel_row a, real depth_a, pixel_row b, real depth_b) {
   real nearer = min(depth_a, depth_b);
   real least = least_step(nearer);
   real jump = jump_between(a, depth_a, b, depth_b);
@@ -80,7 +80,7 @@ GEOMETRY truth parts_differ(integer mark_a, integer mark_b) { return (mark_a >> 
 
 // Whether the border of a patch runs between two pixels that met something: both are of that surface, which goes on from
 // one to the other, and one of them alone is in a patch.
-GEOMETRY truth parted_by_patch(integer2 a, real depth_a, integer mark_a, integer2 b, real depth_b, integer mark_b) {
+GEOMETRY truth parted_by_patch(pixel_row a, real depth_a, integer mark_a, pixel_row b, real depth_b, integer mark_b) {
   real tolerance = 0.3 + 2.0 * pixel_size_at(min(depth_a, depth_b));
   truth one_in_patch = (mark_a & mark_b & 2) != 0 && ((mark_a ^ mark_b) & 1) != 0;
   return one_in_patch && jump_between(a, depth_a, b, depth_b) <= tolerance;
@@ -92,7 +92,8 @@ GEOMETRY real covered_share(integer2 offset, float width) {
   return clamp(0.5 * width + 1.0 - length(real2(offset)), 0.0, 1.0);
 }
 
-GEOMETRY int farthest_neighbor() { return int(ceil(0.5 * params.widest_line + 0.5)); }
+// Beyond it they cover nothing.
+GEOMETRY int farthest_neighbor() { return int(ceil(0.5 * params.widest_line)); }
 
 // How much of a pixel is covered by what parts it from the neighbour at this offset: a step of some strength, and a seam
 // of two parts or not. Where either is open, it is the outer line.

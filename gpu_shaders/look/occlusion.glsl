@@ -25,7 +25,7 @@ struct Occluder {
   real3 position;
 };
 
-GEOMETRY Occluder occluder_at(integer2 pixel, real2 way) {
+GEOMETRY Occluder occluder_at(pixel_row pixel, real2 way) {
   integer2 texel = integer2(round((place_of(pixel) + way) * (1.0 / occlusion.texel_edge) + occlusion.map_middle));
   real depth = map_depth_or_nothing(texel);
   Occluder occluder;
@@ -42,7 +42,7 @@ GEOMETRY Occluder occluder_at(integer2 pixel, real2 way) {
 }
 
 // Cosine of the horizon, seen from p, on the way along `direction`, at least `lowest`.
-GEOMETRY real horizon(integer2 pixel, real3 p, real3 to_viewer, real2 direction, real reach, real offset, real lowest) {
+GEOMETRY real horizon(pixel_row pixel, real3 p, real3 to_viewer, real2 direction, real reach, real offset, real lowest) {
   real range = reach * pixel_size_at(-p.z);
   real highest = lowest;
   for (int k = 0; k < kStepCount; ++k) {
@@ -64,7 +64,7 @@ GEOMETRY real horizon(integer2 pixel, real3 p, real3 to_viewer, real2 direction,
 GEOMETRY real arc(real h, real n) { return 0.25 * (cos(n) + 2.0 * h * sin(n) - cos(2.0 * h - n)); }
 
 // Of a pixel whose ray met something, at this depth.
-GEOMETRY real sky_visibility(integer2 pixel, real depth) {
+GEOMETRY real sky_visibility(pixel_row pixel, real depth) {
   real3 p = position_at(pixel, depth);
   real3 to_viewer = to_viewer_at(p);
   real3 normal = facing(hit_normal_at(pixel), to_viewer);

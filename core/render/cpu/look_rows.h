@@ -7,28 +7,32 @@
 
 namespace meniscus::MENISCUS_LANE_NAMESPACE {
 
+using glm::ivec2;
 using glm::vec3;
 using kernel::kNothing;
 
-/// A cast block as the shared sources want to see it.
+/// A cast block as the shared sources want to see it. kInside: all pixels that they ask for, the map's aside, lie in
+/// it.
+template <bool kInside>
 struct LookedAtBlock {
   explicit LookedAtBlock(const LaneLook& look)
       : look_(look), view(look.view), occlusion(look.occlusion), params(look.finish) {}
 
-  /// Pixels that lie in a row behind each other.
-  static integer2 pixels_from(int x, int y) { return {integer(x) + lane_numbers(), integer(y)}; }
-
-  /// A pixel's place in the arrays; outside of the block that after the last.
-  integer index_of(integer2 pixel) {
-    return select(in_block(pixel), pixel.y * integer(view.size.x) + pixel.x, integer(view.size.x * view.size.y));
-  }
-  /// What an array holds for these pixels; most packets lie in a row.
+  /// What an array holds for these pixels; outside of the block that after the last.
   real fetch(const float* values, integer2 pixel) {
-    const integer at = index_of(pixel);
-    if (!some(at != integer(at.v[0]) + lane_numbers())) return load(values + at.v[0]);
-    return gather(values, at);
+    const integer behind = view.size.x * view.size.y;
+    return gather(values, select(in_block(pixel), pixel.y * integer(view.size.x) + pixel.x, behind));
+  }
+  [[gnu::always_inline]] real fetch(const float* values, pixel_row pixel) {
+    const bool inside = pixel.x >= 0 && pixel.y >= 0 && pixel.x + kLanes <= view.size.x && pixel.y < view.size.y;
+    if (kInside || inside) return load(values + place_in_block(pixel));
+    return fetch(values, integer2(pixel));
+  }
+  std::ptrdiff_t place_in_block(pixel_row pixel) const {
+    return static_cast<std::ptrdiff_t>(pixel.y) * view.size.x + pixel.x;
   }
   real depth_or_nothing(integer2 pixel) { return fetch(look_.samples.depth, pixel); }
+  real depth_or_nothing(pixel_row pixel) { return fetch(look_.samples.depth, pixel); }
   /// Outside of the map the entry behind its last says that there is nothing.
   real map_depth_or_nothing(integer2 texel) {
     const glm::ivec2 size = occlusion.map_size;
@@ -36,10 +40,10 @@ struct LookedAtBlock {
         texel.x >= integer(0) && texel.y >= integer(0) && texel.x < integer(size.x) && texel.y < integer(size.y);
     return gather(look_.shade_map, select(inside, texel.y * integer(size.x) + texel.x, integer(size.x * size.y)));
   }
-  real shade_depth_or_nothing(integer2 pixel) { return fetch(look_.shade_depth, pixel); }
-  real visibility_at(integer2 pixel) { return fetch(look_.visibility, pixel); }
-  integer mark_at(integer2 pixel) { return to_whole(fetch(look_.samples.mark, pixel)); }
-  real3 hit_normal_at(integer2 pixel) {
+  real shade_depth_or_nothing(pixel_row pixel) { return fetch(look_.shade_depth, pixel); }
+  real visibility_at(pixel_row pixel) { return fetch(look_.visibility, pixel); }
+  integer mark_at(pixel_row pixel) { return to_whole(fetch(look_.samples.mark, pixel)); }
+  real3 hit_normal_at(pixel_row pixel) {
     return {fetch(look_.samples.normal[0], pixel), fetch(look_.samples.normal[1], pixel),
             fetch(look_.samples.normal[2], pixel)};
   }
@@ -60,13 +64,11 @@ struct LookedAtBlock {
     real covered, depth, patched;
   };
 
-  /// No line reaches the pixels from here on: what is around each is one part without a step, or nothing. False where
-  /// the block ends nearby.
-  bool has_no_ink(int x, int y) {
+  /// No line reaches the pixels: what is around each is one part without a step, or nothing.
+  bool has_no_ink(pixel_row pixel) requires kInside {
     const int reach = farthest_neighbor();
-    if (x < reach || y < reach || x + kLanes + reach > view.size.x || y + reach >= view.size.y) return false;
     const float *const depths = look_.samples.depth, *const marks = look_.samples.mark;
-    const std::ptrdiff_t width = view.size.x, first = y * width + x;
+    const std::ptrdiff_t width = view.size.x, first = place_in_block(pixel);
     real nearest = load(depths + first), farthest = nearest;
     real least_mark(0.0f), greatest_mark(0.0f);
     if (params.has_marks != 0u) least_mark = greatest_mark = load(marks + first);
@@ -86,14 +88,15 @@ struct LookedAtBlock {
     return !some(!nothing && (steps || least_mark != greatest_mark));
   }
 
-  Ink ink_on(integer2 pixel, real depth) {
+  Ink ink_on(pixel_row pixel, real depth) {
     const int reach = farthest_neighbor();
     const truth met = depth != real(kNothing);
     Ink ink{0.0f, depth, 0.0f};
     for (int y = -reach; y <= reach; ++y)
       for (int x = -reach; x <= reach; ++x) {
-        const integer2 offset(x, y), other = pixel + offset;
-        const truth inside = in_block(other);
+        const integer2 offset(x, y);
+        const pixel_row other = pixel + ivec2(x, y);
+        const truth inside = kInside ? truth(true) : in_block(other);
         const truth counts = covered_share(offset, params.widest_line) > ink.covered && inside;
         const real patch_share = covered_share(offset, params.patch_lines);
         const truth borders = params.has_marks != 0u && patch_share > ink.patched && inside;
@@ -121,20 +124,17 @@ struct LookedAtBlock {
     return ink;
   }
 
-  void finish(int x, int y) {
-    const integer2 pixel = pixels_from(x, y);
+  void finish(pixel_row pixel) {
     const real depth = depth_or_nothing(pixel);
     const truth met = depth != real(kNothing);
-    const int count = view.size.x - x < kLanes ? view.size.x - x : kLanes;
-    const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(view.size.x) + x;
+    const bool has_ink = params.widest_line > 0.0f && !nothing_to_ink(pixel);
+    if (!some(met) && !has_ink && !look_.samples.over) return;
+    const std::ptrdiff_t first = place_in_block(pixel);
     real3 color(0.0f);
     real alpha = select(met, real(1.0f), real(0.0f));
     if (some(met)) {
-      for (int n = 0; n < count; ++n) {
-        color.x.v[n] = look_.samples.color[first + n].x;
-        color.y.v[n] = look_.samples.color[first + n].y;
-        color.z.v[n] = look_.samples.color[first + n].z;
-      }
+      const real4 cast = colors(look_.samples.color + first, pixel);
+      color = {cast.x, cast.y, cast.z};
       if (params.ambient_occlusion > 0.0f) color = select(met, shaded(color, alpha, pixel, depth), color);
       const real left = select(met, clarity(depth), real(1.0f));
       if (params.keeps_alpha != 0u) {
@@ -144,7 +144,7 @@ struct LookedAtBlock {
         alpha = alpha * left;
       }
     }
-    if (params.widest_line > 0.0f && !has_no_ink(x, y)) {
+    if (has_ink) {
       const Ink ink = ink_on(pixel, depth);
       const real patched = ink.patched * clarity(depth);
       color = mix(color, real3(params.patch_line_color), patched);
@@ -153,33 +153,80 @@ struct LookedAtBlock {
       color = color * (1.0f - covered);
       alpha = mix(alpha, 1.0f, covered);
       if (look_.ink)
-        for (int n = 0; n < count; ++n) look_.ink[first + n] = lane(covered, n);
+        for (int n = 0; n < count_of(pixel); ++n) look_.ink[first + n] = lane(covered, n);
     }
-    for (int n = 0; n < count; ++n) {
-      const glm::vec4 finished(lane(color.x, n), lane(color.y, n), lane(color.z, n), lane(alpha, n));
-      const glm::vec4* const over = look_.samples.over ? &look_.samples.over[first + n] : nullptr;
-      look_.sums[first + n] += over ? *over + finished * (1.0f - over->w) : finished;
-    }
+    add(pixel, {color.x, color.y, color.z, alpha});
   }
 
-  void occlude(int x, int y) {
-    const integer2 pixel = pixels_from(x, y);
+  void occlude(pixel_row pixel) {
     const real depth = depth_or_nothing(pixel);
     if (!some(depth != real(kNothing))) return;
     const real visibility = sky_visibility(pixel, depth);
-    const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(view.size.x) + x;
-    for (int n = 0; n < kLanes && x + n < view.size.x; ++n) look_.visibility[first + n] = lane(visibility, n);
+    for (int n = 0; n < count_of(pixel); ++n) look_.visibility[place_in_block(pixel) + n] = lane(visibility, n);
+  }
+
+ private:
+  /// Pixels of the block.
+  int count_of(pixel_row pixel) const {
+    return kInside || view.size.x - pixel.x > kLanes ? kLanes : view.size.x - pixel.x;
+  }
+
+  bool nothing_to_ink(pixel_row pixel) {
+    if constexpr (kInside) return has_no_ink(pixel);
+    return false;
+  }
+
+  real4 colors(const glm::vec4* first, pixel_row pixel) const {
+    if (count_of(pixel) == kLanes) return load(first);
+    glm::vec4 some[kLanes] = {};
+    for (int n = 0; n < count_of(pixel); ++n) some[n] = first[n];
+    return load(some);
+  }
+
+  /// To the sums of these pixels, behind what is seen through.
+  void add(pixel_row pixel, real4 finished) const {
+    const std::ptrdiff_t first = place_in_block(pixel);
+    glm::vec4* const sums = look_.sums + first;
+    if (look_.samples.over) {
+      const real4 over = colors(look_.samples.over + first, pixel);
+      const real left = 1.0f - over.w;
+      finished = {over.x + finished.x * left, over.y + finished.y * left, over.z + finished.z * left,
+                  over.w + finished.w * left};
+    }
+    const real4 sum = colors(sums, pixel);
+    const real4 more{sum.x + finished.x, sum.y + finished.y, sum.z + finished.z, sum.w + finished.w};
+    if (count_of(pixel) == kLanes) return store(more, sums);
+    glm::vec4 all[kLanes];
+    store(more, all);
+    for (int n = 0; n < count_of(pixel); ++n) sums[n] = all[n];
   }
 };
 
-inline void occlude_row(const LaneLook& look, int y) {
-  LookedAtBlock block(look);
-  for (int x = 0; x < look.view.size.x; x += kLanes) block.occlude(x, y);
+/// Calls look(block, pixels) for each packet of a row; of pixels that are at least `reach` from the block's borders
+/// with a block that knows it.
+template <typename Look>
+void for_each_packet(const LaneLook& task, int y, int reach, const Look& look) {
+  LookedAtBlock<true> inner(task);
+  LookedAtBlock<false> outer(task);
+  const glm::ivec2 size = task.view.size;
+  const bool inner_row = y >= reach && y + reach < size.y;
+  for (int x = 0; x < size.x; x += kLanes)
+    if (inner_row && x >= reach && x + kLanes + reach <= size.x)
+      look(inner, pixel_row{x, y});
+    else
+      look(outer, pixel_row{x, y});
 }
 
-inline void finish_row(const LaneLook& look, int y) {
-  LookedAtBlock block(look);
-  for (int x = 0; x < look.view.size.x; x += kLanes) block.finish(x, y);
+inline void occlude_row(const LaneLook& task, int y) {
+  const int reach = 0;  // the block's own depths are asked for anywhere
+  for_each_packet(task, y, reach, [](auto& block, pixel_row pixel) { block.occlude(pixel); });
+}
+
+inline void finish_row(const LaneLook& task, int y) {
+  constexpr int kShadeReach = 2;  // of mean_visibility
+  const int ink_reach = LookedAtBlock<false>(task).farthest_neighbor();
+  const int reach = ink_reach > kShadeReach ? ink_reach : kShadeReach;
+  for_each_packet(task, y, reach, [](auto& block, pixel_row pixel) { block.finish(pixel); });
 }
 
 }  // namespace meniscus::MENISCUS_LANE_NAMESPACE

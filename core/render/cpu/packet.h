@@ -148,8 +148,19 @@ inline real sqrt(real a) {
 inline Ints bits_of(real a) { return __builtin_bit_cast(Ints, a.v); }
 inline real from_bits(Ints a) { return __builtin_bit_cast(Floats, a); }
 inline real abs(real a) { return from_bits(bits_of(a) & 0x7fffffff); }
-inline real min(real a, real b) { return b.v < a.v ? b.v : a.v; }
-inline real max(real a, real b) { return a.v < b.v ? b.v : a.v; }
+#if MENISCUS_LANES == 4 && defined(__x86_64__)
+inline Floats lesser(Floats a, Floats b) { return _mm_min_ps(a, b); }
+inline Floats greater(Floats a, Floats b) { return _mm_max_ps(a, b); }
+#elif MENISCUS_LANES == 8 && defined(__x86_64__)
+inline Floats lesser(Floats a, Floats b) { return _mm256_min_ps(a, b); }
+inline Floats greater(Floats a, Floats b) { return _mm256_max_ps(a, b); }
+#else
+inline Floats lesser(Floats a, Floats b) { return a < b ? a : b; }
+inline Floats greater(Floats a, Floats b) { return a > b ? a : b; }
+#endif
+// Of two that are equal, or not numbers, a.
+inline real min(real a, real b) { return lesser(b.v, a.v); }
+inline real max(real a, real b) { return greater(b.v, a.v); }
 inline real clamp(real a, real low, real high) { return min(max(a, low), high); }
 inline real mix(real a, real b, real share) { return a * (1.0f - share) + b * share; }
 /// To the nearest, of two the even one; |a| < 2^22.
@@ -240,6 +251,7 @@ struct real2 {
   real2(real x_, real y_) : x(x_), y(y_) {}
   real2(const glm::vec2& all) : x(all.x), y(all.y) {}
   explicit real2(const struct integer2& lanes);
+  explicit real2(const glm::ivec2& all) : real2(glm::vec2(all)) {}
 };
 inline real2 operator+(real2 a, real2 b) { return {a.x + b.x, a.y + b.y}; }
 inline real2 operator-(real2 a, real2 b) { return {a.x - b.x, a.y - b.y}; }
@@ -284,6 +296,15 @@ struct integer2 {
 inline integer2 operator+(integer2 a, integer2 b) { return {a.x + b.x, a.y + b.y}; }
 inline integer2 operator-(integer2 a, integer2 b) { return {a.x - b.x, a.y - b.y}; }
 inline real2::real2(const integer2& lanes) : x(lanes.x), y(lanes.y) {}
+
+/// Pixels side by side, one for each lane, by the first of them.
+struct pixel_row {
+  int x, y;
+  operator integer2() const { return {integer(x) + lane_numbers(), integer(y)}; }
+};
+inline pixel_row operator+(pixel_row a, glm::ivec2 way) { return {a.x + way.x, a.y + way.y}; }
+inline glm::ivec2 operator-(pixel_row a, pixel_row b) { return {a.x - b.x, a.y - b.y}; }
+
 inline real2 round(real2 a) { return {round(a.x), round(a.y)}; }
 
 /// values[at] of each lane.
@@ -304,6 +325,56 @@ inline real load(const float* values) {
   Floats lanes;
   __builtin_memcpy(&lanes, values, sizeof lanes);
   return lanes;
+}
+inline void store(real a, float* values) { __builtin_memcpy(values, &a.v, sizeof a.v); }
+
+struct real4 {
+  real x, y, z, w;
+};
+
+#if MENISCUS_LANES == 8 && defined(__x86_64__)
+/// Four packets of which each half is a row of a matrix, as its columns.
+inline void turn(__m256 (&rows)[4]) {
+  const __m256 a = _mm256_unpacklo_ps(rows[0], rows[1]), b = _mm256_unpackhi_ps(rows[0], rows[1]);
+  const __m256 c = _mm256_unpacklo_ps(rows[2], rows[3]), d = _mm256_unpackhi_ps(rows[2], rows[3]);
+  rows[0] = _mm256_shuffle_ps(a, c, 0x44);
+  rows[1] = _mm256_shuffle_ps(a, c, 0xee);
+  rows[2] = _mm256_shuffle_ps(b, d, 0x44);
+  rows[3] = _mm256_shuffle_ps(b, d, 0xee);
+}
+#endif
+
+/// Of kLanes vectors behind each other.
+inline real4 load(const glm::vec4* values) {
+#if MENISCUS_LANES == 8 && defined(__x86_64__)
+  __m256 rows[4];
+  for (int n = 0; n < 4; ++n)
+    rows[n] =
+        _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(&values[n].x)), _mm_loadu_ps(&values[n + 4].x), 1);
+  turn(rows);
+  return {Floats(rows[0]), Floats(rows[1]), Floats(rows[2]), Floats(rows[3])};
+#else
+  real4 result;
+  for (int n = 0; n < kLanes; ++n) {
+    result.x.v[n] = values[n].x;
+    result.y.v[n] = values[n].y;
+    result.z.v[n] = values[n].z;
+    result.w.v[n] = values[n].w;
+  }
+  return result;
+#endif
+}
+inline void store(const real4& a, glm::vec4* values) {
+#if MENISCUS_LANES == 8 && defined(__x86_64__)
+  __m256 rows[4] = {a.x.v, a.y.v, a.z.v, a.w.v};
+  turn(rows);
+  for (int n = 0; n < 4; ++n) {
+    _mm_storeu_ps(&values[n].x, _mm256_castps256_ps128(rows[n]));
+    _mm_storeu_ps(&values[n + 4].x, _mm256_extractf128_ps(rows[n], 1));
+  }
+#else
+  for (int n = 0; n < kLanes; ++n) values[n] = glm::vec4(lane(a.x, n), lane(a.y, n), lane(a.z, n), lane(a.w, n));
+#endif
 }
 
 }  // namespace meniscus::MENISCUS_LANE_NAMESPACE
