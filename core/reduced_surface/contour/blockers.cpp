@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/math/list_negative.h"
 #include "core/math/vector_loops.h"
 
 namespace meniscus {
@@ -65,7 +66,7 @@ void Blockers::sort() {
 namespace {
 
 // How a ball meets a circle as far as that can be told without a half-plane.
-constexpr std::int64_t kSurelyMisses = 0, kSurelyCovers = 1, kClose = 2;
+constexpr std::int64_t kSurelyMisses = 0, kSurelyCovers = 1, kClose = -2;
 
 MENISCUS_VECTOR_CLONES
 void tell_apart(const geometry::Circle& circle, double first_weight, double noise, const Blockers::Columns& balls,
@@ -121,25 +122,20 @@ CircleMeetings::Most CircleMeetings::find_most(const Columns& columns, std::size
   return {from_ordered_bits(meeting), from_ordered_bits(error), from_ordered_bits(widest)};
 }
 
-// Appends the numbers of those in question without a branch: it would not be foreseen.
 bool CircleMeetings::list_close(const geometry::Circle& circle, double noise, const Blockers& blockers,
                                 std::size_t skip) {
   const std::size_t size = blockers.size(), room = whole_vectors(size);
   if (near_.size() < room) {
     near_.resize(room);
-    ball_.resize(room);
+    ball_.resize(room + kLanes);
   }
   tell_apart(circle, blockers.first_weight(), noise, blockers.columns(), room, near_.data());
   if (skip < size) near_[skip] = kSurelyMisses;
-  std::size_t kept = 0;
   std::int64_t all = 0;
-  for (std::size_t n = 0; n < size; ++n) {
-    ball_[kept] = static_cast<std::uint32_t>(n);
-    kept += near_[n] == kClose ? 1 : 0;
-    all |= near_[n];
-  }
-  count_ = kept;
-  return (all & kSurelyCovers) == 0;
+  for (std::size_t n = 0; n < size; ++n) all |= near_[n];
+  if ((all & kSurelyCovers) != 0) return false;
+  count_ = static_cast<std::size_t>(list_negative(near_.data(), size, 0, ball_.data()) - ball_.data());
+  return true;
 }
 
 void CircleMeetings::find(const geometry::Circle& circle, double unit, const Blockers& blockers, std::size_t skip) {
@@ -154,8 +150,10 @@ void CircleMeetings::find(const geometry::Circle& circle, double unit, const Blo
   const auto of = [&](Column c) { return table_.column(c); };
   const Blockers::Columns from = blockers.columns();
   double *x = of(kX), *y = of(kY), *z = of(kZ), *weight = of(kWeight), *distance = of(kDistance);
+  std::fill(ball_.begin() + static_cast<std::ptrdiff_t>(close), ball_.begin() + static_cast<std::ptrdiff_t>(count_),
+            0u);
   for (std::size_t n = 0; n < count_; ++n) {
-    const std::size_t ball = n < close ? ball_[n] : 0;
+    const std::size_t ball = ball_[n];
     x[n] = from.x[ball];
     y[n] = from.y[ball];
     z[n] = from.z[ball];

@@ -11,6 +11,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/math/list_negative.h"
 #include "core/math/vector_loops.h"
 
 namespace meniscus {
@@ -139,12 +140,6 @@ void narrow_caps(const Blockers::Columns& balls, std::size_t count, double inver
 
 std::int32_t sign_bits(float number) { return std::bit_cast<std::int32_t>(number); }
 
-bool any_negative(const std::int32_t* signs) {
-  std::int32_t all = 0;
-  for (std::size_t n = 0; n < kBlock; ++n) all |= signs[n];
-  return all < 0;
-}
-
 // Of each direction, in whole blocks, a number that is negative if no cap holds it: the sign bits of
 // dot(axis, direction) - cosine, all in one. Several caps a step, for what is known of a block goes through memory.
 MENISCUS_VECTOR_CLONES
@@ -215,25 +210,26 @@ void SphereCover::Rows<kColumns>::make_room(std::size_t count) {
   for (std::vector<float>& column : columns) column.resize(2 * count);
 }
 
-// Those that cover something, the wide ones first: nothing need be known of the others where they cover all. No step
-// branches: what belongs in a list would not be foreseen.
+// Those that cover something, the wide ones first: nothing need be known of the others where they cover all.
 void SphereCover::list_caps(std::size_t count) {
   caps_.make_room(count + kStep);
   const float *x = circles_.column(0), *y = circles_.column(1), *z = circles_.column(2), *cosine = circles_.column(3);
   float *to_x = caps_.column(0), *to_y = caps_.column(1), *to_z = caps_.column(2), *to_cosine = caps_.column(3);
-  std::size_t kept = 0;
+  std::uint32_t* past = listed_.data();
   const auto append_between = [&](float low, float high) {
-    for (std::size_t n = 0; n < count; ++n) {
-      to_x[kept] = x[n];
-      to_y[kept] = y[n];
-      to_z[kept] = z[n];
-      to_cosine[kept] = cosine[n];
-      kept += (cosine[n] >= low) & (cosine[n] < high);
-    }
+    for (std::size_t n = 0; n < count; ++n) signs_[n] = (cosine[n] >= low) & (cosine[n] < high) ? -1 : 0;
+    past = list_negative(signs_.data(), count, 0, past);
+    return static_cast<std::size_t>(past - listed_.data());
   };
-  append_between(-2, kWide);
-  wide_count_ = kept;
-  append_between(kWide, kNowhere);
+  wide_count_ = append_between(-2, kWide);
+  const std::size_t kept = append_between(kWide, kNowhere);
+  for (std::size_t n = 0; n < kept; ++n) {
+    const std::uint32_t circle = listed_[n];
+    to_x[n] = x[circle];
+    to_y[n] = y[circle];
+    to_z[n] = z[circle];
+    to_cosine[n] = cosine[circle];
+  }
   cap_count_ = whole_steps(kept);
   std::fill(to_cosine + kept, to_cosine + cap_count_, kNowhere);
   wide_count_ = std::min(whole_steps(wide_count_), cap_count_);
@@ -242,17 +238,14 @@ void SphereCover::list_caps(std::size_t count) {
 // Keeps the directions of negative sign. They may be in the list already: none moves behind its place.
 void SphereCover::list_uncovered(const float* x, const float* y, const float* z, std::size_t count) {
   float *to_x = uncovered_.column(0), *to_y = uncovered_.column(1), *to_z = uncovered_.column(2);
-  std::size_t kept = 0;
-  for (std::size_t first = 0; first < count; first += kBlock) {
-    if (!any_negative(signs_.data() + first)) continue;
-    for (std::size_t n = first; n < std::min(first + kBlock, count); ++n) {
-      to_x[kept] = x[n];
-      to_y[kept] = y[n];
-      to_z[kept] = z[n];
-      kept += signs_[n] < 0;
-    }
+  const std::uint32_t* past = list_negative(signs_.data(), count, 0, listed_.data());
+  uncovered_count_ = static_cast<std::size_t>(past - listed_.data());
+  for (std::size_t n = 0; n < uncovered_count_; ++n) {
+    const std::uint32_t direction = listed_[n];
+    to_x[n] = x[direction];
+    to_y[n] = y[direction];
+    to_z[n] = z[direction];
   }
-  uncovered_count_ = kept;
 }
 
 template <std::size_t kColumns>
@@ -266,7 +259,10 @@ bool SphereCover::look(const Blockers& blockers) {
   const std::size_t count = blockers.size(), room = whole_blocks(count);
   circles_.make_room(room);
   uncovered_.make_room(kPadded);
-  if (signs_.size() < std::max(room, kPadded)) signs_.resize(2 * std::max(room, kPadded));
+  if (signs_.size() < std::max(room, kPadded)) {
+    signs_.resize(2 * std::max(room, kPadded));
+    listed_.resize(signs_.size() + kLanes);
+  }
   const auto of = [&](std::size_t c) { return circles_.column(c); };
   const CircleColumns circles{of(0), of(1), of(2), of(3), of(4), of(5)};
   narrow_caps(blockers.columns(), whole_vectors(count), 1 / std::sqrt(blockers.first_weight()), w.cos_angle,

@@ -44,6 +44,7 @@ class SphereCover {
   std::size_t cap_count_ = 0, wide_count_ = 0;  // of caps: whole steps
   std::size_t uncovered_count_ = 0;
   std::vector<std::int32_t> signs_;
+  std::vector<std::uint32_t> listed_;  // scratch: numbers of circles or directions
 };
 
 }  // namespace meniscus

@@ -9,6 +9,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "core/math/list_negative.h"
 #include "core/math/vector_loops.h"
 
 namespace meniscus {
@@ -54,7 +55,7 @@ MENISCUS_VECTOR_CLONES
 std::uint32_t* list_overlapping(const BallColumns& balls, const NeighborSearch::Rows& rows, std::uint32_t self,
                                 double x, double y, double z, double radius, double probe_radius, std::uint32_t* list) {
   constexpr std::uint32_t kMost = 64;  // of a row at once, up to whole vectors
-  double gap[kMost];
+  std::int64_t overlaps[kMost];        // negative: it does
   for (const auto& [row_first, last] : rows)
     for (std::uint32_t first = row_first; first < last; first += kMost) {
       const double *bx = balls.x + first, *by = balls.y + first, *bz = balls.z + first, *br = balls.radius + first;
@@ -62,12 +63,10 @@ std::uint32_t* list_overlapping(const BallColumns& balls, const NeighborSearch::
       for (std::size_t n = 0; n < whole_vectors(count); ++n) {
         const double dx = bx[n] - x, dy = by[n] - y, dz = bz[n] - z;
         const double reach = radius + br[n] + probe_radius + kGrowth;
-        gap[n] = dx * dx + dy * dy + dz * dz - reach * reach;
+        overlaps[n] = dx * dx + dy * dy + dz * dz - reach * reach < 0 ? -1 : 0;
       }
-      for (std::uint32_t n = 0; n < count; ++n) {
-        *list = first + n;
-        list += (gap[n] < 0) & (first + n != self);
-      }
+      if (self - first < count) overlaps[self - first] = 0;
+      list = list_negative(overlaps, count, first, list);
     }
   return list;
 }
@@ -106,7 +105,7 @@ void NeighborSearch::append_neighbors(std::size_t place, Rows& rows, std::vector
     candidates += last - first;
   });
   const std::size_t known = neighbors.size();
-  neighbors.resize(known + candidates);
+  neighbors.resize(known + candidates + kLanes);
   const BallColumns balls{table_.column(kX), table_.column(kY), table_.column(kZ), table_.column(kRadius)};
   std::uint32_t* past = list_overlapping(balls, rows, static_cast<std::uint32_t>(place), at.x, at.y, at.z, radius,
                                          probe_radius_, neighbors.data() + known);
