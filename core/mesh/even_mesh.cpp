@@ -212,6 +212,7 @@ class EvenMeshing {
         return {};
       mend(crossing(*mesh_));
       std::vector<std::uint32_t> bad = crossing(*mesh_);
+      if (sizes_.by_density()) bad = part(std::move(bad));
       if (!bad.empty() || sizes_.by_density()) return bad;
       bad = triangles_of(nearness_.too_far(*mesh_));
       if (bad.empty() && nearness_.reaches_all(*mesh_)) return bad;
@@ -225,6 +226,19 @@ class EvenMeshing {
   void mend(const std::vector<std::uint32_t>& triangles) {
     mender().mend(triangles);
     mesh_->compact();
+  }
+
+  /// Makes triangles smaller where few pass through others; returns those that still do.
+  std::vector<std::uint32_t> part(std::vector<std::uint32_t> bad) {
+    for (int n = 0; n < RemeshTuning::partings && !bad.empty() && bad.size() <= RemeshTuning::few_far; ++n) {
+      std::vector<Ball> places;
+      for (const std::uint32_t t : bad) places.push_back(around(mesh_->placed(t)));
+      mesh_->guard().watch(places);
+      refine(bad);
+      mend(crossing(*mesh_));
+      bad = crossing(*mesh_);
+    }
+    return bad;
   }
 
   /// Makes triangles smaller where they are too far away; returns those that stay.
