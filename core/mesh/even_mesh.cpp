@@ -34,12 +34,23 @@ std::vector<Beginning> beginnings(const Surface& surface, const EvenMeshOptions&
   return all;
 }
 
-std::vector<std::uint32_t> crossing(const MeshOnSurface& mesh) {
-  std::vector<std::uint8_t> bad(mesh.links().triangle_count(), 0);
-  for (const auto& [a, b] : crossing_triangles(mesh.positions(), all_triangles(mesh.links()))) bad[a] = bad[b] = 1;
+/// Triangles that pass through others. Two that did not then, and have not changed since this was asked last, do not.
+std::vector<std::uint32_t> crossing(MeshOnSurface& mesh) {
+  const auto all = all_triangles(mesh.links());
+  std::vector<std::uint32_t> unchecked;
+  for (std::uint32_t t = 0; t < all.size(); ++t)
+    if (std::ranges::any_of(all[t], [&](std::uint32_t v) { return mesh.vertex(v).unchecked; })) unchecked.push_back(t);
+  const bool few = unchecked.size() < all.size() / RemeshTuning::few_unchecked;
+  const auto pairs = few ? crossings_of(unchecked, mesh.positions(), all) : crossing_triangles(mesh.positions(), all);
+  std::vector<std::uint8_t> bad(all.size(), 0);
+  for (const auto& [a, b] : pairs) bad[a] = bad[b] = 1;
+  for (std::uint32_t v = 0; v < mesh.links().vertex_count(); ++v) mesh.vertex(v).unchecked = false;
   std::vector<std::uint32_t> found;
-  for (std::uint32_t t = 0; t < bad.size(); ++t)
-    if (bad[t]) found.push_back(t);
+  for (std::uint32_t t = 0; t < bad.size(); ++t) {
+    if (!bad[t]) continue;
+    found.push_back(t);
+    for (const std::uint32_t v : all[t]) mesh.vertex(v).unchecked = true;
+  }
   return found;
 }
 
@@ -201,6 +212,7 @@ class EvenMeshing {
         return {};
       mend(crossing(*mesh_));
       std::vector<std::uint32_t> bad = crossing(*mesh_);
+      if (sizes_.by_density()) bad = part(std::move(bad));
       if (!bad.empty() || sizes_.by_density()) return bad;
       bad = triangles_of(nearness_.too_far(*mesh_));
       if (bad.empty() && nearness_.reaches_all(*mesh_)) return bad;
@@ -214,6 +226,19 @@ class EvenMeshing {
   void mend(const std::vector<std::uint32_t>& triangles) {
     mender().mend(triangles);
     mesh_->compact();
+  }
+
+  /// Makes triangles smaller where few pass through others; returns those that still do.
+  std::vector<std::uint32_t> part(std::vector<std::uint32_t> bad) {
+    for (int n = 0; n < RemeshTuning::partings && !bad.empty() && bad.size() <= RemeshTuning::few_far; ++n) {
+      std::vector<Ball> places;
+      for (const std::uint32_t t : bad) places.push_back(around(mesh_->placed(t)));
+      mesh_->guard().watch(places);
+      refine(bad);
+      mend(crossing(*mesh_));
+      bad = crossing(*mesh_);
+    }
+    return bad;
   }
 
   /// Makes triangles smaller where they are too far away; returns those that stay.

@@ -25,7 +25,11 @@ EvenSizes::EvenSizes(const Surface& surface, const EvenMeshOptions& options)
     : surface_(surface),
       options_(options),
       smallest_ball_(smallest_radius(surface)),
-      edge_of_density_(edge_of_density(options.density)) {}
+      edge_of_density_(edge_of_density(options.density)) {
+  for (const Component& component : surface.components)
+    longest_edge_.push_back(std::min(edge_of_density_, std::sqrt(RemeshTuning::vertices_per_square * component.area /
+                                                                 RemeshTuning::fewest_vertices)));
+}
 
 double EvenSizes::probe() const { return surface_.probe_radius > 0.0 ? surface_.probe_radius : smallest_ball_; }
 
@@ -40,6 +44,7 @@ double EvenSizes::tolerance_at(const glm::dvec3& x) const {
 
 double EvenSizes::edge_at(const SurfacePoint& point) const {
   const Face& face = surface_.faces[point.face];
+  if (by_density()) return longest_edge_[face.component];
   const bool convex = face.kind == PatchKind::convex;
   return edge_at(point.position, convex ? surface_.atoms[surface_.convex[face.patch].atom].radius : probe());
 }

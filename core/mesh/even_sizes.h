@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -48,6 +49,7 @@ class EvenSizes {
   const EvenMeshOptions& options_;
   double smallest_ball_;  ///< Å: of curvature where the probe has no size
   double edge_of_density_;
+  std::vector<double> longest_edge_;  ///< Å; per component, with a density: as few vertices as it needs
 };
 
 /// The quality of a triangle is 4 sqrt(3) area / sum of squared edges: 1 for an equilateral one, 0 for none.
@@ -111,6 +113,9 @@ struct RemeshTuning {
   /// Vertices per Å², times edge length squared. Equilateral triangles have 2 / sqrt(3) = 1.155; splitting and
   /// collapsing leave edges a little shorter.
   static constexpr double vertices_per_square = 1.34;
+  /// What closes in itself has at least so many vertices, however small it is: of a cavity of four triangles nobody
+  /// knows which side is its inner one.
+  static constexpr double fewest_vertices = 12.0;
   /// The share of the tolerance that the middle of an equilateral triangle with the edges wanted may take up: edges up
   /// to 4/3 of that length stay.
   static constexpr double share_of_tolerance = 0.62;
@@ -144,8 +149,13 @@ struct RemeshTuning {
   static constexpr std::uint32_t most_mended = 20;
   /// Edges around those that are too far away become shorter by this factor.
   static constexpr double finer = 0.7;
+  /// How often triangles that pass through others become smaller, with a density.
+  static constexpr int partings = 3;
   /// Refinements that make more triangles than these lead nowhere.
   static constexpr std::uint32_t most_growth = 2, growth_allowed = 500;
+
+  /// Where fewer than one triangle in so many changed, crossings are searched for at these alone.
+  static constexpr std::uint32_t few_unchecked = 4;
 
   // --- What is measured (mesh_nearness.h)
   /// What is measured at places is less than what is between them.

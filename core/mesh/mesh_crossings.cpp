@@ -48,15 +48,30 @@ class CrossingSearch {
 
   std::vector<Pair> run() {
     if (triangles_.empty()) return {};
-    enter_boxes();
+    make_grid(triangles_.size());
+    for (std::uint32_t t = 0; t < boxes_.size(); ++t) grid_.add(t, boxes_[t]);
     tbb::enumerable_thread_specific<Room> rooms;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid_.bucket_count(), 256), [&](const auto& range) {
       Room& mine = rooms.local();
       for (std::size_t bucket = range.begin(); bucket != range.end(); ++bucket) search(bucket, mine);
     });
-    std::vector<Pair> all;
-    for (const Room& some : rooms) all.insert(all.end(), some.found.begin(), some.found.end());
-    std::sort(all.begin(), all.end());
+    return all_found(rooms);
+  }
+
+  std::vector<Pair> run(std::span<const std::uint32_t> some) {
+    if (some.empty()) return {};
+    make_grid(some.size());
+    for (const std::uint32_t t : some) grid_.add(t, boxes_[t]);
+    tbb::enumerable_thread_specific<Room> rooms;
+    tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(boxes_.size()), [&](std::uint32_t t) {
+      grid_.for_each_near(boxes_[t], [&](std::uint32_t u) {
+        if (t != u && !are_apart(boxes_[t], boxes_[u]) &&
+            triangles_cross(placed(std::min(t, u)), placed(std::max(t, u))))
+          rooms.local().found.emplace_back(std::min(t, u), std::max(t, u));
+      });
+    });
+    std::vector<Pair> all = all_found(rooms);
+    all.erase(std::unique(all.begin(), all.end()), all.end());
     return all;
   }
 
@@ -64,14 +79,19 @@ class CrossingSearch {
   /// Of a thread.
   struct Room {
     std::vector<Pair> found;
-    std::vector<std::uint32_t> here;  ///< triangles of a bucket
+    std::vector<std::pair<Box, std::uint32_t>> here;  ///< triangles of a bucket
   };
 
-  void enter_boxes() {
+  void make_grid(std::size_t count) {
     double sum = 0.0;
     for (const Box& box : boxes_) sum += longest_side(box);
-    grid_ = BoxGrid(std::max(kCellSides * sum / static_cast<double>(boxes_.size()), 1e-9), boxes_.size());
-    for (std::uint32_t t = 0; t < boxes_.size(); ++t) grid_.add(t, boxes_[t]);
+    grid_ = BoxGrid(std::max(kCellSides * sum / static_cast<double>(boxes_.size()), 1e-9), count);
+  }
+  static std::vector<Pair> all_found(const tbb::enumerable_thread_specific<Room>& rooms) {
+    std::vector<Pair> all;
+    for (const Room& some : rooms) all.insert(all.end(), some.found.begin(), some.found.end());
+    std::sort(all.begin(), all.end());
+    return all;
   }
 
   PlacedTriangle placed(std::uint32_t t) const {
@@ -81,13 +101,15 @@ class CrossingSearch {
 
   void search(std::size_t bucket, Room& room) const {
     room.here.clear();
-    grid_.for_each_in(bucket, [&](std::uint32_t t) { room.here.push_back(t); });
+    grid_.for_each_in(bucket, [&](std::uint32_t t) { room.here.emplace_back(boxes_[t], t); });
     for (std::size_t i = 0; i < room.here.size(); ++i)
       for (std::size_t j = i + 1; j < room.here.size(); ++j) {
-        if (are_apart(boxes_[room.here[i]], boxes_[room.here[j]])) continue;
-        const auto [a, b] = std::minmax(room.here[i], room.here[j]);
+        const auto& [box, t] = room.here[i];
+        const auto& [other, u] = room.here[j];
+        if (are_apart(box, other)) continue;
+        const auto [a, b] = std::minmax(t, u);
         // Boxes that meet do so in several cells; they count in the first.
-        const glm::dvec3 low = glm::max(boxes_[a].low, boxes_[b].low);
+        const glm::dvec3 low = glm::max(box.low, other.low);
         if (grid_.bucket_of(low) == bucket && triangles_cross(placed(a), placed(b))) room.found.emplace_back(a, b);
       }
   }
@@ -117,12 +139,19 @@ bool triangles_cross(const PlacedTriangle& a, const PlacedTriangle& b) {
     return passes_through(x[(i + 1) % 3], x[(i + 2) % 3], y) || passes_through(y[(j + 1) % 3], y[(j + 2) % 3], x);
   }
   const glm::dvec3 n = glm::cross(x[1] - x[0], x[2] - x[0]), m = glm::cross(y[1] - y[0], y[2] - y[0]);
-  return !(glm::dot(n, m) > kFolded * glm::length(n) * glm::length(m));
+  const double product = glm::dot(n, m);
+  return !(product > 0.0) && !(product > kFolded * glm::length(n) * glm::length(m));
 }
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> crossing_triangles(std::span<const glm::dvec3> positions,
                                                                         std::span<const Triangle> triangles) {
   return CrossingSearch(positions, triangles).run();
+}
+
+std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings_of(std::span<const std::uint32_t> some,
+                                                                  std::span<const glm::dvec3> positions,
+                                                                  std::span<const Triangle> triangles) {
+  return CrossingSearch(positions, triangles).run(some);
 }
 
 namespace {

@@ -69,9 +69,12 @@ class BoxGrid {
   };
 
   glm::i64vec3 cell_of(const glm::dvec3& x) const { return glm::i64vec3(glm::floor(x / cell_)); }
+  /// Cells of a cube of 4 x 4 x 4 have buckets side by side: near in space, near in memory.
   std::size_t bucket_of_cell(const glm::i64vec3& cell) const {
-    const auto hash = static_cast<std::size_t>((cell.x * 73856093) ^ (cell.y * 19349663) ^ (cell.z * 83492791));
-    return hash & (heads_.size() - 1);
+    const glm::i64vec3 cube = cell >> std::int64_t{2}, in_cube = cell & std::int64_t{3};
+    const auto hash = static_cast<std::size_t>((cube.x * 73856093) ^ (cube.y * 19349663) ^ (cube.z * 83492791));
+    const auto place = static_cast<std::size_t>(in_cube.x | (in_cube.y << 2) | (in_cube.z << 4));
+    return (hash * 64 + place) & (heads_.size() - 1);
   }
   template <typename Visit>
   void for_each_bucket(const Box& box, const Visit& visit) const {
@@ -103,6 +106,11 @@ bool triangles_cross(const PlacedTriangle& a, const PlacedTriangle& b);
 /// Runs on all cores TBB may use.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> crossing_triangles(
     std::span<const glm::dvec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles);
+
+/// Those of these pairs in which one of `some` (ascending) is: sooner found where these are few.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings_of(
+    std::span<const std::uint32_t> some, std::span<const glm::dvec3> positions,
+    std::span<const std::array<std::uint32_t, 3>> triangles);
 
 /// Knows which vertices are watched, and the triangles at them, in a grid. Triangles that changed or are gone may still
 /// be listed; they are looked at as they are now.

@@ -153,22 +153,30 @@ void MeshNearness::add_bridges(const MeshOnSurface& mesh, std::vector<PointAtTri
   }
 }
 
-bool MeshNearness::reaches_all(const MeshOnSurface& mesh) {
+/// Of a mesh that is finer than the tolerance asks; the same for all attempts.
+const std::vector<SurfacePoint>& MeshNearness::fine_vertices() {
+  if (!fine_vertices_.empty()) return fine_vertices_;
   const TriangleMesh fine = tessellate(surface_, {Tuning::share_of_fine * sizes_.tolerance(), false});
-  std::vector<std::uint32_t> face(fine.positions.size());
+  fine_vertices_.resize(fine.positions.size());
+  for (std::size_t v = 0; v < fine_vertices_.size(); ++v) fine_vertices_[v].position = fine.positions[v];
   for (std::size_t t = 0; t < fine.triangles.size(); ++t)
-    for (const std::uint32_t v : fine.triangles[t]) face[v] = fine.face[t];
+    for (const std::uint32_t v : fine.triangles[t]) fine_vertices_[v].face = fine.face[t];
+  return fine_vertices_;
+}
+
+bool MeshNearness::reaches_all(const MeshOnSurface& mesh) {
+  const std::vector<SurfacePoint>& fine = fine_vertices();
   const std::vector<std::array<std::uint32_t, 3>> all = all_triangles(mesh.links());
   const MeshDistance from_mesh(mesh.positions(), all);
-  std::vector<std::uint8_t> far(face.size());
+  std::vector<std::uint8_t> far(fine.size());
   tbb::parallel_for(std::size_t{0}, far.size(), [&](std::size_t v) {
-    const double limit = sizes_.tolerance_at(fine.positions[v]);
-    far[v] = from_mesh.any_within(fine.positions[v], limit) == all.size();
+    const double limit = sizes_.tolerance_at(fine[v].position);
+    far[v] = from_mesh.any_within(fine[v].position, limit) == all.size();
   });
   bool all_near = true;
   for (std::size_t v = 0; v < far.size(); ++v) {
     if (!far[v]) continue;
-    to_reach_.push_back({fine.positions[v], face[v]});
+    to_reach_.push_back(fine[v]);
     all_near = false;
   }
   return all_near;

@@ -43,12 +43,14 @@ class MeshNearness {
   SurfacePoint near(const MeshOnSurface& mesh, const glm::dvec3& x, const std::array<std::uint32_t, 3>& corners) const;
   void add_bridges(const MeshOnSurface& mesh, std::vector<PointAtTriangle>& points);
   const SurfaceDistance& distance() const;
+  const std::vector<SurfacePoint>& fine_vertices();
 
   const Surface& surface_;
   const SurfaceWalk& walk_;
   const EvenSizes& sizes_;
   std::vector<SurfacePoint> to_reach_;
   std::vector<std::uint64_t> near_;  ///< per place to reach, by its corners, a triangle that was near it; 0: none known
+  std::vector<SurfacePoint> fine_vertices_;  ///< made when it is asked for first
   mutable std::once_flag distance_made_;
   mutable std::optional<SurfaceDistance> distance_;
 };

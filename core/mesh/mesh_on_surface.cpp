@@ -135,7 +135,7 @@ void MeshOnSurface::scale_size(std::uint32_t vertex, float factor) {
 }
 
 void MeshOnSurface::note_changes_around(std::uint32_t vertex) {
-  vertices_[vertex].changed = true;
+  vertices_[vertex].note_change();
   links_.around(vertex, [&](std::uint32_t half) {
     quality_.forget(half / 3);
     if (guard_.watches(vertex)) guard_.add(half / 3);
@@ -144,7 +144,7 @@ void MeshOnSurface::note_changes_around(std::uint32_t vertex) {
 
 void MeshOnSurface::place(std::uint32_t vertex, const SurfacePoint& at) {
   settle(vertex, at, vertices_[vertex].crease);
-  vertices_[vertex].changed = true;
+  vertices_[vertex].note_change();
 }
 
 void MeshOnSurface::move(std::uint32_t vertex, const SurfacePoint& at) {
@@ -198,7 +198,7 @@ void MeshOnSurface::flip(std::uint32_t half, const std::array<double, 2>& qualit
     quality_.remember(triangles[n], qualities[n]);
     quality_.make_stale(triangles[n]);
     for (const std::uint32_t v : links_.corners(triangles[n])) {
-      vertices_[v].changed = true;
+      vertices_[v].note_change();
       watched = watched || guard_.watches(v);
     }
   }

@@ -34,7 +34,10 @@ struct MeshVertex {
   bool pinned = false;           ///< stays: creases end or meet here, or it was put here for good
   bool frozen = false;           ///< stays, as edges between two such ones do, but for mending
   bool active = true;            ///< passes change what is around it
-  bool changed = true;           ///< since forget_changes()
+  bool changed = true;           ///< since nearness was asked last
+  bool unchecked = true;         ///< since crossings were searched for last
+
+  void note_change() { changed = unchecked = true; }
 
   /// The surface has no single normal here.
   bool on_crease() const { return crease != kNone || pinned; }

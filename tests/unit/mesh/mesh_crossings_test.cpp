@@ -63,6 +63,12 @@ TEST(MeshCrossings, AreThoseOfAllPairs) {
       if (triangles_cross(placed(a), placed(b))) expected.emplace_back(a, b);
   EXPECT_GT(expected.size(), 50u);
   EXPECT_EQ(crossing_triangles(x, triangles), expected);
+  const std::vector<std::uint32_t> some{3, 50, 51, 200};  // 50 is a large one
+  std::erase_if(expected, [&](const auto& pair) {
+    return std::ranges::find(some, pair.first) == some.end() && std::ranges::find(some, pair.second) == some.end();
+  });
+  EXPECT_GT(expected.size(), 3u);
+  EXPECT_EQ(crossings_of(some, x, triangles), expected);
 }
 
 TEST(CrossingGuard, CountsWhatPassesThroughWatchedTriangles) {
