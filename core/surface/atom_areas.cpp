@@ -16,6 +16,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/base/error.h"
+#include "core/surface/arc_intervals.h"
 #include "core/surface/measure.h"
 #include "core/surface/spherical.h"
 #include "core/surface/walks.h"
@@ -24,82 +25,10 @@ namespace meniscus {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
-constexpr double kShort = 3;            // radian: of arcs that are told without trigonometry
-constexpr double kClear = 1e-9;         // of the probe radius: rounding is a millionth of it
+constexpr double kShort = 3;           // radian: of arcs that are told without trigonometry
+constexpr double kClear = 1e-9;        // of the probe radius: rounding is a millionth of it
+constexpr double kLargestRest = 1e-4;  // Å², of a patch: what shares are known to be off by at corners that are blurred
 constexpr double kTouching = 1 - 5e-9;  // of the probe radius; the cap beyond such a plane is 1e-4 radian wide
-
-/// The great circle around a unit axis.
-SphereCircle great_circle(const glm::dvec3& axis) {
-  const glm::dvec3 aside = std::abs(axis.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-  const glm::dvec3 x = glm::normalize(glm::cross(axis, aside));
-  return {axis, 0, x, glm::cross(axis, x)};
-}
-
-/// The parameters of a circle that are left after half-spaces have been cut away.
-class Intervals {
- public:
-  void restart(double length) { kept_.assign(1, {0.0, length}); }
-
-  /// Keeps the points p of the circle with dot(normal, p) <= offset.
-  void keep(const SphereCircle& circle, const glm::dvec3& normal, double offset) {
-    const double a = glm::dot(normal, circle.x), b = glm::dot(normal, circle.y), size = std::hypot(a, b);
-    const double room = offset - circle.height * glm::dot(normal, circle.axis);
-    if (room >= size) return;
-    if (room <= -size) {
-      kept_.clear();
-      return;
-    }
-    const double middle = std::atan2(b, a), half = std::acos(room / size);
-    for (const double turn : {0.0, kTurn}) remove(middle - half + turn, middle + half + turn);
-  }
-
-  const std::vector<std::pair<double, double>>& kept() const { return kept_; }
-
- private:
-  void remove(double low, double high) {
-    if (kept_.empty() || low >= kept_.back().second || high <= kept_.front().first) return;
-    rest_.clear();
-    for (const auto& [from, to] : kept_) {
-      if (low >= to || high <= from) {
-        rest_.emplace_back(from, to);
-        continue;
-      }
-      if (low > from) rest_.emplace_back(from, low);
-      if (high < to) rest_.emplace_back(high, to);
-    }
-    std::swap(kept_, rest_);
-  }
-
-  std::vector<std::pair<double, double>> kept_, rest_;
-};
-
-/// A linear function along a circle: from `least` to `most`.
-struct Range {
-  double least, most;
-};
-
-/// What a linear function does along a short arc, by its values and slopes at both ends: most planes clearly leave all
-/// of an arc or nothing, and that is told without trigonometry. `middle` is its value at the circle's centre; the arc
-/// is shorter than half a turn, so there is one extremum inside at most.
-Range range_along(const std::array<double, 2>& value, const std::array<double, 2>& slope, double middle) {
-  Range range{std::min(value[0], value[1]), std::max(value[0], value[1])};
-  if (slope[0] * slope[1] < 0) {
-    const double swing = std::sqrt((value[0] - middle) * (value[0] - middle) + slope[0] * slope[0]);
-    (slope[0] > 0 ? range.most : range.least) = slope[0] > 0 ? middle + swing : middle - swing;
-  }
-  return range;
-}
-
-/// The three points of a short arc that ranges are told by: begin, middle and end, and the way onwards there.
-struct ArcPoints {
-  std::array<glm::dvec3, 3> point, onwards;
-
-  ArcPoints(const SphereCircle& circle, const glm::dvec3& begin, const glm::dvec3& end) {
-    const glm::dvec3 center = circle.height * circle.axis, both = begin + end - 2.0 * center;
-    point = {begin, center + both * (glm::length(circle.x) / glm::length(both)), end};
-    for (std::size_t n = 0; n < 3; ++n) onwards[n] = glm::cross(circle.axis, point[n] - center);
-  }
-};
 
 /// One thread's lists.
 struct DividerScratch {
@@ -155,8 +84,36 @@ class AreaDivider {
     for (const ConcavePatch& patch : s_.concave)
       for (std::uint32_t n = patch.first_contact; n < patch.first_contact + patch.contact_count; ++n)
         areas_of(patch.face_count ? patch.first_face : kNone).surface[s_.contacts[n]] += share[n];
-    require_sum();
+    shares_ = std::move(share);
     return std::move(areas_);
+  }
+
+  // Checked for faces of either engine: the areas of the atoms add up to the surface.
+  static void require_sum(const std::vector<AtomAreas>& areas, double of_surface) {
+    const double noise = 1e-6 * (1 + of_surface);
+    double sum = 0, least = 0;
+    for (const AtomAreas& group : areas)
+      for (const double area : group.surface) {
+        sum += area;
+        least = std::min(least, area);
+      }
+    if (std::abs(sum - of_surface) <= noise && least >= -noise) return;
+    throw OpenSurfaceError(
+        fmt::format("the areas of atoms, {} Å² in sum and {} Å² the least, do not make up the surface's {} Å²; nothing "
+                    "was written; please report this structure",
+                    sum, least, of_surface));
+  }
+
+  // The same for each patch alone, after run().
+  void list_contradicted(std::vector<std::uint32_t>& atoms) const {
+    for (const ConcavePatch& patch : s_.concave) {
+      double left = 0;
+      for (const Face& face : faces_of(s_, patch)) left += face.area;
+      const std::uint32_t past = patch.first_contact + patch.contact_count;
+      for (std::uint32_t n = patch.first_contact; n < past; ++n) left -= shares_[n];
+      if (std::abs(left) > kLargestRest)
+        atoms.insert(atoms.end(), s_.contacts.begin() + patch.first_contact, s_.contacts.begin() + past);
+    }
   }
 
   // The cell of a contact holds the points of the sphere that no other contact is nearer to. Its border consists of
@@ -280,22 +237,6 @@ class AreaDivider {
     return taken(0) && taken(1);
   }
 
-  // Checked for faces of either engine: the areas of the atoms add up to the surface.
-  void require_sum() const {
-    const double noise = 1e-6 * (1 + s_.area);
-    double sum = 0, least = 0;
-    for (const AtomAreas& group : areas_)
-      for (const double area : group.surface) {
-        sum += area;
-        least = std::min(least, area);
-      }
-    if (std::abs(sum - s_.area) <= noise && least >= -noise) return;
-    throw OpenSurfaceError(
-        fmt::format("the areas of atoms, {} Å² in sum and {} Å² the least, do not make up the surface's {} Å²; nothing "
-                    "was written; please report this structure",
-                    sum, least, s_.area));
-  }
-
   void list_planes(const ConcavePatch& patch, Cuts cuts, std::vector<std::uint32_t>& planes) const {
     planes.resize(patch.plane_count());
     std::iota(planes.begin(), planes.end(), patch.first_plane);
@@ -376,6 +317,7 @@ class AreaDivider {
   const Surface& s_;
   std::span<const std::uint32_t> group_of_face_;
   std::vector<AtomAreas> areas_;
+  std::vector<double> shares_;  // of re-entrant patches, by contact
 };
 
 /// Lists shares, and finds which of them meet: those of one patch where it is divided, those of two where they have a
@@ -479,12 +421,21 @@ AtomShares atom_shares(const Surface& surface) { return ShareLister(surface).run
 
 AtomAreas atom_areas(const Surface& surface) {
   if (surface.sums) return {surface.sums->atom_surface, surface.sums->atom_accessible};
-  return std::move(AreaDivider(surface).run().front());
+  return std::move(atom_areas(surface, {}, 1).front());
+}
+
+AtomAreas atom_areas(const Surface& surface, std::vector<std::uint32_t>& contradicted) {
+  AreaDivider divider(surface);
+  AtomAreas areas = std::move(divider.run().front());
+  divider.list_contradicted(contradicted);
+  return areas;
 }
 
 std::vector<AtomAreas> atom_areas(const Surface& surface, std::span<const std::uint32_t> group_of_face,
                                   std::uint32_t count) {
-  return AreaDivider(surface, group_of_face).run(count);
+  std::vector<AtomAreas> areas = AreaDivider(surface, group_of_face).run(count);
+  AreaDivider::require_sum(areas, surface.area);
+  return areas;
 }
 
 double accessible_area(const Surface& surface) {

@@ -25,6 +25,10 @@ struct AtomAreas {
 /// negative, by more than a millionth. Runs on all cores TBB may use; the result does not depend on their number.
 AtomAreas atom_areas(const Surface& surface);
 
+/// The same of a surface that may not be sound all over. Nothing is thrown: `contradicted` gets the atoms of re-entrant
+/// patches whose shares do not add up to their faces.
+AtomAreas atom_areas(const Surface& surface, std::vector<std::uint32_t>& contradicted);
+
 /// The same of each of `count` groups of faces, for surfaces whose closed parts are of interest by themselves.
 /// group_of_face: below `count`, one per Surface::faces; the faces of one saddle or re-entrant patch share a group.
 std::vector<AtomAreas> atom_areas(const Surface& surface, std::span<const std::uint32_t> group_of_face,

@@ -27,7 +27,7 @@
 namespace meniscus {
 namespace {
 
-constexpr std::size_t kMostAtOnce = 200'000;  // atoms whose tables are made together
+constexpr std::size_t kMostAtOnce = 400'000;  // atoms whose tables are made together
 constexpr std::size_t kMostInBlock = 150'000;
 constexpr double kMostHalo = 1.7;  // of the atoms; with more work than that tables of all are made
 constexpr double kRounding = 0.1;  // Å for a probe of no size: far above what merged probes move by
@@ -55,8 +55,8 @@ struct SeamVertex {
   auto operator<=>(const SeamVertex&) const = default;
 };
 
-// Bits of numbers as one number: two borders with one key are one border, for no two that differ have ever been seen
-// with the same, and then seams do not match (Fowler, Noll & Vo 1991, by words, scrambled as in MurmurHash3).
+// A hash of the bits of numbers. Two borders that differ have one key by chance once in 2^64 pairs; then three borders
+// share it, and the surface counts as open. Words are scrambled as in MurmurHash3 (Appleby 2011).
 class Key {
  public:
   void add(double x) { add(std::bit_cast<std::uint64_t>(x)); }
@@ -221,9 +221,9 @@ class Block {
   }
 
   void add_atoms(Gathered& all) {
-    s_.area = 0;
-    for (const Face& face : s_.faces) s_.area += face.area;
-    const AtomAreas areas = atom_areas(s_);
+    std::vector<std::uint32_t> contradicted;
+    const AtomAreas areas = atom_areas(s_, contradicted);
+    add_open(contradicted, false, all);
     for (std::size_t a = 0; a < number_.size(); ++a) {
       if (!is_own_[a]) continue;
       all.sums.atom_surface[number_[a]] = areas.surface[a];

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -14,6 +15,7 @@
 #include "core/math/spiral.h"
 #include "core/surface/atom_areas.h"
 #include "core/surface/compute_surface.h"
+#include "core/surface/reduced_surface_engine.h"
 #include "tests/support/molecules.h"
 
 namespace meniscus::testing {
@@ -111,6 +113,29 @@ TEST(Blocks, DecideTiesAlike) {
   EXPECT_EQ(blocks.components.size(), whole.components.size());
 }
 
+// Blocks may only be refused where ties are, never wrong.
+TEST(Blocks, GasesFullOfTies) {
+  int refused = 0;
+  for (std::uint32_t n = 0; n < 400; ++n) {
+    SCOPED_TRACE(::testing::Message() << "gas " << n);
+    const GasCase gas = gas_case(n);
+    const auto engine = make_cpu_engine();
+    StageClock unused;
+    const Surface whole = attempt_surface(*engine, gas.balls, gas.probe_radius, unused);
+    const Surface blocks =
+        in_blocks(gas.balls, gas.probe_radius, divide_into_blocks(gas.balls, gas.balls.size() / 3 + 1));
+    if (!blocks.certificate.closed) {
+      refused += whole.certificate.closed;
+      continue;
+    }
+    ASSERT_TRUE(whole.certificate.closed);
+    EXPECT_NEAR(blocks.area, whole.area, 1e-7 * (1 + whole.area));
+    EXPECT_NEAR(blocks.volume, whole.volume, 1e-7 * (1 + std::abs(whole.volume)));
+    EXPECT_EQ(blocks.components.size(), whole.components.size());
+  }
+  EXPECT_LE(refused, 4);
+}
+
 // A block without any halo sees nothing of the others: that is closed, and wrong. So the reach is not left to callers
 // of compute_sums().
 TEST(Blocks, WithHalosTooThinAreNotClosed) {
@@ -121,6 +146,19 @@ TEST(Blocks, WithHalosTooThinAreNotClosed) {
     EXPECT_FALSE(open.certificate.closed) << reach;
     EXPECT_FALSE(open.certificate.open_atoms.empty()) << reach;
   }
+}
+
+TEST(Blocks, AreMadeOfManyAtomsAlone) {
+  StageClock unused;
+  EXPECT_FALSE(compute_sums(enterotoxin(), kWater, unused).sums);
+  const Balls apart = lattice(75, 75, 75, 8.0);  // 421,875 atoms that do not touch
+  const Surface spheres = compute_sums(apart, kWater, unused);
+  ASSERT_TRUE(spheres.sums);
+  EXPECT_TRUE(spheres.certificate.closed);
+  EXPECT_EQ(spheres.components.size(), apart.size());
+  const double sphere = 4 * std::numbers::pi * kCarbon * kCarbon;
+  EXPECT_NEAR(spheres.area, sphere * static_cast<double>(apart.size()), 1e-9 * spheres.area);
+  EXPECT_NEAR(atom_areas(spheres).surface[200000], sphere, 1e-12 * sphere);
 }
 
 TEST(Blocks, HaloHoldsAllThatReaches) {
