@@ -75,6 +75,11 @@ class Contour {
     return e.x * circle().u + e.y * circle().v;
   }
 
+  /// The point of the circle at a pseudo-angle, relative to the first ball's centre.
+  glm::dvec3 point(double pseudo) const {
+    return circle().height * circle().axis + circle().radius * direction(pseudo);
+  }
+
  private:
   bool begin_surely(const glm::dvec3& d, double w0, double w1);
   void cover_in_turn(const Blockers& blockers);

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct WatchedDirections {
   alignas(64) std::array<float, kPadded> x{}, y{}, z{};
   double cos_angle = 1;
   double sin_angle = 0;
+  double cos_near = 1;  // of an angle in the middle of the room for rounding
 
   WatchedDirections() {
     const double g = (1 + std::sqrt(5.0)) / 2;
@@ -56,6 +58,7 @@ struct WatchedDirections {
     const double angle = std::acos(smallest) + kRoom;
     cos_angle = std::cos(angle);
     sin_angle = std::sin(angle);
+    cos_near = std::cos(angle - kRoom / 2);
     cluster(points);
     for (std::size_t n = 0; n < kPadded; ++n) {
       const glm::vec3 direction(points[std::min(n, kDirections - 1)]);
@@ -242,6 +245,7 @@ void SphereCover::list_uncovered(const float* x, const float* y, const float* z,
   uncovered_count_ = static_cast<std::size_t>(past - listed_.data());
   for (std::size_t n = 0; n < uncovered_count_; ++n) {
     const std::uint32_t direction = listed_[n];
+    uncovered_numbers_[n] = uncovered_numbers_[direction];
     to_x[n] = x[direction];
     to_y[n] = y[direction];
     to_z[n] = z[direction];
@@ -252,6 +256,14 @@ template <std::size_t kColumns>
 void SphereCover::Rows<kColumns>::repeat_last(std::size_t count, std::size_t past) {
   for (std::vector<float>& column : columns)
     for (std::size_t n = count; n < past; ++n) column[n] = column[count - 1];
+}
+
+bool SphereCover::is_near(const glm::dvec3& point, std::span<const std::uint8_t> uncovered) {
+  const WatchedDirections& w = watched();
+  double nearest = -1;
+  for (const std::uint8_t n : uncovered)
+    nearest = std::max(nearest, point.x * w.x[n] + point.y * w.y[n] + point.z * w.z[n]);
+  return nearest > w.cos_near;
 }
 
 bool SphereCover::look(const Blockers& blockers) {
@@ -271,6 +283,8 @@ bool SphereCover::look(const Blockers& blockers) {
   const auto cap = [&](std::size_t c) { return caps_.column(c); };
   sign_outside({w.x.data(), w.y.data(), w.z.data()}, kPadded, {cap(0), cap(1), cap(2), cap(3)}, wide_count_,
                signs_.data());
+  uncovered_numbers_.resize(kDirections);
+  std::iota(uncovered_numbers_.begin(), uncovered_numbers_.end(), std::uint8_t{0});
   list_uncovered(w.x.data(), w.y.data(), w.z.data(), kDirections);
   const Points left{uncovered_.column(0), uncovered_.column(1), uncovered_.column(2)};
   sign_outside(left, whole_blocks(uncovered_count_),

@@ -9,7 +9,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
+
+#include <glm/vec3.hpp>
 
 #include "core/reduced_surface/contour/blockers.h"
 
@@ -24,6 +27,15 @@ class SphereCover {
   /// After look() was true: false if no point of the circle of the sphere and the n-th blocker lies near an uncovered
   /// direction: then all of the circle is covered.
   bool circle_may_be_exposed(std::size_t n) const { return signs_[n] >= 0; }
+
+  /// After look() was true: the numbers of the directions that are not surely covered.
+  std::span<const std::uint8_t> uncovered() const { return {uncovered_numbers_.data(), uncovered_count_}; }
+
+  /// Whether a point of the sphere, a unit vector from its centre, is near one of these directions. All points that are
+  /// not are surely covered. What is near them is covered by those alone whose circles may be exposed: the cap of any
+  /// other neither holds such a direction nor comes as near to it. So of what those alone leave of a circle, each arc
+  /// is exposed as a whole if its middle is near, and covered as a whole if not.
+  static bool is_near(const glm::dvec3& point, std::span<const std::uint8_t> uncovered);
 
  private:
   // Columns of numbers of circles, caps, or directions; up to whole vectors anything may be behind them.
@@ -45,6 +57,7 @@ class SphereCover {
   std::size_t uncovered_count_ = 0;
   std::vector<std::int32_t> signs_;
   std::vector<std::uint32_t> listed_;  // scratch: numbers of circles or directions
+  std::vector<std::uint8_t> uncovered_numbers_;
 };
 
 }  // namespace meniscus

@@ -26,9 +26,17 @@ struct Group {
   std::vector<std::uint32_t> neighbors;  // atom after atom, those of open circles first; none of buried atoms
   std::vector<std::uint32_t> first;      // per atom, into neighbors; one past the last closes the list
   std::vector<std::uint32_t> open;       // per atom: how many of its circles are open
-  std::vector<RsArc> arcs;               // atom after atom, those of each sorted
+  std::vector<std::uint8_t> uncovered;   // atom after atom: directions near which it may be exposed (sphere_cover.h)
+  std::vector<std::uint32_t> first_uncovered;  // per atom, and one past the last
+  std::vector<RsArc> arcs;                     // atom after atom, those of each sorted
   std::size_t pairs = 0;
 };
+
+// A pseudo-angle inside an arc.
+double middle_of(const ExposedArc& arc) {
+  const double middle = arc.begin + 0.5 * geometry::pseudo_sweep(arc.begin, arc.end);
+  return middle < 4 ? middle : middle - 4;
+}
 
 // One worker's reusable lists.
 struct Worker {
@@ -36,6 +44,7 @@ struct Worker {
 
   NeighborSearch::Rows rows;
   Blockers blockers;
+  Blockers open_blockers;
   Blockers nearest_first;  // sorted, of the atom nearest_of
   std::size_t nearest_of = kNone;
   SphereCover cover;
@@ -84,20 +93,34 @@ class Enumeration {
     return neighbors_of(place).first(groups_[place / kGroup].open[place % kGroup]);
   }
 
+  std::span<const std::uint8_t> uncovered_of(std::size_t place) const {
+    const Group& group = groups_[place / kGroup];
+    const std::uint32_t* first = group.first_uncovered.data() + place % kGroup;
+    return {group.uncovered.data() + first[0], group.uncovered.data() + first[1]};
+  }
+
   void look_around(std::size_t number, Worker& w) {
     Group& group = groups_[number];
     group.first.assign(1, 0);
+    group.first_uncovered.assign(1, 0);
     for (std::size_t place = number * kGroup; place < past_last(number); ++place) {
       const std::size_t known = group.neighbors.size();
       search_.append_neighbors(place, w.rows, group.neighbors);
       const std::size_t count = group.neighbors.size() - known;
       group.pairs += count;
       search_.list_blockers(place, std::span(group.neighbors).subspan(known), w.blockers);
-      if (!w.cover.look(w.blockers)) group.neighbors.resize(known);
+      if (w.cover.look(w.blockers)) {
+        const std::span<const std::uint8_t> uncovered = w.cover.uncovered();
+        group.uncovered.insert(group.uncovered.end(), uncovered.begin(), uncovered.end());
+      } else {
+        group.neighbors.resize(known);
+      }
+      group.first_uncovered.push_back(static_cast<std::uint32_t>(group.uncovered.size()));
       group.open.push_back(open_first(std::span(group.neighbors).subspan(known), w.cover));
       group.first.push_back(static_cast<std::uint32_t>(group.neighbors.size()));
     }
     group.neighbors.shrink_to_fit();
+    group.uncovered.shrink_to_fit();
   }
 
   // Puts the neighbours first with which there are open circles; returns how many. Each is exchanged with the first of
@@ -123,17 +146,28 @@ class Enumeration {
 
   // The circles of an atom and those with a higher index.
   void list_arcs_of(std::size_t place, std::span<const std::uint32_t> neighbors, Worker& w, std::vector<RsArc>& arcs) {
-    search_.list_blockers(place, neighbors, w.blockers);
     const std::uint32_t i = search_.atom(place);
     const std::size_t open = open_neighbors_of(place).size();
+    search_.list_blockers(place, neighbors.first(open), w.open_blockers);
+    bool all_listed = false;
     for (std::size_t n = 0; n < open; ++n) {
       const std::uint32_t j = search_.atom(neighbors[n]);
       if (j < i || !is_open(neighbors[n], place)) continue;
-      const Blockers::Ball b = w.blockers[n];
-      if (!w.contour.expose_at_once(b.center, b.weight, w.blockers, n)) expose_nearest_first(place, b, neighbors, w);
-      if (w.contour.whole()) arcs.push_back({i, j, kNone, kNone});
+      const Blockers::Ball b = w.open_blockers[n];
+      // Only what they leave near uncovered directions is exposed.
+      const bool by_open = w.contour.expose_at_once(b.center, b.weight, w.open_blockers, n);
+      if (!by_open) {
+        if (!all_listed) search_.list_blockers(place, neighbors, w.blockers);
+        all_listed = true;
+        if (!w.contour.expose_at_once(b.center, b.weight, w.blockers, n)) expose_nearest_first(place, b, neighbors, w);
+      }
+      const auto is_exposed = [&](double pseudo) {
+        return !by_open ||
+               SphereCover::is_near(w.contour.point(pseudo) / std::sqrt(search_.weight(place)), uncovered_of(place));
+      };
+      if (w.contour.whole() && is_exposed(0)) arcs.push_back({i, j, kNone, kNone});
       for (const ExposedArc& arc : w.contour.arcs())
-        arcs.push_back({i, j, search_.atom(arc.begin_by), search_.atom(arc.end_by)});
+        if (is_exposed(middle_of(arc))) arcs.push_back({i, j, search_.atom(arc.begin_by), search_.atom(arc.end_by)});
     }
   }
 
