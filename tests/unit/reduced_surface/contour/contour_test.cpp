@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All balls at once leave of a circle what one ball after the other does, to the last bit, in any number; and a circle
-// that watched directions rule out is covered.
+// All balls at once leave of a circle what one ball after the other does, to the last bit, in any number; a circle that
+// watched directions rule out is covered; and balls whose circles they do not rule out leave the arcs that all leave.
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -176,6 +178,53 @@ TEST(SphereCover, CirclesThatAreRuledOutAreCovered) {
   EXPECT_GT(spheres, 30);
   EXPECT_GT(ruled_out, 3000);
   EXPECT_GT(kept, 500);
+}
+
+// Those that touch the arc behind their ends, by their labels.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> ends_of(const Contour& contour, const Blockers& blockers,
+                                                             std::span<const std::uint8_t> uncovered) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;
+  for (const ExposedArc& arc : contour.arcs()) {
+    const double middle = std::fmod(arc.begin + 0.5 * geometry::pseudo_sweep(arc.begin, arc.end), 4.0);
+    if (uncovered.empty() ||
+        SphereCover::is_near(contour.point(middle) / std::sqrt(blockers.first_weight()), uncovered))
+      ends.emplace_back(arc.begin_by, arc.end_by);
+  }
+  std::ranges::sort(ends);
+  return ends;
+}
+
+// And none of the others has a say.
+TEST(SphereCover, BallsWithOpenCirclesLeaveTheArcsThatAllLeaveNearUncoveredDirections) {
+  Random random(4);
+  SphereCover cover;
+  Contour of_open, of_all;
+  std::size_t arcs = 0, left_out = 0, refused = 0;
+  for (int n = 0; n < 1000; ++n) {
+    const Blockers all = surroundings(random, 40);
+    if (!cover.look(all)) continue;
+    Blockers open;
+    open.restart(all.first_weight());
+    std::vector<std::size_t> in_all;
+    for (std::size_t b = 0; b < all.size(); ++b) {
+      if (!cover.circle_may_be_exposed(b)) continue;
+      open.add(all[b].center, all[b].weight, all.label(b));
+      in_all.push_back(b);
+    }
+    left_out += all.size() - open.size();
+    for (std::size_t b = 0; b < open.size(); ++b) {
+      if (!of_open.expose_at_once(open[b].center, open[b].weight, open, b)) continue;
+      of_all.expose(open[b].center, open[b].weight, all, in_all[b]);
+      const auto expected = ends_of(of_all, all, {});
+      ASSERT_EQ(ends_of(of_open, open, cover.uncovered()), expected) << n << ' ' << b;
+      arcs += expected.size();
+      refused += of_open.arcs().size() - expected.size();
+      ASSERT_EQ(of_all.whole(), of_open.whole() && SphereCover::is_near(of_open.point(0) / 3.0, cover.uncovered()));
+    }
+  }
+  EXPECT_GT(arcs, 2000u);
+  EXPECT_GT(left_out, 1000u);
+  EXPECT_GT(refused, 20u);
 }
 
 TEST(SphereCover, ASphereWithoutNeighborsIsNotCovered) {
