@@ -16,7 +16,9 @@ namespace meniscus {
 
 /// How fine an even mesh is.
 struct EvenMeshOptions {
-  double density = 0.0;  ///< > 0: vertices per Å² of the exact area, to some 10 %, below 0.3 to 25 %; 0: by tolerance
+  /// > 0: vertices per Å² of the exact area, to some 10 %, below 0.3 to 25 %, about 12 per component at least; 0: by
+  /// tolerance
+  double density = 0.0;
   double tolerance = 0.05;  ///< Å; without a density. No point of the mesh is farther from the surface
   /// Of tolerances that depend on the place (Å at a point, smooth): used instead of `tolerance`, which is their
   /// smallest.
