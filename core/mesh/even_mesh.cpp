@@ -162,7 +162,8 @@ class EvenMeshing {
         base_ = base_mesh(surface_, walk_, Beginning::patches, RemeshTuning::kept_base * options_.tolerance);
       start(watched);
       if (attempt >= RemeshTuning::first_frozen && !contracted_) freeze_watched();
-      const std::vector<std::uint32_t> bad = even_out(attempt >= RemeshTuning::first_unmended);
+      std::vector<std::uint32_t> bad = even_out(attempt >= RemeshTuning::first_unmended);
+      if (bad.empty()) bad = crossing_of_all();
       if (bad.empty()) break;
       if (attempt == (contracted_ ? RemeshTuning::contracted_attempts : RemeshTuning::attempts))
         throw OpenSurfaceError(
@@ -218,6 +219,12 @@ class EvenMeshing {
       if (bad.empty() && nearness_.reaches_all(*mesh_)) return bad;
       if (n == RemeshTuning::mendings) return bad;
     }
+  }
+
+  /// The last word, whatever is known to have changed.
+  std::vector<std::uint32_t> crossing_of_all() {
+    for (std::uint32_t v = 0; v < mesh_->links().vertex_count(); ++v) mesh_->vertex(v).unchecked = true;
+    return crossing(*mesh_);
   }
 
   MeshMender mender() {
