@@ -13,7 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 PARTS = {"GEMMI": "gemmi (with PEGTL)", "ZLIB": "zlib", "GL": "epoxy", "JSON": "nlohmann_json", "DEFLATE": "libdeflate"}
 INCLUDE = re.compile(r'^\s*#\s*include\s+([<"])([^>"]+)[>"]', re.M)
 FREE = {"glm", "fmt", "tbb"}
-SYSTEM = {"cpuid.h", "stddef.h", "stdint.h", "sched.h", "fcntl.h", "unistd.h", "dlfcn.h", "sys/mman.h", "sys/stat.h", "sys/types.h", "sys/sysinfo.h", "immintrin.h",
+SYSTEM = {"cpuid.h", "stddef.h", "stdint.h", "sched.h", "fcntl.h", "unistd.h", "dlfcn.h", "sys/mman.h", "sys/stat.h", "sys/types.h", "sys/sysinfo.h", "emmintrin.h", "immintrin.h",
           "malloc.h", "quadmath.h", "linux/fs.h", "mach-o/dyld.h", "sys/syscall.h", "errno.h"}
 
 
