@@ -40,12 +40,14 @@ class Sum {
       surface.volume += component.volume;
     }
     sort_components(surface.components);
+    for (const BlockPart& part : parts_) {
+      open_.insert(open_.end(), part.open_atoms.begin(), part.open_atoms.end());
+      surface.certificate.exact_within = std::max(surface.certificate.exact_within, part.exact_within);
+    }
     std::ranges::sort(open_);
     open_.erase(std::unique(open_.begin(), open_.end()), open_.end());
     surface.certificate.closed = open_.empty();
     surface.certificate.open_atoms = std::move(open_);
-    for (const BlockPart& part : parts_)
-      surface.certificate.exact_within = std::max(surface.certificate.exact_within, part.exact_within);
     surface.sums = std::make_shared<const SurfaceSums>(std::move(sums_));
     return surface;
   }
