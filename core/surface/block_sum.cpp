@@ -14,10 +14,10 @@
 namespace meniscus {
 namespace {
 
-class Sum {
+class BlockSum {
  public:
-  Sum(std::span<const Ball> atoms, double probe_radius, std::span<const std::vector<std::uint32_t>> blocks,
-      std::span<const std::uint32_t> block_of, std::span<const BlockPart> parts)
+  BlockSum(std::span<const Ball> atoms, double probe_radius, std::span<const std::vector<std::uint32_t>> blocks,
+           std::span<const std::uint32_t> block_of, std::span<const BlockPart> parts)
       : atoms_(atoms),
         p_(probe_radius),
         block_of_(block_of),
@@ -167,7 +167,7 @@ class Sum {
 
 Surface sum_blocks(std::span<const Ball> atoms, double probe_radius, std::span<const std::vector<std::uint32_t>> blocks,
                    std::span<const std::uint32_t> block_of, std::span<const BlockPart> parts) {
-  return Sum(atoms, probe_radius, blocks, block_of, parts).run();
+  return BlockSum(atoms, probe_radius, blocks, block_of, parts).run();
 }
 
 }  // namespace meniscus

@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kMostAtOnce = 400'000;  // atoms whose tables are made together
 constexpr std::size_t kMostInBlock = 150'000;
 constexpr double kMostHalo = 1.7;  // of the atoms; with more work than that tables of all are made
-constexpr double kRounding = 0.1;  // Å for a probe of no size: far above what merged probes move, and radii grow by
+constexpr double kHaloRoom = 0.1;  // Å for a probe of no size: far above what merged probes move, and radii grow by
 constexpr std::size_t kMostOpen = 1000;  // atoms, in one attempt
 
 double largest_radius(std::span<const Ball> atoms) {
@@ -162,7 +162,7 @@ std::vector<std::vector<std::uint32_t>> divide_into_blocks(std::span<const Ball>
 }
 
 double halo_reach(std::span<const Ball> atoms, double probe_radius) {
-  return 2 * largest_radius(atoms) + 4 * probe_radius + kRounding * (1 + probe_radius);
+  return 2 * largest_radius(atoms) + 4 * probe_radius + kHaloRoom * (1 + probe_radius);
 }
 
 std::vector<std::uint32_t> with_halo(std::span<const Ball> atoms, std::span<const std::uint32_t> block, double reach) {
