@@ -25,7 +25,7 @@ inline SphereCircle great_circle(const glm::dvec3& axis) {
 }
 
 /// The parameters of a circle that are left after half-spaces have been cut away.
-class Intervals {
+class ArcIntervals {
  public:
   void restart(double length) { kept_.assign(1, {0.0, length}); }
 
@@ -63,15 +63,15 @@ class Intervals {
 };
 
 /// A linear function along a circle: from `least` to `most`.
-struct Range {
+struct ArcRange {
   double least, most;
 };
 
 /// What a linear function does along a short arc, by its values and slopes at both ends: most planes clearly leave all
 /// of an arc or nothing, and that is told without trigonometry. `middle` is its value at the circle's centre; the arc
 /// is shorter than half a turn, so there is one extremum inside at most.
-inline Range range_along(const std::array<double, 2>& value, const std::array<double, 2>& slope, double middle) {
-  Range range{std::min(value[0], value[1]), std::max(value[0], value[1])};
+inline ArcRange range_along(const std::array<double, 2>& value, const std::array<double, 2>& slope, double middle) {
+  ArcRange range{std::min(value[0], value[1]), std::max(value[0], value[1])};
   if (slope[0] * slope[1] < 0) {
     const double swing = std::sqrt((value[0] - middle) * (value[0] - middle) + slope[0] * slope[0]);
     (slope[0] > 0 ? range.most : range.least) = slope[0] > 0 ? middle + swing : middle - swing;

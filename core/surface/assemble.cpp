@@ -29,11 +29,14 @@ namespace meniscus {
 
 double tie_growth(int attempt) { return attempt == 0 ? 0.0 : 1e-8 * std::pow(3.0, attempt - 1); }
 
+double grown_radius(double radius, std::size_t index, int attempt) {
+  if (attempt == 0) return radius;
+  return radius + 0.5 * tie_growth(attempt) * (1 + scattered(index + 0x10001u * static_cast<std::size_t>(attempt)));
+}
+
 std::vector<Ball> grown_balls(std::span<const Ball> balls, int attempt) {
   std::vector<Ball> grown(balls.begin(), balls.end());
-  if (attempt == 0) return grown;
-  for (std::size_t n = 0; n < grown.size(); ++n)
-    grown[n].radius += 0.5 * tie_growth(attempt) * (1 + scattered(n + 0x10001u * static_cast<std::size_t>(attempt)));
+  for (std::size_t n = 0; n < grown.size(); ++n) grown[n].radius = grown_radius(grown[n].radius, n, attempt);
   return grown;
 }
 

@@ -35,7 +35,7 @@ struct DividerScratch {
   std::vector<glm::dvec3> contacts;
   std::vector<double> area;  // Å² by contact
   std::vector<std::uint32_t> planes;
-  Intervals cell;
+  ArcIntervals cell;
   std::vector<glm::dvec2> ends;  // of what is kept of a bisector, begin and end of each part; fewer if one is not short
   struct Course {                // of the cosine of the distance to a contact along an arc
     std::array<double, 3> value, slope;
@@ -216,7 +216,7 @@ class AreaDivider {
   }
 
   // How much nearer contact j is than contact k, along one half of the arc.
-  static Range nearer(std::size_t j, std::size_t k, std::size_t half, const DividerScratch& w) {
+  static ArcRange nearer(std::size_t j, std::size_t k, std::size_t half, const DividerScratch& w) {
     const DividerScratch::Course &a = w.courses[j], &b = w.courses[k];
     return range_along({a.value[half] - b.value[half], a.value[half + 1] - b.value[half + 1]},
                        {a.slope[half] - b.slope[half], a.slope[half + 1] - b.slope[half + 1]}, a.middle - b.middle);
@@ -268,7 +268,7 @@ class AreaDivider {
   // come, the same is left.
   void add_bisector(const ConcavePatch& patch, std::uint32_t j, std::uint32_t k, DividerScratch& w) const {
     const SphereCircle circle = great_circle(glm::normalize(w.contacts[k] - w.contacts[j]));
-    Intervals& common = w.cell;
+    ArcIntervals& common = w.cell;
     common.restart(kTurn);
     for (std::size_t other = 0; other < w.contacts.size(); ++other)
       if (other != j && other != k) common.keep(circle, w.contacts[other] - w.contacts[k], 0.0);
@@ -410,7 +410,7 @@ class ShareLister {
   const Surface& s_;
   AreaDivider divider_{s_};
   DividerScratch scratch_;
-  Intervals cell_;
+  ArcIntervals cell_;
   AtomShares shares_;
   std::vector<std::array<std::vector<Line>, 2>> ends_;  // of each border, from its left face and from its right one
 };

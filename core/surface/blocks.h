@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "core/surface/compute_surface.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
@@ -29,16 +30,17 @@ double halo_reach(std::span<const Ball> atoms, double probe_radius);
 /// A block's own atoms and its halo, all within `reach` of the box around them: rising indices.
 std::vector<std::uint32_t> with_halo(std::span<const Ball> atoms, std::span<const std::uint32_t> block, double reach);
 
-/// The surface of the balls as they are, without tables: what they add up to (Surface::sums), the components and the
-/// certificate, which is as strict as that of the whole surface. Look at the certificate. All numbers are those of the
-/// whole surface, to the last bit, unless probes tie that coincide but for 1e-12 Å. On the CPU.
-/// atoms: van der Waals balls in Å; probe_radius >= 0 in Å; blocks: each atom is in one; reach: halo_reach(), at least.
-/// Throws CapacityError.
-Surface attempt_surface_in_blocks(std::span<const Ball> atoms, double probe_radius,
-                                  std::span<const std::vector<std::uint32_t>> blocks, double reach, StageClock& clock);
+/// The surface without tables: what they add up to (Surface::sums), the components and the certificate, which is as
+/// strict as that of the whole surface. Look at the certificate. All numbers are those of the whole surface, to the
+/// last bit, unless ties had to be told apart: radii then grow as in compute_through_ties(), but of atoms around the
+/// open ones alone, and only the blocks that have those are computed again. On the CPU. atoms: van der Waals balls in
+/// Å; probe_radius >= 0 in Å; blocks: each atom is in one; reach: halo_reach() at least; attempts: how often radii at
+/// one place grow, and 1. Throws CapacityError.
+Surface surface_in_blocks(std::span<const Ball> atoms, double probe_radius,
+                          std::span<const std::vector<std::uint32_t>> blocks, double reach, StageClock& clock,
+                          int attempts = kTieAttempts);
 
-/// The same in as many attempts as ties ask for. Without tables if the atoms are so many that blocks of them are worth
-/// while, and the certificate holds; else by compute_surface() on the CPU.
+/// By blocks, if the atoms are so many that these are worth while; else compute_surface() on the CPU.
 Surface compute_sums(std::span<const Ball> atoms, double probe_radius, StageClock& clock);
 
 }  // namespace meniscus

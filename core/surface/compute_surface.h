@@ -65,6 +65,9 @@ inline constexpr int kTieAttempts = 15;
 /// The largest growth of that attempt, Å: 0 for attempt 0, then from 1e-8 Å upwards, each three times the last.
 double tie_growth(int attempt);
 
+/// The radius of an attempt, of a ball with this index.
+double grown_radius(double radius, std::size_t index, int attempt);
+
 /// The balls of an attempt: radii grown by half to all of tie_growth(attempt), by another amount for each index.
 std::vector<Ball> grown_balls(std::span<const Ball> balls, int attempt);
 
