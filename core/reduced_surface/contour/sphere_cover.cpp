@@ -220,7 +220,7 @@ void SphereCover::list_caps(std::size_t count) {
   float *to_x = caps_.column(0), *to_y = caps_.column(1), *to_z = caps_.column(2), *to_cosine = caps_.column(3);
   std::uint32_t* past = listed_.data();
   const auto append_between = [&](float low, float high) {
-    for (std::size_t n = 0; n < count; ++n) signs_[n] = (cosine[n] >= low) & (cosine[n] < high) ? -1 : 0;
+    for (std::size_t n = 0; n < count; ++n) signs_[n] = ((cosine[n] >= low) & (cosine[n] < high)) ? -1 : 0;
     past = list_negative(signs_.data(), count, 0, past);
     return static_cast<std::size_t>(past - listed_.data());
   };
