@@ -104,6 +104,17 @@ class PageManners(PageCase):
                 await page.click(save)
                 await page.until(f"!{unsaved}")
                 self.assertFalse(await page.evaluate(asked), save)
+            await page.at_rest()
+            # A picture that a slow computer decodes until the file is written knows nothing of the file.
+            await page.evaluate("""const decode = window.createImageBitmap; window.createImageBitmap = async (...all) => {
+                await new Promise((resolve) => setTimeout(resolve, 2000)); return decode(...all); };
+                document.getElementById('export-name').value = 'late'; 0""")
+            await page.click("#kinds")
+            await page.until(unsaved)
+            await page.click("#export-form button[value=png]")
+            await page.until("document.getElementById('message').textContent.includes('Written')")
+            await page.at_rest()
+            await page.until(f"!{unsaved}", seconds=5)
             self.assertEqual(page.complaints, [])
 
     async def test_labels_are_whole_and_what_writes_is_in_sight(self):

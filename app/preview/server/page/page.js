@@ -61,9 +61,16 @@ async function command(word, values = {}, refuse = (text) => say(text, true)) {
   note_rest();
   if (!reply.ok && reply.error) refuse(sentence_of(reply.error, word));
   else if (reply.ok && word !== "resize") forget_errors();
-  if (reply.ok && reply.revision === undefined && changes_state.has(word))
-    server.ask({ command: "state" }).then((next) => { if (next.ok) { ++told_states; apply_state(next); } });  // there is no new picture
+  if (reply.ok && reply.revision === undefined && changes_state.has(word)) ask_state();
   return reply.ok ? reply : null;
+}
+
+/// Shows what changed without a new picture.
+async function ask_state() {
+  const next = await server.ask({ command: "state" });
+  if (!next.ok) return;
+  ++told_states;
+  apply_state(next);
 }
 
 /// At rest the canvas shows, in full, what all commands came to.
@@ -423,7 +430,7 @@ async function follow_export() {
   }
   $("job").hidden = true;
   for (const button of document.querySelectorAll("#export-form button")) button.disabled = false;
-  server.ask({ command: "state" }).then((next) => { if (next.ok) apply_state(next); });
+  ask_state();
   if (told.error) say(sentence_of(told.error, "export"), true);
   else if (told.path) say([`Written: ${told.path}`, told.note, told.render_with && `render it with: ${told.render_with}`]
     .filter(Boolean).join("; "));
