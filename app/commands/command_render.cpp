@@ -151,6 +151,14 @@ void render_figures(const RenderCommand& command) {
   if (!run.is_run()) say_times(command, device.renderer().device(), device.renderer().times());
 }
 
+/// Whether surfaces are divided, or their pieces named or measured.
+bool needs_borders(const Scene& scene) {
+  const MoleculeRequest& molecule = scene.molecule;
+  return scene.image.aovs || molecule.patches || molecule.color.of_points() ||
+         molecule.color.by == ColorScheme::By::component || molecule.division.components ||
+         molecule.division.cavities != Cavities::keep;
+}
+
 /// Leaves the pictures that are missing, of a run their frames; false: none is.
 bool leave_missing(RenderCommand& command) {
   const bool is_run = command.scene.frames.asked();
@@ -185,6 +193,7 @@ void run(RenderCommand command) {
   check_files(command);
   tell_memory(command);
   if (command.resumes && !leave_missing(command)) return;
+  command.scene.molecule.surface.bordered = needs_borders(command.scene);
   command.scene.image.extent ? render_views(command) : render_figures(command);
 }
 

@@ -116,8 +116,8 @@ void add_surface(CLI::App& command) {
     SurfaceCommand& asked = declared->state;
     MoleculeRequest& molecule = asked.scene.molecule;
     molecule.surface.drawn = division.components || division.cavities != Cavities::keep || asked.open_sky;
-    molecule.surface.summed =
-        !molecule.surface.drawn && !molecule.patches && asked.cavity_csv.empty() && asked.gradient_csv.empty();
+    molecule.surface.bordered =
+        molecule.surface.drawn || molecule.patches || !asked.cavity_csv.empty() || !asked.gradient_csv.empty();
     asked.summary_csv.empty() ? print_surface(asked) : print_summary(asked);
   });
 }

@@ -72,11 +72,9 @@ Surface SurfaceComputer::compute(std::span<const Ball> balls) {
   }
   const double probe_radius = rolling_probe(request_.kind, request_.probe_radius);
   if (!engine_) engine_ = make_engine(on_cpu_, request_.gl);
-  const bool summed = request_.summed && is_on_cpu();
-  Surface surface =
-      summed ? compute_sums(balls, probe_radius, clock_)
-             : compute_surface(*engine_, balls, probe_radius, clock_,
-                               request_.drawn || request_.verify ? ClipPlanes::listed : ClipPlanes::left_out);
+  const ClipPlanes planes = request_.drawn || request_.verify ? ClipPlanes::listed : ClipPlanes::left_out;
+  Surface surface = request_.bordered || !is_on_cpu() ? compute_surface(*engine_, balls, probe_radius, clock_, planes)
+                                                      : compute_without_borders(balls, probe_radius, planes, clock_);
   device_ = engine_->device();
   if (request_.verify) verify(surface, balls, probe_radius);
   return surface;

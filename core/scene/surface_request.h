@@ -35,9 +35,9 @@ struct SurfaceRequest {
   bool verify = false;        ///< compute on the other device too and compare
   /// With `verify`, a further look at each closed surface, such as by its mesh; throws OpenSurfaceError. May be empty.
   std::function<void(const Surface&)> check;
-  bool drawn = true;                        ///< false: for numbers only, see ClipPlanes::left_out
-  bool summed = false;                      ///< only totals, components and areas of atoms: tables may be left out
-  int threads = 0;                          ///< CPU threads; 0: all
+  bool drawn = true;     ///< false: for numbers only, see ClipPlanes::left_out
+  bool bordered = true;  ///< false: nobody needs tables of vertices, borders and faces; large surfaces may lack them
+  int threads = 0;       ///< CPU threads; 0: all
   StageTiming timing = StageTiming::rough;  ///< exact: someone looks at the times of stages
 };
 

@@ -13,6 +13,7 @@
 #include "core/math/union_find.h"
 #include "core/reduced_surface/cpu/exhaustive.h"
 #include "core/surface/atom_areas.h"
+#include "core/surface/block_patches.h"
 #include "core/surface/certificate.h"
 #include "core/surface/compute_surface.h"
 #include "core/surface/cusp_tracer.h"
@@ -62,18 +63,19 @@ class Block {
   Block(std::vector<Ball> atoms, std::span<const std::uint32_t> number, std::vector<char> is_own)
       : atoms_(std::move(atoms)), number_(number), is_own_(std::move(is_own)) {}
 
-  BlockPart compute(double probe_radius, const glm::dvec3& origin, StageClock& clock) {
+  BlockPart compute(double probe_radius, const glm::dvec3& origin, BlockPatches* patches, StageClock& clock) {
     {
       const auto stage = clock.stage("reduced surface");
       rs_ = enumerate_reduced_surface(atoms_, probe_radius, nullptr, number_);
     }
-    s_ = build_surface(atoms_, probe_radius, rs_, clock, *make_cpu_cusp_tracer(), ClipPlanes::left_out);
+    s_ = build_surface(atoms_, probe_radius, rs_, clock, *make_cpu_cusp_tracer(),
+                       patches ? ClipPlanes::listed : ClipPlanes::left_out);
     part_.exact_within = s_.certificate.exact_within;
     const bool is_without_faces = s_.faces.empty() && !s_.certificate.open_atoms.empty();
     add_open(s_.certificate.open_atoms, is_without_faces);
     if (is_without_faces) return std::move(part_);
     const auto stage = clock.stage("area and volume");
-    const ConvexPlanes planes = planes_when_asked(s_, rs_);
+    const ConvexPlanes planes = patches ? listed_planes(s_) : planes_when_asked(s_, rs_);
     const MeasuredFaces measured = measure_faces(s_, origin, planes);
     add_open(unsound_atoms(s_, measured.doubts, planes), false);
     number_pieces();
@@ -83,6 +85,7 @@ class Block {
     add_faces(measured.flux);
     add_borders();
     add_atoms();
+    if (patches) *patches = take_patches(s_, number_, is_own_);
     return std::move(part_);
   }
 
@@ -190,8 +193,8 @@ class Block {
 }  // namespace
 
 BlockPart compute_block(std::vector<Ball> atoms, std::span<const std::uint32_t> numbers, std::vector<char> is_own,
-                        double probe_radius, const glm::dvec3& origin, StageClock& clock) {
-  return Block(std::move(atoms), numbers, std::move(is_own)).compute(probe_radius, origin, clock);
+                        double probe_radius, const glm::dvec3& origin, BlockPatches* patches, StageClock& clock) {
+  return Block(std::move(atoms), numbers, std::move(is_own)).compute(probe_radius, origin, patches, clock);
 }
 
 }  // namespace meniscus

@@ -15,6 +15,7 @@
 namespace meniscus {
 
 class StageClock;
+struct BlockPatches;
 
 /// What a face contributes to its component. Each block numbers its own pieces.
 struct FaceSum {
@@ -56,8 +57,9 @@ struct BlockPart {
 inline std::size_t place_of(PatchKind kind) { return static_cast<std::size_t>(kind); }
 
 /// Computes the surface of a block's atoms and its halo; keeps of it what is the block's own: faces whose lowest atom
-/// is. atoms: those of the whole with these numbers, rising; is_own: of each; origin: of integrals (measure.h).
+/// is. atoms: those of the whole with these numbers, rising; is_own: of each; origin: of integrals (measure.h);
+/// patches: get those of the block, unless it is nullptr.
 BlockPart compute_block(std::vector<Ball> atoms, std::span<const std::uint32_t> numbers, std::vector<char> is_own,
-                        double probe_radius, const glm::dvec3& origin, StageClock& clock);
+                        double probe_radius, const glm::dvec3& origin, BlockPatches* patches, StageClock& clock);
 
 }  // namespace meniscus

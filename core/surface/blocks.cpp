@@ -9,6 +9,7 @@
 #include "core/base/stage_clock.h"
 #include "core/math/box.h"
 #include "core/surface/block_part.h"
+#include "core/surface/block_patches.h"
 #include "core/surface/block_sum.h"
 #include "core/surface/measure.h"
 #include "core/surface/reduced_surface_engine.h"
@@ -55,7 +56,7 @@ void divide(std::span<const Ball> atoms, std::span<std::uint32_t> these, std::si
 class BlockRun {
  public:
   BlockRun(std::span<const Ball> atoms, double probe_radius, std::span<const std::vector<std::uint32_t>> blocks,
-           double reach, StageClock& clock)
+           double reach, ClipPlanes planes, StageClock& clock)
       : given_(atoms),
         atoms_(atoms.begin(), atoms.end()),
         p_(probe_radius),
@@ -65,6 +66,7 @@ class BlockRun {
         origin_(middle_of(atoms)),
         block_of_(atoms.size()),
         parts_(blocks.size()),
+        patches_(planes == ClipPlanes::listed ? blocks.size() : 0),
         is_due_(blocks.size(), 1) {
     for (std::uint32_t b = 0; b < blocks.size(); ++b)
       for (const std::uint32_t a : blocks[b]) block_of_[a] = b;
@@ -93,18 +95,27 @@ class BlockRun {
       return open;
     }
     const auto stage = clock_.stage("area and volume");
-    return sum_blocks(atoms_, p_, blocks_, block_of_, parts_);
+    Surface surface = sum_blocks(atoms_, p_, blocks_, block_of_, parts_);
+    if (patches_.empty() || !surface.certificate.closed) return surface;
+    parts_.assign(blocks_.size(), {});  // joining needs the memory
+    is_due_.assign(blocks_.size(), 1);
+    surface.certificate.open_atoms = join_patches(block_of_, patches_, surface);
+    surface.certificate.closed = surface.certificate.open_atoms.empty();
+    return surface;
   }
 
-  BlockPart compute(std::uint32_t b) const {
-    const std::vector<std::uint32_t> number = with_halo(given_, blocks_[b], reach_);
+  BlockPart compute(std::uint32_t b) { return compute(blocks_[b], patches_.empty() ? nullptr : &patches_[b], clock_); }
+
+  // own: rising.
+  BlockPart compute(std::span<const std::uint32_t> own, BlockPatches* patches, StageClock& clock) const {
+    const std::vector<std::uint32_t> number = with_halo(given_, own, reach_);
     std::vector<Ball> balls;
     std::vector<char> is_own;
     for (const std::uint32_t a : number) {
       balls.push_back(atoms_[a]);
-      is_own.push_back(block_of_[a] == b);
+      is_own.push_back(std::ranges::binary_search(own, a));
     }
-    return compute_block(std::move(balls), number, std::move(is_own), p_, origin_, clock_);
+    return compute_block(std::move(balls), number, std::move(is_own), p_, origin_, patches, clock);
   }
 
   // Radii of all atoms that may have to do with the open ones. False: they have grown as often as they may, or those
@@ -124,17 +135,33 @@ class BlockRun {
         attempt = std::max(attempt, known->second);
     }
     if (++attempt >= attempts) return false;
+    attempt = first_that_closes(grown, attempt, attempts);
     most_attempt_ = std::max(most_attempt_, attempt);
-    for (const std::uint32_t a : grown) {
-      attempt_of_[a] = attempt;
-      atoms_[a].radius = grown_radius(given_[a].radius, a, attempt);
-    }
+    grow(grown, attempt);
     for (std::uint32_t b = 0; b < blocks_.size(); ++b) {
       const Box box = box_of(given_, blocks_[b]);
       const auto is_in = [&](std::uint32_t a) { return box.squared_distance(given_[a].center) <= reach_ * reach_; };
       if (std::ranges::any_of(grown, is_in)) is_due_[b] = 1;
     }
     return true;
+  }
+
+  void grow(std::span<const std::uint32_t> these, int attempt) {
+    for (const std::uint32_t a : these) {
+      attempt_of_[a] = attempt;
+      atoms_[a].radius = grown_radius(given_[a].radius, a, attempt);
+    }
+  }
+
+  // The attempt that a small block of those atoms alone asks for, so that large ones are computed again but once; the
+  // first, if none closes it.
+  int first_that_closes(std::span<const std::uint32_t> these, int first, int attempts) {
+    StageClock unused;
+    for (int attempt = first; attempt < attempts; ++attempt) {
+      grow(these, attempt);
+      if (compute(these, nullptr, unused).open_atoms.empty()) return attempt;
+    }
+    return first;
   }
 
   std::span<const Ball> given_;
@@ -146,6 +173,7 @@ class BlockRun {
   glm::dvec3 origin_;
   std::vector<std::uint32_t> block_of_;
   std::vector<BlockPart> parts_;
+  std::vector<BlockPatches> patches_;  // by block, if they are wanted
   std::vector<char> is_due_;
   std::unordered_map<std::uint32_t, int> attempt_of_;  // of atoms whose radii have grown
   int most_attempt_ = 0;
@@ -174,21 +202,22 @@ std::vector<std::uint32_t> with_halo(std::span<const Ball> atoms, std::span<cons
 }
 
 Surface surface_in_blocks(std::span<const Ball> atoms, double probe_radius,
-                          std::span<const std::vector<std::uint32_t>> blocks, double reach, StageClock& clock,
-                          int attempts) {
-  return BlockRun(atoms, probe_radius, blocks, reach, clock).run(attempts);
+                          std::span<const std::vector<std::uint32_t>> blocks, double reach, ClipPlanes planes,
+                          StageClock& clock, int attempts) {
+  return BlockRun(atoms, probe_radius, blocks, reach, planes, clock).run(attempts);
 }
 
-Surface compute_sums(std::span<const Ball> atoms, double probe_radius, StageClock& clock) {
+Surface compute_without_borders(std::span<const Ball> atoms, double probe_radius, ClipPlanes planes,
+                                StageClock& clock) {
   if (atoms.size() > kMostAtOnce) {
     const std::vector<std::vector<std::uint32_t>> blocks = divide_into_blocks(atoms, kMostInBlock);
     const double reach = halo_reach(atoms, probe_radius);
     std::size_t computed = 0;
     for (const std::vector<std::uint32_t>& block : blocks) computed += with_halo(atoms, block, reach).size();
     if (static_cast<double>(computed) <= kMostHalo * static_cast<double>(atoms.size()))
-      return surface_in_blocks(atoms, probe_radius, blocks, reach, clock);
+      return surface_in_blocks(atoms, probe_radius, blocks, reach, planes, clock);
   }
-  return compute_surface(*make_cpu_engine(), atoms, probe_radius, clock, ClipPlanes::left_out);
+  return compute_surface(*make_cpu_engine(), atoms, probe_radius, clock, planes);
 }
 
 }  // namespace meniscus

@@ -171,7 +171,7 @@ struct SurfaceCounts {
   SurfaceCounts& operator+=(const SurfaceCounts& more);
 };
 
-/// What the tables of a surface add up to, where they were computed block by block and let go (blocks.h).
+/// What the tables of a surface add up to, where they were computed block by block and some let go (blocks.h).
 struct SurfaceSums {
   SurfaceCounts counts;
   double accessible = 0.0;                            ///< Å²: the solvent-accessible area
@@ -198,9 +198,10 @@ struct Surface {
 
   std::vector<Component> components;
   Certificate certificate;
-  double area = 0.0;                        ///< Å²
-  double volume = 0.0;                      ///< Å³ of the solid: outer components minus cavities
-  std::shared_ptr<const SurfaceSums> sums;  ///< if the tables from `convex` to `faces` were let go; else none
+  double area = 0.0;    ///< Å²
+  double volume = 0.0;  ///< Å³ of the solid: outer components minus cavities
+  /// If the tables from `cuts` to `faces` were let go, so that patches refer to none of them; else none.
+  std::shared_ptr<const SurfaceSums> sums;
 
   SurfaceCounts counts() const;
   bool spindle(const ToroidalPatch& t) const { return crosses_axis(t, atoms, probe_radius); }

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <numeric>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -22,9 +24,10 @@ namespace {
 
 using Blocks = std::vector<std::vector<std::uint32_t>>;
 
-Surface in_blocks(const Balls& balls, double probe_radius, const Blocks& blocks, int attempts = 1) {
+Surface in_blocks(const Balls& balls, double probe_radius, const Blocks& blocks, int attempts = 1,
+                  ClipPlanes planes = ClipPlanes::left_out) {
   StageClock unused;
-  return surface_in_blocks(balls, probe_radius, blocks, halo_reach(balls, probe_radius), unused, attempts);
+  return surface_in_blocks(balls, probe_radius, blocks, halo_reach(balls, probe_radius), planes, unused, attempts);
 }
 
 void expect_equal(const Surface& blocks, const Surface& whole) {
@@ -51,6 +54,57 @@ void expect_equal(const Surface& blocks, const Surface& whole) {
   const AtomAreas of_blocks = atom_areas(blocks), of_whole = atom_areas(whole);
   EXPECT_EQ(of_blocks.surface, of_whole.surface);
   EXPECT_EQ(of_blocks.accessible, of_whole.accessible);
+}
+
+void expect_equal(const Surface& a, std::span<const std::uint32_t> planes_a, const Surface& b,
+                  std::span<const std::uint32_t> planes_b) {
+  ASSERT_EQ(planes_a.size(), planes_b.size());
+  for (std::size_t n = 0; n < planes_a.size(); ++n) {
+    EXPECT_EQ(a.planes[planes_a[n]].normal, b.planes[planes_b[n]].normal);
+    EXPECT_EQ(a.planes[planes_a[n]].offset, b.planes[planes_b[n]].offset);
+  }
+}
+
+std::vector<std::uint32_t> counting(std::uint32_t first, std::uint32_t count) {
+  std::vector<std::uint32_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), first);
+  return numbers;
+}
+
+std::vector<std::uint32_t> contacts_of(const Surface& s, const ConcavePatch& patch) {
+  return {s.contacts.begin() + patch.first_contact, s.contacts.begin() + patch.first_contact + patch.contact_count};
+}
+
+// What a picture shows of the patches that blocks keep.
+void expect_equal_patches(const Surface& blocks, const Surface& whole) {
+  ASSERT_EQ(blocks.convex.size(), whole.convex.size());
+  for (std::size_t n = 0; n < whole.convex.size(); ++n) {
+    const ConvexPatch &a = blocks.convex[n], &b = whole.convex[n];
+    EXPECT_EQ(a.atom, b.atom);
+    EXPECT_EQ(a.face_count, b.face_count);
+    expect_equal(blocks, counting(a.first_plane, a.plane_count), whole, counting(b.first_plane, b.plane_count));
+  }
+  ASSERT_EQ(blocks.concave.size(), whole.concave.size());
+  for (std::size_t n = 0; n < whole.concave.size(); ++n) {
+    const ConcavePatch &a = blocks.concave[n], &b = whole.concave[n];
+    EXPECT_EQ(a.center, b.center);
+    EXPECT_EQ(a.face_count, b.face_count);
+    EXPECT_EQ(a.side_count, b.side_count);
+    EXPECT_EQ(contacts_of(blocks, a), contacts_of(whole, b));
+    expect_equal(blocks, counting(a.first_plane, a.plane_count()), whole, counting(b.first_plane, b.plane_count()));
+  }
+  ASSERT_EQ(blocks.toroidal.size(), whole.toroidal.size());
+  for (std::size_t n = 0; n < whole.toroidal.size(); ++n) {
+    const ToroidalPatch &a = blocks.toroidal[n], &b = whole.toroidal[n];
+    EXPECT_EQ(a.atom, b.atom);
+    EXPECT_EQ(a.probe, b.probe);
+    EXPECT_EQ(a.center, b.center);
+    EXPECT_EQ(a.axis, b.axis);
+    EXPECT_EQ(a.radius, b.radius);
+    EXPECT_EQ(a.start, b.start);
+    EXPECT_EQ(a.sweep, b.sweep);
+    EXPECT_EQ(a.has_piece, b.has_piece);
+  }
 }
 
 TEST(Blocks, EachAtomIsInOneBlock) {
@@ -97,7 +151,10 @@ TEST(Blocks, GasesInBlocks) {
     const Balls balls = gas(n, 300, 14 + n % 20, 1.0, 2.0);
     const double probe = 0.5 * (n % 5);
     SCOPED_TRACE(::testing::Message() << "gas " << n);
-    expect_equal(in_blocks(balls, probe, divide_into_blocks(balls, 40)), compute_surface_cpu(balls, probe));
+    const Surface blocks = in_blocks(balls, probe, divide_into_blocks(balls, 40), 1, ClipPlanes::listed),
+                  whole = compute_surface_cpu(balls, probe);
+    expect_equal(blocks, whole);
+    if (probe > 0.0) expect_equal_patches(blocks, whole);
   }
 }
 
@@ -149,12 +206,13 @@ TEST(Blocks, GrowRadiiWhereTiesAreAlone) {
 }
 
 // A block without any halo sees nothing of the others: that is closed, and wrong. So the reach is not left to callers
-// of compute_sums().
+// of compute_without_borders().
 TEST(Blocks, WithHalosTooThinAreNotClosed) {
   const Balls toxin = enterotoxin();
   StageClock unused;
   for (const double reach : {2.0, 4.0}) {
-    const Surface open = surface_in_blocks(toxin, kWater, divide_into_blocks(toxin, 900), reach, unused, 1);
+    const Surface open =
+        surface_in_blocks(toxin, kWater, divide_into_blocks(toxin, 900), reach, ClipPlanes::left_out, unused, 1);
     EXPECT_FALSE(open.certificate.closed) << reach;
     EXPECT_FALSE(open.certificate.open_atoms.empty()) << reach;
   }
@@ -162,15 +220,39 @@ TEST(Blocks, WithHalosTooThinAreNotClosed) {
 
 TEST(Blocks, AreMadeOfManyAtomsAlone) {
   StageClock unused;
-  EXPECT_FALSE(compute_sums(enterotoxin(), kWater, unused).sums);
+  EXPECT_FALSE(compute_without_borders(enterotoxin(), kWater, ClipPlanes::left_out, unused).sums);
   const Balls apart = lattice(75, 75, 75, 8.0);  // 421,875 atoms that do not touch
-  const Surface spheres = compute_sums(apart, kWater, unused);
+  const Surface spheres = compute_without_borders(apart, kWater, ClipPlanes::left_out, unused);
   ASSERT_TRUE(spheres.sums);
   EXPECT_TRUE(spheres.certificate.closed);
   EXPECT_EQ(spheres.components.size(), apart.size());
   const double sphere = 4 * std::numbers::pi * kCarbon * kCarbon;
   EXPECT_NEAR(spheres.area, sphere * static_cast<double>(apart.size()), 1e-9 * spheres.area);
   EXPECT_NEAR(atom_areas(spheres).surface[200000], sphere, 1e-12 * sphere);
+}
+
+TEST(Blocks, HaveThePatchesOfTheWhole) {
+  const Balls toxin = enterotoxin();
+  for (const double probe : {1.4, 2.5}) {
+    const Surface whole = compute_surface_cpu(toxin, probe);
+    for (const std::size_t most : {3000u, 250u}) {
+      SCOPED_TRACE(::testing::Message() << "probe " << probe << ", blocks of " << most);
+      const Surface blocks = in_blocks(toxin, probe, divide_into_blocks(toxin, most), 1, ClipPlanes::listed);
+      expect_equal(blocks, whole);
+      expect_equal_patches(blocks, whole);
+      EXPECT_TRUE(blocks.borders.empty() && blocks.faces.empty() && blocks.cuts.empty());
+    }
+  }
+}
+
+// Without a probe only spheres have area.
+TEST(Blocks, HaveSpheresWithoutAProbe) {
+  const Balls toxin = enterotoxin();
+  const Surface whole = compute_surface_cpu(toxin, 0.0),
+                blocks = in_blocks(toxin, 0.0, divide_into_blocks(toxin, 900), 1, ClipPlanes::listed);
+  ASSERT_EQ(blocks.convex.size(), whole.convex.size());
+  EXPECT_FALSE(blocks.planes.empty());
+  EXPECT_TRUE(blocks.toroidal.empty() && blocks.concave.empty());
 }
 
 TEST(Blocks, HaloHoldsAllThatReaches) {

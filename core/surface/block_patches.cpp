@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copies patches with all that they refer to, table by table, so that little is in memory twice.
+#include "core/surface/block_patches.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "core/base/error.h"
+
+namespace meniscus {
+namespace {
+
+template <typename Row>
+std::uint32_t append(std::span<const Row> rows, std::vector<Row>& table) {
+  const std::size_t first = table.size();
+  if (first + rows.size() >= kNone) throw CapacityError("the surface has too many patches for one picture");
+  table.insert(table.end(), rows.begin(), rows.end());
+  return static_cast<std::uint32_t>(first);
+}
+
+class Taking {
+ public:
+  Taking(const Surface& surface, std::span<const std::uint32_t> number, std::span<const char> is_own)
+      : s_(surface), number_(number), is_own_(is_own), place_(surface.concave.size(), kNone) {}
+
+  BlockPatches run() {
+    take_convex();
+    if (s_.probe_radius > 0.0) {  // a probe of no size leaves these patches without area
+      take_concave();
+      take_toroidal();
+    }
+    return std::move(taken_);
+  }
+
+ private:
+  std::uint32_t planes(std::uint32_t first, std::uint32_t count) {
+    return append(std::span(s_.planes).subspan(first, count), taken_.planes);
+  }
+
+  void take_convex() {
+    for (ConvexPatch patch : s_.convex) {
+      if (!is_own_[patch.atom]) continue;
+      patch.atom = number_[patch.atom];
+      patch.first_plane = planes(patch.first_plane, patch.plane_count);
+      taken_.convex.push_back(patch);
+    }
+  }
+
+  void take_concave() {
+    std::vector<std::uint32_t> own;
+    for (std::uint32_t c = 0; c < place_.size(); ++c)
+      if (is_own_[first_atom(s_, s_.concave[c])]) own.push_back(c);
+    // They are in this order, but for merged probes.
+    std::ranges::stable_sort(own, {}, [this](std::uint32_t c) { return first_atom(s_, s_.concave[c]); });
+    for (const std::uint32_t c : own) {
+      ConcavePatch patch = s_.concave[c];
+      place_[c] = static_cast<std::uint32_t>(taken_.concave.size());
+      patch.first_plane = planes(patch.first_plane, patch.plane_count());
+      const std::span contacts = std::span(s_.contacts).subspan(patch.first_contact, patch.contact_count);
+      patch.first_contact = static_cast<std::uint32_t>(taken_.contacts.size());
+      for (const std::uint32_t atom : contacts) taken_.contacts.push_back(number_[atom]);
+      patch.first_cut = kNone;
+      taken_.concave.push_back(patch);
+    }
+  }
+
+  void take_toroidal() {
+    for (ToroidalPatch patch : s_.toroidal) {
+      if (!is_own_[patch.atom[0]]) continue;
+      const auto index = static_cast<std::uint32_t>(taken_.toroidal.size());
+      for (int end = 0; !patch.free() && end < 2; ++end) {
+        const std::uint32_t probe = patch.probe[end];
+        if (place_[probe] == kNone) taken_.outside.push_back({index, end, s_.concave[probe].center});
+      }
+      if (!patch.free()) patch.probe = {place_[patch.probe[0]], place_[patch.probe[1]]};
+      patch.atom = {number_[patch.atom[0]], number_[patch.atom[1]]};
+      taken_.toroidal.push_back(patch);
+    }
+  }
+
+  const Surface& s_;
+  std::span<const std::uint32_t> number_;
+  std::span<const char> is_own_;
+  std::vector<std::uint32_t> place_;  // of each of the surface's probes among the block's own
+  BlockPatches taken_;
+};
+
+// Calls visit(block, place) for the rows of all blocks, which have rising atoms in each, in the order of their atoms.
+template <typename Row, typename AtomOf, typename Visit>
+void for_each_by_atom(std::span<const std::uint32_t> block_of, std::span<const BlockPatches> blocks,
+                      std::vector<Row> BlockPatches::*rows, const AtomOf& atom_of, const Visit& visit) {
+  std::vector<std::uint32_t> next(blocks.size(), 0);
+  for (std::uint32_t a = 0; a < block_of.size(); ++a) {
+    const BlockPatches& block = blocks[block_of[a]];
+    for (std::uint32_t& n = next[block_of[a]]; n < (block.*rows).size() && atom_of(block, (block.*rows)[n]) == a; ++n)
+      visit(block_of[a], n);
+  }
+}
+
+class Joining {
+ public:
+  Joining(std::span<const std::uint32_t> block_of, std::span<BlockPatches> blocks, Surface& whole)
+      : block_of_(block_of), blocks_(blocks), whole_(whole), place_(blocks.size()) {}
+
+  std::vector<std::uint32_t> run() {
+    reserve(&BlockPatches::planes, whole_.planes);
+    join_convex();
+    join_concave();
+    for (BlockPatches& block : blocks_) block.planes = {};
+    join_toroidal();
+    return std::move(open_);
+  }
+
+ private:
+  template <typename Row>
+  void reserve(std::vector<Row> BlockPatches::*rows, std::vector<Row>& table) const {
+    std::size_t count = 0;
+    for (const BlockPatches& block : blocks_) count += (block.*rows).size();
+    table.reserve(count);
+  }
+
+  std::uint32_t planes(const BlockPatches& block, std::uint32_t first, std::uint32_t count) {
+    return append(std::span<const Plane>(block.planes).subspan(first, count), whole_.planes);
+  }
+
+  void join_convex() {
+    reserve(&BlockPatches::convex, whole_.convex);
+    const auto atom_of = [](const BlockPatches&, const ConvexPatch& patch) { return patch.atom; };
+    for_each_by_atom(block_of_, blocks_, &BlockPatches::convex, atom_of, [&](std::uint32_t b, std::uint32_t n) {
+      ConvexPatch patch = blocks_[b].convex[n];
+      patch.first_plane = planes(blocks_[b], patch.first_plane, patch.plane_count);
+      whole_.convex.push_back(patch);
+    });
+    for (BlockPatches& block : blocks_) block.convex = {};
+  }
+
+  void join_concave() {
+    reserve(&BlockPatches::concave, whole_.concave);
+    reserve(&BlockPatches::contacts, whole_.contacts);
+    for (std::size_t b = 0; b < blocks_.size(); ++b) place_[b].resize(blocks_[b].concave.size());
+    const auto atom_of = [](const BlockPatches& block, const ConcavePatch& patch) {
+      return block.contacts[patch.first_contact];
+    };
+    for_each_by_atom(block_of_, blocks_, &BlockPatches::concave, atom_of, [&](std::uint32_t b, std::uint32_t n) {
+      const BlockPatches& block = blocks_[b];
+      ConcavePatch patch = block.concave[n];
+      place_[b][n] = append(std::span<const ConcavePatch>(&patch, 1), whole_.concave);
+      ConcavePatch& joined = whole_.concave.back();
+      joined.first_plane = planes(block, patch.first_plane, patch.plane_count());
+      joined.first_contact =
+          append(std::span<const std::uint32_t>(block.contacts).subspan(patch.first_contact, patch.contact_count),
+                 whole_.contacts);
+    });
+    for (BlockPatches& block : blocks_) {
+      block.concave = {};
+      block.contacts = {};
+    }
+  }
+
+  void join_toroidal() {
+    for (std::size_t b = 0; b < blocks_.size(); ++b)
+      for (ToroidalPatch& patch : blocks_[b].toroidal)
+        for (std::uint32_t& probe : patch.probe)
+          if (probe != kNone) probe = place_[b][probe];
+    place_ = {};
+    find_outside();
+    reserve(&BlockPatches::toroidal, whole_.toroidal);
+    const auto atom_of = [](const BlockPatches&, const ToroidalPatch& patch) { return patch.atom[0]; };
+    for_each_by_atom(block_of_, blocks_, &BlockPatches::toroidal, atom_of, [&](std::uint32_t b, std::uint32_t n) {
+      append(std::span<const ToroidalPatch>(&blocks_[b].toroidal[n], 1), whole_.toroidal);
+    });
+    for (BlockPatches& block : blocks_) block.toroidal = {};
+  }
+
+  // Probes that touch atoms of several blocks, by their centres.
+  void find_outside() {
+    const auto center = [this](std::uint32_t c) {
+      const glm::dvec3& x = whole_.concave[c].center;
+      return std::tuple(x.x, x.y, x.z);
+    };
+    std::vector<std::uint32_t> shared;
+    for (std::uint32_t c = 0; c < whole_.concave.size(); ++c) {
+      const ConcavePatch& patch = whole_.concave[c];
+      const std::uint32_t* const contact = &whole_.contacts[patch.first_contact];
+      if (std::any_of(contact, contact + patch.contact_count,
+                      [&](std::uint32_t a) { return block_of_[a] != block_of_[*contact]; }))
+        shared.push_back(c);
+    }
+    std::ranges::sort(shared, {}, center);
+    for (BlockPatches& block : blocks_)
+      for (const OutsideEnd& outside : std::exchange(block.outside, {})) {
+        ToroidalPatch& patch = block.toroidal[outside.patch];
+        const std::tuple wanted(outside.probe.x, outside.probe.y, outside.probe.z);
+        const auto found = std::ranges::lower_bound(shared, wanted, {}, center);
+        if (found != shared.end() && center(*found) == wanted)
+          patch.probe[static_cast<std::size_t>(outside.end)] = *found;
+        else
+          open_.push_back(patch.atom[0]);
+      }
+  }
+
+  std::span<const std::uint32_t> block_of_;
+  std::span<BlockPatches> blocks_;
+  Surface& whole_;
+  std::vector<std::vector<std::uint32_t>> place_;  // of each block's probes in the whole
+  std::vector<std::uint32_t> open_;
+};
+
+}  // namespace
+
+BlockPatches take_patches(const Surface& surface, std::span<const std::uint32_t> number, std::span<const char> is_own) {
+  return Taking(surface, number, is_own).run();
+}
+
+std::vector<std::uint32_t> join_patches(std::span<const std::uint32_t> block_of, std::span<BlockPatches> blocks,
+                                        Surface& whole) {
+  return Joining(block_of, blocks, whole).run();
+}
+
+}  // namespace meniscus
