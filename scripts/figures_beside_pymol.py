@@ -14,10 +14,11 @@ import shlex
 import shutil
 import subprocess
 import sys
-import time
 import urllib.request
 
 from PIL import Image, ImageDraw, ImageFont
+
+from measured import measured
 
 WIDTH, HEIGHT = 1280, 960
 STRUCTURES = os.environ.get("MENISCUS_STRUCTURES", "")
@@ -181,25 +182,6 @@ def statements(script):
     return len([part for line in script.splitlines() for part in re.split(r"; +", line) if part.strip()])
 
 
-def measured(command, log, cwd):
-    """Wall clock and CPU seconds, or nothing where it was given up."""
-    begin = time.perf_counter()
-    with open(log, "w", encoding="utf-8") as file:
-        process = subprocess.Popen(command, cwd=cwd, stdout=file, stderr=subprocess.STDOUT)
-        while True:
-            done, status, usage = os.wait4(process.pid, os.WNOHANG)
-            if done:
-                break
-            if time.perf_counter() - begin > PATIENCE:
-                process.kill()
-                os.wait4(process.pid, 0)
-                return None
-            time.sleep(0.02)
-    if status:
-        sys.exit(f"figures_beside_pymol: error: {' '.join(command)} ended with {os.waitstatus_to_exitcode(status)}; see {log}")
-    return time.perf_counter() - begin, usage.ru_utime
-
-
 def structure(name, folder):
     """Its path: Debian's, the user's, or that of the PDB."""
     if os.path.isabs(name):
@@ -268,7 +250,7 @@ def main(program, folder):
         ours, theirs, camera = base + "-meniscus.png", base + "-pymol.png", base + "-camera.json"
         size = [] if "--width" in options else ["--size", f"{WIDTH}x{HEIGHT}"]
         here = measured([program, "render", molecule, "-o", ours, *shlex.split(options), *size, "--device", "cpu", "--force", "-q",
-                         "--save-camera", camera], base + "-meniscus.log", folder)
+                         "--save-camera", camera], log=base + "-meniscus.log", cwd=folder)
         with Image.open(ours) as picture:
             width, height = picture.size
         if os.path.exists(theirs):
@@ -277,11 +259,11 @@ def main(program, folder):
                 TAIL.format(width=width, height=height, picture=theirs))
         with open(base + "-pymol.py", "w", encoding="utf-8") as file:
             file.write(text)
-        there = measured(["pymol", "-cqr", base + "-pymol.py"], base + "-pymol.log", folder)
+        there = measured(["pymol", "-cqr", base + "-pymol.py"], log=base + "-pymol.log", patience=PATIENCE, cwd=folder)
         if there and not os.path.exists(theirs):
             sys.exit(f"figures_beside_pymol: error: PyMOL made no {theirs}; see {base}-pymol.log")
-        told = f"{there[1]:.1f} ({there[0]:.1f})" if there else f"not within {PATIENCE:.0f} s"
-        print(f"| {title} | {here[1]:.1f} ({here[0]:.1f}) | {told} | {statements(script)} | {differs} |", flush=True)
+        told = f"{there.busy:.1f} ({there.wall:.1f})" if there else f"not within {PATIENCE:.0f} s"
+        print(f"| {title} | {here.busy:.1f} ({here.wall:.1f}) | {told} | {statements(script)} | {differs} |", flush=True)
         thumbnails += [thumbnail(ours, f"{number}. {title}: Meniscus"), thumbnail(theirs if there else None, "PyMOL")]
     for first in range(0, len(thumbnails), 8):
         part = thumbnails[first:first + 8]
