@@ -166,9 +166,7 @@ class Bundle : protected LightedScene {
     return select(met, real3(gather(colors, at), gather(colors + 1, at), gather(colors + 2, at)), real3(0.0f));
   }
 
-  bool is_in_block() const {
-    return origin_.x + kBundleEdge <= view.size.x && origin_.y + kBundleEdge <= view.size.y;
-  }
+  bool is_in_block() const { return origin_.x + kBundleEdge <= view.size.x && origin_.y + kBundleEdge <= view.size.y; }
   std::size_t place_in_block(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(view.size.x) + static_cast<std::size_t>(x);
   }
