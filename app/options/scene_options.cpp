@@ -279,10 +279,10 @@ void SceneOptions::take(const std::vector<std::string>& named) {
   const std::vector<SceneSetting> settings = read_scene_file(named), typed_by_key = typed_settings();
   for (const Property* property : properties()) {
     if (!is_scene_value(*property)) continue;
-    const bool is_overruled = std::ranges::any_of(properties(), [&](const Property* other) {
+    const bool is_overruled = !typed(property->key) && std::ranges::any_of(properties(), [&](const Property* other) {
+      if (other->excluded.empty() || !has_option(*other, bit_)) return false;
       const std::vector<std::string> keys = parted(other->excluded);
-      return has_option(*other, bit_) && typed(other->key) && !typed(property->key) &&
-             std::ranges::find(keys, property->key) != keys.end();
+      return std::ranges::find(keys, property->key) != keys.end() && typed(other->key);
     });
     for (const SceneSetting& setting : settings)
       if (setting.property == property && !is_overruled) take_setting(setting);

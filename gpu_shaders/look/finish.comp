@@ -19,6 +19,8 @@ float shade_depth_or_nothing(ivec2 pixel) {
   return in_block(pixel) ? uintBitsToFloat(texelFetch(shade_texels, 2 * index_of(pixel) + 1).x) : kNothing;
 }
 
+vec3 shade_seen_at(ivec2 pixel, float depth) { return seen_at(place_of(pixel), depth, pixel_size_at(depth)); }
+
 #include "gpu_shaders/ray_cast/sheen.glsl"
 #include "gpu_shaders/look/finish.glsl"
 

@@ -3,13 +3,14 @@
 //
 // GLSL and, as the body of a struct, C++: see view_space.glsl. The includer provides `params` of FinishParameters,
 // shade_depth_or_nothing() of a pixel, which may lie outside of the block, and visibility_at() where that met something:
-// both of the sample whose shade this one takes.
+// both of the sample whose shade this one takes; and shade_seen_at(), seen_at() of a pixel at that depth.
 
 // Mean over 4 x 4 pixels, as a square of 5 x 5 whose rim counts half; pixels of other surfaces do not count, unless there
 // are no others.
 GEOMETRY real mean_visibility(pixel_row pixel, real depth) {
   real3 p = position_at(pixel, depth);
-  real3 normal = facing(hit_normal_at(pixel), to_viewer_at(p));
+  real3 normal = turned_over(facing(hit_normal_at(pixel), to_viewer_at(p)));
+  p = turned_over(p);
   real tolerance = 0.3 + 2.0 * pixel_size_at(depth);
   real sum = real(1e-9);
   real weights = real(1e-9);
@@ -18,7 +19,7 @@ GEOMETRY real mean_visibility(pixel_row pixel, real depth) {
       pixel_row other = pixel + ivec2(x, y);
       real other_depth = shade_depth_or_nothing(other);
       truth counts = other_depth != real(kNothing);
-      real off_plane = abs(dot(normal, position_at(other, other_depth) - p));
+      real off_plane = abs(dot(normal, shade_seen_at(other, other_depth) - p));
       float in_square = (x * x == 4 ? 0.5 : 1.0) * (y * y == 4 ? 0.5 : 1.0);
       real weight = in_square * max(1.0 - off_plane / tolerance, 1e-5);
       sum += select(counts, weight * visibility_at(other), real(0.0));

@@ -19,42 +19,38 @@ GEOMETRY integer pattern(integer2 pixel) {
   return (x & 1) << 3 | (pixel.y & 1) << 2 | (x & 2) | (pixel.y & 2) >> 1;
 }
 
-// What is some pixels on from a pixel.
-struct Occluder {
-  truth met;
-  real3 position;
-};
-
-GEOMETRY Occluder occluder_at(pixel_row pixel, real2 way) {
+// What is some pixels on from a pixel: where it is seen, in pixels from the picture's middle, and its depth.
+GEOMETRY real3 occluder_at(pixel_row pixel, real2 way) {
   integer2 texel = integer2(round((place_of(pixel) + way) * (1.0 / occlusion.texel_edge) + occlusion.map_middle));
-  real depth = map_depth_or_nothing(texel);
-  Occluder occluder;
-  occluder.met = depth != real(kNothing);
-  occluder.position = position_seen_at((real2(texel) - occlusion.map_middle) * occlusion.texel_edge, depth);
+  real2 place = (real2(texel) - occlusion.map_middle) * occlusion.texel_edge;
+  real3 occluder = real3(place.x, place.y, map_depth_or_nothing(texel));
   if (occlusion.texel_edge == 1.0) return occluder;
   truth is_near = length(way) < occlusion.near_reach;
   if (!some(is_near)) return occluder;
   integer2 other = pixel + integer2(round(way));
-  real near_depth = depth_or_nothing(other);
-  occluder.met = (is_near && near_depth != real(kNothing)) || (!is_near && occluder.met);
-  occluder.position = select(is_near, position_at(other, near_depth), occluder.position);
-  return occluder;
+  place = place_of(other);
+  return select(is_near, real3(place.x, place.y, depth_or_nothing(other)), occluder);
 }
 
-// Cosine of the horizon, seen from p, on the way along `direction`, at least `lowest`.
+// Cosine of the horizon, seen from p, on the way along `direction`, at least `lowest`; in the picture's axes.
 GEOMETRY real horizon(pixel_row pixel, real3 p, real3 to_viewer, real2 direction, real reach, real offset, real lowest) {
-  real range = reach * pixel_size_at(-p.z);
-  real highest = lowest;
+  // All are fetched first: each takes its time, but they do not wait for each other.
+  real3 occluder[kStepCount];
   for (int k = 0; k < kStepCount; ++k) {
     // Closer steps near by, where small clefts are.
     real share = (float(k) + offset) / float(kStepCount);
-    Occluder occluder = occluder_at(pixel, direction * max(share * share * reach, float(k) + 1.0));
-    real3 to_other = occluder.position - p;
+    occluder[k] = occluder_at(pixel, direction * max(share * share * reach, float(k) + 1.0));
+  }
+  real range = reach * pixel_size_at(p.z);
+  real highest = lowest;
+  for (int k = 0; k < kStepCount; ++k) {
+    real depth = occluder[k].z;
+    real3 to_other = seen_at(real2(occluder[k].x, occluder[k].y), depth, pixel_size_at(depth)) - p;
     real distance = length(to_other);
     // What is far away shades less and less; a step at the radius would show as a rim.
     real weight = clamp((1.0 - distance / range) / 0.6, 0.0, 1.0);
     real cosine = mix(lowest, dot(to_other, to_viewer) / max(distance, 1e-6), weight);
-    highest = select(occluder.met, max(highest, cosine), highest);
+    highest = select(depth != real(kNothing), max(highest, cosine), highest);
   }
   return highest;
 }
@@ -83,8 +79,10 @@ GEOMETRY real sky_visibility(pixel_row pixel, real depth) {
     n = select(dot(in_slice, projected) < 0.0, -n, n);
     real offset = (real((place * 7 + s * 5) & 15) + 0.5) / 16.0;
     real2 on_picture = real2(direction.x, -direction.y);
-    real ahead = horizon(pixel, p, to_viewer, on_picture, reach, offset, cos(n + 0.5 * kPi));
-    real behind = horizon(pixel, p, to_viewer, -on_picture, reach, offset, cos(n - 0.5 * kPi));
+    real3 seen_from = turned_over(p);
+    real3 seen_viewer = turned_over(to_viewer);
+    real ahead = horizon(pixel, seen_from, seen_viewer, on_picture, reach, offset, cos(n + 0.5 * kPi));
+    real behind = horizon(pixel, seen_from, seen_viewer, -on_picture, reach, offset, cos(n - 0.5 * kPi));
     real slice_seen = length_projected * (arc(acos(clamp(ahead, -1.0, 1.0)), n) + arc(-acos(clamp(behind, -1.0, 1.0)), n));
     real slice_open = length_projected * (cos(n) + n * sin(n));
     truth counts = length_projected >= 1e-4;

@@ -16,10 +16,14 @@ GEOMETRY real pixel_size_at(real depth) {
   return view.pixel_size * (depth / view.eye_distance);
 }
 
-// Of what is seen so many pixels right of and below the picture's middle.
+// From a picture's axes, which go right, down and away from the viewer, to the camera's, and back.
+GEOMETRY real3 turned_over(real3 v) { return real3(v.x, -v.y, -v.z); }
+
+// In the picture's axes: what is seen so many pixels right of and below its middle, where a pixel has this size.
+GEOMETRY real3 seen_at(real2 place, real depth, real size) { return real3(place.x * size, place.y * size, depth); }
+
 GEOMETRY real3 position_seen_at(real2 place, real depth) {
-  real2 offset = place * pixel_size_at(depth);
-  return real3(offset.x, -offset.y, -depth);
+  return turned_over(seen_at(place, depth, pixel_size_at(depth)));
 }
 
 // From the picture's middle, in pixels.

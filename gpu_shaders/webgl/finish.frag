@@ -20,6 +20,8 @@ float shade_depth_or_nothing(ivec2 pixel) {
   return in_block(pixel) ? uintBitsToFloat(texelFetch(shade_texels, pixel, 0).y) : kNothing;
 }
 
+vec3 shade_seen_at(ivec2 pixel, float depth) { return seen_at(place_of(pixel), depth, pixel_size_at(depth)); }
+
 int mark_at(ivec2 pixel) { return int(texelFetch(what_texels, pixel, 0).z); }
 
 #include "gpu_shaders/ray_cast/sheen.glsl"

@@ -427,12 +427,19 @@ void CpuRenderer::find_shade(BlockSamples& samples, int sample, const Look& look
                              Interruption& interruption) {
   task.visibility = samples.visibility.data();
   task.shade_depth = samples.depth.data();
-  if (look.ambient_occlusion == 0.0f || look.traces_sky()) return;
-  if (sample == shade_sample(sample)) {
-    samples.shade_depth = samples.depth;
-    for_each_until(interruption, task.view.size.y, [&](int y) { kernels_.occlude_row(task, y); });
-  }
+  if (look.ambient_occlusion == 0.0f) return;
+  samples.shade_size.resize(samples.depth.size());
+  task.shade_size = samples.shade_size.data();
+  const auto for_each_row = [&](const auto& kernel) {
+    for_each_until(interruption, task.view.size.y, [&](int y) { kernel(task, y); });
+  };
+  if (look.traces_sky()) return for_each_row(kernels_.measure_row);
+  const bool is_new = sample == shade_sample(sample);
+  if (is_new) samples.shade_depth = samples.depth;
   task.shade_depth = samples.shade_depth.data();
+  if (!is_new) return;
+  for_each_row(kernels_.measure_row);
+  for_each_row(kernels_.occlude_row);
 }
 
 void CpuRenderer::look_at_front(int sample, LaneLook task, const RenderSettings& settings, Interruption& interruption) {

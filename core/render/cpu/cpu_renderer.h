@@ -68,6 +68,7 @@ class CpuRenderer final : public SurfaceRenderer {
     std::vector<glm::vec4> color, over;
     std::vector<float> depth, normal[3], mark, visibility;
     std::vector<float> shade_depth;  ///< depth of the sample whose visibility it is, if several share it
+    std::vector<float> shade_size;   ///< LaneLook::shade_size
 
     void resize(std::size_t pixel_count, bool has_marks, bool has_layers);
     LaneSamples lanes(bool has_visibility);

@@ -174,6 +174,7 @@ struct LaneLook {
   LaneSamples samples;
   const float* shade_map = nullptr;    ///< depths of the whole picture, for occlude_row
   const float* shade_depth = nullptr;  ///< of the sample whose visibility this is
+  float* shade_size = nullptr;         ///< of a pixel at that depth, Å
   float* visibility = nullptr;
   glm::vec4* sums = nullptr;  ///< gets the finished colours added
   float* ink = nullptr;       ///< gets the share of each pixel that lines cover; or nullptr
@@ -190,8 +191,9 @@ struct LaneKernels {
   /// What points, relative to the pivot, see of light.sky, all of it; normals towards the solvent.
   void (*see_sky)(const LaneLight& light, const glm::vec3* points, const glm::vec3* normals, float* seen,
                   std::uint32_t count);
+  void (*measure_row)(const LaneLook& look, int y);  ///< what pixels measure at their shade's depth, into shade_size
   void (*occlude_row)(const LaneLook& look, int y);  ///< what hits see of the sky, into visibility
-  void (*finish_row)(const LaneLook& look, int y);   ///< needs the visibility of two rows around
+  void (*finish_row)(const LaneLook& look, int y);   ///< needs the visibility and size of two rows around
 };
 
 /// For 4, 8 (AVX2) and 16 (AVX-512) lanes; nullptr where this processor cannot run them.

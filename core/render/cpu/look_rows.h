@@ -11,6 +11,8 @@ using glm::ivec2;
 using glm::vec3;
 using kernel::kNothing;
 
+inline constexpr int kShadeReach = 2;  // pixels: of mean_visibility
+
 /// A cast block as the shared sources want to see it. kInside: all pixels that they ask for, the map's aside, lie in
 /// it.
 template <bool kInside>
@@ -41,6 +43,11 @@ struct LookedAtBlock {
     return gather(look_.shade_map, select(inside, texel.y * integer(size.x) + texel.x, integer(size.x * size.y)));
   }
   real shade_depth_or_nothing(pixel_row pixel) { return fetch(look_.shade_depth, pixel); }
+  real3 shade_seen_at(pixel_row pixel, real depth) {
+    if constexpr (!kInside) return seen_at(place_of(pixel), depth, pixel_size_at(depth));
+    const real2 place(across_[pixel.x - first_across_], place_of(pixel).y);
+    return seen_at(place, depth, load(look_.shade_size + place_in_block(pixel)));
+  }
   real visibility_at(pixel_row pixel) { return fetch(look_.visibility, pixel); }
   integer mark_at(pixel_row pixel) { return to_whole(fetch(look_.samples.mark, pixel)); }
   real3 hit_normal_at(pixel_row pixel) {
@@ -126,6 +133,8 @@ struct LookedAtBlock {
 
   void finish(pixel_row pixel) {
     const real depth = depth_or_nothing(pixel);
+    first_across_ = pixel.x - kShadeReach;
+    for (int n = 0; n <= 2 * kShadeReach; ++n) across_[n] = place_of(pixel_row{first_across_ + n, pixel.y}).x;
     const truth met = depth != real(kNothing);
     const bool has_ink = params.widest_line > 0.0f && !nothing_to_ink(pixel);
     if (!some(met) && !has_ink && !look_.samples.over) return;
@@ -156,6 +165,11 @@ struct LookedAtBlock {
         for (int n = 0; n < count_of(pixel); ++n) look_.ink[first + n] = lane(covered, n);
     }
     add(pixel, {color.x, color.y, color.z, alpha});
+  }
+
+  void measure(pixel_row pixel) {
+    const real size = pixel_size_at(shade_depth_or_nothing(pixel));
+    for (int n = 0; n < count_of(pixel); ++n) look_.shade_size[place_in_block(pixel) + n] = lane(size, n);
   }
 
   void occlude(pixel_row pixel) {
@@ -200,6 +214,9 @@ struct LookedAtBlock {
     store(more, all);
     for (int n = 0; n < count_of(pixel); ++n) sums[n] = all[n];
   }
+
+  int first_across_ = 0;
+  real across_[2 * kShadeReach + 1];  // of the pixels that a packet's shade is made of: place_of().x
 };
 
 /// Calls look(block, pixels) for each packet of a row; of pixels that are at least `reach` from the block's borders
@@ -217,13 +234,16 @@ void for_each_packet(const LaneLook& task, int y, int reach, const Look& look) {
       look(outer, pixel_row{x, y});
 }
 
+inline void measure_row(const LaneLook& task, int y) {
+  for_each_packet(task, y, 0, [](auto& block, pixel_row pixel) { block.measure(pixel); });
+}
+
 inline void occlude_row(const LaneLook& task, int y) {
   const int reach = 0;  // the block's own depths are asked for anywhere
   for_each_packet(task, y, reach, [](auto& block, pixel_row pixel) { block.occlude(pixel); });
 }
 
 inline void finish_row(const LaneLook& task, int y) {
-  constexpr int kShadeReach = 2;  // of mean_visibility
   const int ink_reach = LookedAtBlock<false>(task).farthest_neighbor();
   const int reach = ink_reach > kShadeReach ? ink_reach : kShadeReach;
   for_each_packet(task, y, reach, [](auto& block, pixel_row pixel) { block.finish(pixel); });

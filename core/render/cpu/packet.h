@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include <glm/vec2.hpp>
@@ -100,6 +101,7 @@ inline truth operator<(integer a, integer b) { return Ints(a.v < b.v); }
 inline truth operator==(integer a, integer b) { return Ints(a.v == b.v); }
 inline truth operator!=(integer a, integer b) { return Ints(a.v != b.v); }
 
+inline natural operator+(natural a, natural b) { return a.v + b.v; }
 inline truth operator<(natural a, natural b) { return Ints(a.v < b.v); }
 inline truth operator==(natural a, natural b) { return Ints(a.v == b.v); }
 inline truth operator!=(natural a, natural b) { return Ints(a.v != b.v); }
@@ -331,6 +333,7 @@ inline void store(real a, float* values) { __builtin_memcpy(values, &a.v, sizeof
 struct real4 {
   real x, y, z, w;
 };
+inline real4 operator+(const real4& a, const real4& b) { return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w}; }
 
 #if MENISCUS_LANES == 8 && defined(__x86_64__)
 /// Four packets of which each half is a row of a matrix, as its columns.
@@ -344,36 +347,38 @@ inline void turn(__m256 (&rows)[4]) {
 }
 #endif
 
-/// Of kLanes vectors behind each other.
-inline real4 load(const glm::vec4* values) {
+/// Of kLanes vectors: rows of four, each `pitch` vectors behind the last.
+inline real4 load(const glm::vec4* values, std::ptrdiff_t pitch = 4) {
 #if MENISCUS_LANES == 8 && defined(__x86_64__)
   __m256 rows[4];
   for (int n = 0; n < 4; ++n)
     rows[n] =
-        _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(&values[n].x)), _mm_loadu_ps(&values[n + 4].x), 1);
+        _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(&values[n].x)), _mm_loadu_ps(&values[n + pitch].x), 1);
   turn(rows);
   return {Floats(rows[0]), Floats(rows[1]), Floats(rows[2]), Floats(rows[3])};
 #else
   real4 result;
   for (int n = 0; n < kLanes; ++n) {
-    result.x.v[n] = values[n].x;
-    result.y.v[n] = values[n].y;
-    result.z.v[n] = values[n].z;
-    result.w.v[n] = values[n].w;
+    const glm::vec4& value = values[n / 4 * pitch + n % 4];
+    result.x.v[n] = value.x;
+    result.y.v[n] = value.y;
+    result.z.v[n] = value.z;
+    result.w.v[n] = value.w;
   }
   return result;
 #endif
 }
-inline void store(const real4& a, glm::vec4* values) {
+inline void store(const real4& a, glm::vec4* values, std::ptrdiff_t pitch = 4) {
 #if MENISCUS_LANES == 8 && defined(__x86_64__)
   __m256 rows[4] = {a.x.v, a.y.v, a.z.v, a.w.v};
   turn(rows);
   for (int n = 0; n < 4; ++n) {
     _mm_storeu_ps(&values[n].x, _mm256_castps256_ps128(rows[n]));
-    _mm_storeu_ps(&values[n + 4].x, _mm256_extractf128_ps(rows[n], 1));
+    _mm_storeu_ps(&values[n + pitch].x, _mm256_extractf128_ps(rows[n], 1));
   }
 #else
-  for (int n = 0; n < kLanes; ++n) values[n] = glm::vec4(lane(a.x, n), lane(a.y, n), lane(a.z, n), lane(a.w, n));
+  for (int n = 0; n < kLanes; ++n)
+    values[n / 4 * pitch + n % 4] = glm::vec4(lane(a.x, n), lane(a.y, n), lane(a.z, n), lane(a.w, n));
 #endif
 }
 

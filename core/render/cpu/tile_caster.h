@@ -13,9 +13,11 @@ inline constexpr int kBundleEdge = 4;  // pixels
 inline constexpr int kPixelPackets = kBundleEdge * kBundleEdge / kLanes;
 inline constexpr int kMostPackets = kPixelPackets * LaneTile::kMostSamples;
 
-// Places of a bundle's pixels, squares first: 2 x 2, 4 x 2, 4 x 4.
-inline constexpr int kPixelX[16] = {0, 1, 0, 1, 2, 3, 2, 3, 0, 1, 0, 1, 2, 3, 2, 3};
-inline constexpr int kPixelY[16] = {0, 0, 1, 1, 0, 0, 1, 1, 2, 2, 3, 3, 2, 2, 3, 3};
+inline constexpr int kPacketRows = kLanes / kBundleEdge;
+
+// Places of a bundle's pixels: row by row, for that is how pictures have them.
+inline constexpr int kPixelX[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
+inline constexpr int kPixelY[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
 
 /// The rays of a bundle and their nearest hits so far.
 class Bundle : protected LightedScene {
@@ -31,19 +33,16 @@ class Bundle : protected LightedScene {
 
   void write() {
     for (int v = 0; v < kPixelPackets; ++v) {
-      const Pixels to = pixels(v);
-      real sums[4] = {0.0f, 0.0f, 0.0f, 0.0f};
+      real4 sums{0.0f, 0.0f, 0.0f, 0.0f};
       for (int s = 0; s < tile_.sample_count; ++s) {
         const int n = s * kPixelPackets + v;
         const Shaded shaded = shade(n);
-        sums[0] += shaded.color.x;
-        sums[1] += shaded.color.y;
-        sums[2] += shaded.color.z;
-        sums[3] += select(shaded.met, real(1.0f), real(0.0f));
-        if (s == 0 && tile_.hits) write_hits(to, rays_[n], shaded);
-        if (tile_.samples.color) write_sample(to, rays_[n], shaded);
+        const real alpha = select(shaded.met, real(1.0f), real(0.0f));
+        sums = sums + real4{shaded.color.x, shaded.color.y, shaded.color.z, alpha};
+        if (s == 0 && tile_.hits) write_hits(v, rays_[n], shaded);
+        if (tile_.samples.color) write_sample(v, rays_[n], shaded, alpha);
       }
-      if (tile_.sums) add_sums(to, sums);
+      if (tile_.sums) add_sums(v, sums);
     }
   }
 
@@ -123,6 +122,9 @@ class Bundle : protected LightedScene {
     shaded.met = rays.primitive != natural(kNoPrimitive);
     shaded.normal = real3(0.0f);
     shaded.atom = kNoPrimitive;
+    shaded.color = real3(0.0f);
+    shaded.visibility = 1.0f;
+    if (!some(shaded.met)) return shaded;
     for (uint left = bits(shaded.met); left != 0;) {
       const uint index = lane(rays.primitive, std::countr_zero(left));
       const truth here = rays.primitive == natural(index);
@@ -158,65 +160,72 @@ class Bundle : protected LightedScene {
   }
 
   real3 atom_albedo(truth met, natural kind, natural atom) const {
-    real3 result(0.0f);
-    for (uint left = bits(met); left != 0; left &= left - 1) {
-      const int n = std::countr_zero(left);
-      const vec4& color = scene_.colors[params.color_by_kind != 0u ? params.atom_count + lane(kind, n) : lane(atom, n)];
-      result.x.v[n] = color.x;
-      result.y.v[n] = color.y;
-      result.z.v[n] = color.z;
-    }
-    return result;
+    const natural color = params.color_by_kind != 0u ? natural(params.atom_count) + kind : atom;
+    const integer at = integer(Ints(select(met, color, natural(0u)).v)) << 2;
+    const float* const colors = &scene_.colors[0].x;
+    return select(met, real3(gather(colors, at), gather(colors + 1, at), gather(colors + 2, at)), real3(0.0f));
   }
 
-  /// Lanes of a packet whose pixels are in the block, and their places there.
-  struct Pixels {
-    int count = 0;
-    int lane[kLanes];
-    std::size_t at[kLanes];
-  };
+  bool is_in_block() const { return origin_.x + kBundleEdge <= view.size.x && origin_.y + kBundleEdge <= view.size.y; }
+  std::size_t place_in_block(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(view.size.x) + static_cast<std::size_t>(x);
+  }
+  /// Of a packet's first pixel.
+  std::size_t place_in_block(int v) const { return place_in_block(origin_.x, origin_.y + v * kPacketRows); }
 
-  Pixels pixels(int v) const {
-    Pixels result;
+  /// Calls write(lane, place) for the pixels of a packet that are in the block.
+  template <typename Write>
+  void for_each_pixel(int v, const Write& write) const {
     for (int n = 0; n < kLanes; ++n) {
       const int x = origin_.x + kPixelX[v * kLanes + n], y = origin_.y + kPixelY[v * kLanes + n];
-      if (x >= view.size.x || y >= view.size.y) continue;
-      result.lane[result.count] = n;
-      result.at[result.count++] = static_cast<std::size_t>(y) * static_cast<std::size_t>(view.size.x) + x;
-    }
-    return result;
-  }
-
-  void add_sums(const Pixels& to, const real (&sums)[4]) const {
-    for (int i = 0; i < to.count; ++i) {
-      const int n = to.lane[i];
-      tile_.sums[to.at[i]] += vec4(lane(sums[0], n), lane(sums[1], n), lane(sums[2], n), lane(sums[3], n));
+      if (x < view.size.x && y < view.size.y) write(n, place_in_block(x, y));
     }
   }
 
-  void write_hits(const Pixels& to, const Rays& rays, const Shaded& shaded) const {
-    for (int i = 0; i < to.count; ++i) {
-      const int n = to.lane[i];
-      tile_.hits[to.at[i]] = {
+  void put_pixels(real a, int v, float* values) const {
+    if (!is_in_block()) return for_each_pixel(v, [&](int n, std::size_t at) { values[at] = lane(a, n); });
+    float lanes[kLanes];
+    store(a, lanes);
+    for (int row = 0; row < kPacketRows; ++row)
+      __builtin_memcpy(values + place_in_block(v) + static_cast<std::size_t>(row) * view.size.x,
+                       lanes + row * kBundleEdge, kBundleEdge * sizeof(float));
+  }
+
+  void put_pixels(const real4& a, int v, vec4* values) const {
+    if (is_in_block()) return store(a, values + place_in_block(v), view.size.x);
+    for_each_pixel(
+        v, [&](int n, std::size_t at) { values[at] = vec4(lane(a.x, n), lane(a.y, n), lane(a.z, n), lane(a.w, n)); });
+  }
+
+  void add_sums(int v, const real4& sums) const {
+    if (is_in_block()) {
+      vec4* const first = tile_.sums + place_in_block(v);
+      return store(load(first, view.size.x) + sums, first, view.size.x);
+    }
+    for_each_pixel(v, [&](int n, std::size_t at) {
+      tile_.sums[at] += vec4(lane(sums.x, n), lane(sums.y, n), lane(sums.z, n), lane(sums.w, n));
+    });
+  }
+
+  void write_hits(int v, const Rays& rays, const Shaded& shaded) const {
+    for_each_pixel(v, [&](int n, std::size_t at) {
+      tile_.hits[at] = {
           lane_of(shaded.normal, n), lane(rays.t, n), lane(rays.primitive, n), lane(shaded.atom, n), 0u, 0u};
-    }
+    });
   }
 
-  void write_sample(const Pixels& to, const Rays& rays, const Shaded& shaded) const {
-    const real depth = select(shaded.met, depth_at(rays.d, rays.t), real(kernel::kNothing));
-    const real alpha = select(shaded.met, real(1.0f), real(0.0f));
+  void write_sample(int v, const Rays& rays, const Shaded& shaded, real alpha) const {
     const LaneSamples& samples = tile_.samples;
-    for (int i = 0; i < to.count; ++i) {
-      const int n = to.lane[i];
-      const std::size_t at = to.at[i];
-      samples.color[at] = vec4(lane_of(shaded.color, n), lane(alpha, n));
-      samples.depth[at] = lane(depth, n);
-      if (samples.visibility) samples.visibility[at] = lane(shaded.visibility, n);
-      samples.normal[0][at] = lane(shaded.normal.x, n);
-      samples.normal[1][at] = lane(shaded.normal.y, n);
-      samples.normal[2][at] = lane(shaded.normal.z, n);
-      if (samples.mark) samples.mark[at] = lane(alpha, n) > 0.0f ? scene_.marks[lane(shaded.atom, n)] : 0.0f;
-    }
+    put_pixels(real4{shaded.color.x, shaded.color.y, shaded.color.z, alpha}, v, samples.color);
+    put_pixels(select(shaded.met, depth_at(rays.d, rays.t), real(kernel::kNothing)), v, samples.depth);
+    put_pixels(shaded.normal.x, v, samples.normal[0]);
+    put_pixels(shaded.normal.y, v, samples.normal[1]);
+    put_pixels(shaded.normal.z, v, samples.normal[2]);
+    if (samples.visibility) put_pixels(shaded.visibility, v, samples.visibility);
+    if (!samples.mark) return;
+    real mark(0.0f);
+    if (some(shaded.met)) mark = gather(scene_.marks, integer(Ints(select(shaded.met, shaded.atom, natural(0u)).v)));
+    put_pixels(select(shaded.met, mark, real(0.0f)), v, samples.mark);
   }
 
   const LaneTile& tile_;
