@@ -10,7 +10,6 @@
 // and map_depth_or_nothing() of a texel of the map, which may lie outside.
 
 const int kSliceCount = 2;
-const int kStepCount = 6;
 const float kPi = 3.14159265;
 
 // Places of 0 to 15 in a block such that each row, column and quarter has small and large ones (Bayer 1973).

@@ -8,6 +8,8 @@ struct DepthParameters {
   uint has_marks;
 };
 
+const int kStepCount = 6;  // how often each way from a pixel is looked at for what hides the sky
+
 // The whole picture's depths, in texels of one or more pixels; its middle is the picture's.
 struct OcclusionParameters {
   vec2 map_middle;      // texels from the middle of the first

@@ -10,6 +10,7 @@ namespace meniscus::MENISCUS_LANE_NAMESPACE {
 using glm::ivec2;
 using glm::vec3;
 using kernel::kNothing;
+using kernel::kStepCount;
 
 inline constexpr int kShadeReach = 2;  // pixels: of mean_visibility
 
