@@ -24,6 +24,7 @@
 #include "core/mesh/compare_mesh.h"
 #include "core/mesh/face_mesh.h"
 #include "core/mesh/filled_faces.h"
+#include "core/surface/compute_surface.h"
 
 namespace meniscus {
 namespace {
@@ -353,6 +354,7 @@ class Tessellation {
 }  // namespace
 
 TriangleMesh tessellate(const Surface& surface, const MeshOptions& options) {
+  require_borders(surface);
   if (!(options.tolerance > 0.0) || !std::isfinite(options.tolerance)) {
     throw Error(fmt::format("mesh tolerance: {} Å; give a number above 0", options.tolerance));
   }

@@ -7,10 +7,12 @@
 
 #include "core/math/union_find.h"
 #include "core/surface/atom_areas.h"
+#include "core/surface/compute_surface.h"
 
 namespace meniscus {
 
 std::vector<AtomPatch> atom_patches(const Surface& surface, const std::vector<bool>& chosen) {
+  require_borders(surface);
   const AtomShares all = atom_shares(surface);
   UnionFind joined(all.shares.size());
   for (const auto& [a, b] : all.meetings)

@@ -15,6 +15,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/surface/compute_surface.h"
 #include "core/surface/parting.h"
 #include "core/surface/walks.h"
 
@@ -284,7 +285,10 @@ std::vector<std::vector<std::uint32_t>> faces_by_component(const Surface& surfac
 
 }  // namespace
 
-SurfacePart part_of(const Surface& surface, const std::vector<bool>& keep) { return PartBuilder(surface, keep).run(); }
+SurfacePart part_of(const Surface& surface, const std::vector<bool>& keep) {
+  require_borders(surface);
+  return PartBuilder(surface, keep).run();
+}
 
 int winding_number(const Surface& surface, std::uint32_t component, const glm::dvec3& point) {
   return static_cast<int>(std::lround(winding(surface, faces_by_component(surface)[component], point)));

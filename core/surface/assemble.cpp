@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 #include <fmt/format.h>
@@ -101,6 +102,10 @@ void require_closed(const Surface& surface) {
   if (open.size() > 8) atoms += ", ...";
   throw OpenSurfaceError("the surface is not closed at " + std::to_string(open.size()) + " atoms (used atom number " +
                          atoms + "); nothing was written; please report this structure");
+}
+
+void require_borders(const Surface& surface) {
+  if (surface.sums) throw std::logic_error("the surface was computed without its borders (SurfaceRequest::bordered)");
 }
 
 SurfaceCounts& SurfaceCounts::operator+=(const SurfaceCounts& more) {

@@ -43,6 +43,10 @@ ConvexPlanes planes_when_asked(const Surface& surface, const ReducedSurface& rs)
 /// Throws OpenSurfaceError, naming atoms by their index, unless the certificate says the surface is closed.
 void require_closed(const Surface& surface);
 
+/// Throws std::logic_error if the tables of borders and faces were let go (Surface::sums): before a mesh of nothing is
+/// taken for that of the surface.
+void require_borders(const Surface& surface);
+
 /// The reduced surface by `engine` and all that follows from it, for the balls as they are; look at its certificate.
 /// atoms: vdW balls in Å; probe_radius >= 0 in Å. Adds the time of each stage to `clock`. Throws GpuError,
 /// CapacityError.

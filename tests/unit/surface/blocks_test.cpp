@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -229,6 +230,7 @@ TEST(Blocks, AreMadeOfManyAtomsAlone) {
   const double sphere = 4 * std::numbers::pi * kCarbon * kCarbon;
   EXPECT_NEAR(spheres.area, sphere * static_cast<double>(apart.size()), 1e-9 * spheres.area);
   EXPECT_NEAR(atom_areas(spheres).surface[200000], sphere, 1e-12 * sphere);
+  EXPECT_THROW(require_borders(spheres), std::logic_error);
 }
 
 TEST(Blocks, HaveThePatchesOfTheWhole) {
