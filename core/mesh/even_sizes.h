@@ -151,8 +151,9 @@ struct RemeshTuning {
   static constexpr std::uint32_t most_mended = 20;
   /// Edges around those that are too far away become shorter by this factor.
   static constexpr double finer = 0.7;
-  /// How often triangles that pass through others become smaller, with a density.
-  static constexpr int partings = 3;
+  /// How often triangles that pass through others become smaller, with a density; not if more than one in so many do.
+  static constexpr int partings = 12;
+  static constexpr std::uint32_t most_parted = 500;
   /// Refinements that make more triangles than these lead nowhere.
   static constexpr std::uint32_t most_growth = 2, growth_allowed = 500;
 
