@@ -41,7 +41,9 @@ bool MeshMender::is_too_short(std::uint32_t half) const {
 }
 
 /// Short edges at the ends of creases, which may otherwise not vanish, would be slivers for ever.
-bool MeshMender::may_merge(std::uint32_t half) const { return may_vanish(mesh_, half) || is_too_short(half); }
+bool MeshMender::may_merge(std::uint32_t half) const {
+  return may_vanish(mesh_, half) || (is_too_short(half) && mesh_.can_spare(mesh_.links().from(half)));
+}
 
 /// If `steep`, triangles may lean almost at a right angle against the surface.
 double MeshMender::quality(const PlacedTriangle& t, const PlacedVertex& placed, bool steep) const {

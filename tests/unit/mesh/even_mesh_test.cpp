@@ -243,6 +243,14 @@ TEST(EvenMesh, DoesNotBeginAnewForAFewTrianglesThatCross) {
   }
 }
 
+/// With four vertices a cavity's volume had the wrong sign, and all began anew, again and again.
+TEST(EvenMesh, LeavesSmallCavitiesTheirVertices) {
+  const Surface surface = compute_surface_cpu(ubiquitin(), 0.7);
+  const FineMesh even = even_mesh(surface, {0.05, 0.0, {}});
+  for (std::uint32_t c = 0; c < surface.components.size(); ++c) EXPECT_GE(measure(even.mesh, c).vertex_count, 12u) << c;
+  EXPECT_EQ(surface.components.size(), 2u);
+}
+
 TEST(EvenMesh, IsFoundByToleranceWhereBallsCrowd) {
   const Surface surface = compute_surface_cpu(gas(5, 150, 22.0, 1.2, 1.9), kWater);
   const TriangleMesh mesh = even_mesh(surface, {0.0, 0.1, {}}).mesh;
