@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -34,12 +35,19 @@ std::vector<Beginning> beginnings(const Surface& surface, const EvenMeshOptions&
   return all;
 }
 
-/// Triangles that pass through others. Two that did not then, and have not changed since this was asked last, do not.
-std::vector<std::uint32_t> crossing(MeshOnSurface& mesh) {
-  const auto all = all_triangles(mesh.links());
+/// Triangles at vertices that changed since crossings were searched for last.
+std::vector<std::uint32_t> unchecked_triangles(const MeshOnSurface& mesh,
+                                               std::span<const std::array<std::uint32_t, 3>> all) {
   std::vector<std::uint32_t> unchecked;
   for (std::uint32_t t = 0; t < all.size(); ++t)
     if (std::ranges::any_of(all[t], [&](std::uint32_t v) { return mesh.vertex(v).unchecked; })) unchecked.push_back(t);
+  return unchecked;
+}
+
+/// Triangles that pass through others. Two that did not then, and have not changed since this was asked last, do not.
+std::vector<std::uint32_t> crossing(MeshOnSurface& mesh) {
+  const auto all = all_triangles(mesh.links());
+  const std::vector<std::uint32_t> unchecked = unchecked_triangles(mesh, all);
   const bool few = unchecked.size() < all.size() / RemeshTuning::few_unchecked;
   const auto pairs = few ? crossings_of(unchecked, mesh.positions(), all) : crossing_triangles(mesh.positions(), all);
   std::vector<std::uint8_t> bad(all.size(), 0);
@@ -250,7 +258,8 @@ class EvenMeshing {
          n < RemeshTuning::partings && idle < RemeshTuning::idle_refinements && !bad.empty() && bad.size() <= most;
          ++n) {
       refine(bad);
-      mend(crossing(*mesh_));
+      mender().mend_only(unchecked_triangles(*mesh_, all_triangles(mesh_->links())));
+      mesh_->compact();
       bad = crossing(*mesh_);
       idle = bad.size() < fewest ? 0 : idle + 1;
       fewest = std::min(fewest, bad.size());

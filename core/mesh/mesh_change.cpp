@@ -20,7 +20,7 @@ Exchange exchange_by(const MeshOnSurface& mesh, const MeshChange& change) {
 bool may_vanish(const MeshOnSurface& mesh, std::uint32_t half) {
   const HalfEdges& links = mesh.links();
   const MeshVertex& vertex = mesh.vertex(links.from(half));
-  if (vertex.pinned || !mesh.can_spare(links.from(half))) return false;
+  if (vertex.pinned) return false;
   if (vertex.crease != kNone && links.crease(half) != vertex.crease) return false;
   const auto joins_creases = [&](std::uint32_t side) {
     return links.crease(HalfEdges::next(side)) != kNone && links.crease(HalfEdges::last(side)) != kNone;

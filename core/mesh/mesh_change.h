@@ -98,7 +98,7 @@ void for_each_gone(const MeshOnSurface& mesh, const MeshChange& change, const Vi
 }
 
 /// May the first vertex of an edge go into the second? One of a crease goes along it only, one where creases end or
-/// meet stays, two creases must not fall together, and what closes in itself keeps so many vertices as it needs.
+/// meet stays, and two creases must not fall together.
 bool may_vanish(const MeshOnSurface& mesh, std::uint32_t half);
 
 /// Would no triangle that a change makes pass through watched ones?
