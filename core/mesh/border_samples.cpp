@@ -156,6 +156,7 @@ void BorderSamples::split(std::uint32_t border, std::uint32_t segment) {
   const double middle = 0.5 * (parameter(border, segment) + parameter(border, segment + 1));
   auto& t = parameters_[border];
   t.insert(t.begin() + segment + 1, middle);
+  split_.push_back(border);
 }
 
 }  // namespace meniscus

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -68,6 +69,8 @@ class BorderSamples {
   std::uint32_t representative(std::uint32_t vertex) const;
   /// Halves a segment.
   void split(std::uint32_t border, std::uint32_t segment);
+  /// The borders of which segments were halved since this was asked last, some of them several times.
+  std::vector<std::uint32_t> take_split() { return std::exchange(split_, {}); }
 
  private:
   void join_ends_of_tiny_borders();
@@ -76,6 +79,7 @@ class BorderSamples {
   const Surface& surface_;
   std::vector<std::uint32_t> representative_;
   std::vector<std::vector<double>> parameters_;  ///< per border, ascending from 0; arcs end with their sweep
+  std::vector<std::uint32_t> split_;             ///< of take_split()
 };
 
 }  // namespace meniscus

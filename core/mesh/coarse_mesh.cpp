@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -46,10 +47,21 @@ class CoarseMeshing {
         filled_(surface.faces.size()) {}
 
   TriangleMesh run() {
-    for (std::vector<std::uint32_t> hard = plan(); !hard.empty(); hard = plan()) {
-      if (wide_ && sample_finer(hard)) continue;
-      for (const std::uint32_t f : hard) parts_[f].cut = Cut::filled;
-      filling_.fill(std::move(hard), filled_);
+    std::vector<std::uint32_t> todo(parts_.size());
+    std::iota(todo.begin(), todo.end(), 0u);
+    samples_.take_split();
+    while (true) {
+      std::vector<std::uint32_t> hard = plan(todo);
+      if (hard.empty()) break;
+      todo = hard;
+      if (!wide_ || !sample_finer(hard)) {
+        for (const std::uint32_t f : hard) parts_[f].cut = Cut::filled;
+        filling_.fill(std::move(hard), filled_);
+      }
+      for (const std::uint32_t b : samples_.take_split())
+        todo.insert(todo.end(), surface_.borders[b].face.begin(), surface_.borders[b].face.end());
+      std::sort(todo.begin(), todo.end());
+      todo.erase(std::unique(todo.begin(), todo.end()), todo.end());
     }
     number_vertices();
     put_faces();
@@ -63,8 +75,7 @@ class CoarseMeshing {
     Cut cut = Cut::none;
     std::uint8_t diagonal = 0;  ///< the corner it begins at
     std::uint32_t corners = 0, vertex = 0, triangle = 0;
-    glm::dvec3 middle{0.0};             ///< of a fan
-    std::uint32_t planned_for = kNone;  ///< corner_count() then
+    glm::dvec3 middle{0.0};  ///< of a fan
   };
 
   /// The corners of a face with one loop, the face on their left.
@@ -77,27 +88,18 @@ class CoarseMeshing {
     return corners;
   }
 
-  std::uint32_t corner_count(const Face& face) const {
-    std::uint32_t count = 0;
-    for_each_half_border(surface_, face, [&](HalfBorder half) { count += samples_.segment_count(border_of(half)); });
-    return count;
-  }
-
-  /// Finds how each face is cut whose borders have other samples than before; returns those that have to be filled and
-  /// are not yet.
-  std::vector<std::uint32_t> plan() {
-    std::vector<std::uint8_t> hard(parts_.size(), 0);
-    tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t f) {
-      if (parts_[f].cut == Cut::filled || parts_[f].planned_for == corner_count(surface_.faces[f])) return;
-      const auto part = simple_part(static_cast<std::uint32_t>(f));
-      hard[f] = !part;
-      if (!part) return;
-      parts_[f] = *part;
-      parts_[f].planned_for = corner_count(surface_.faces[f]);
+  /// Finds how these faces are cut; returns those that have to be filled and are not yet.
+  std::vector<std::uint32_t> plan(const std::vector<std::uint32_t>& faces) {
+    std::vector<std::uint8_t> hard(faces.size(), 0);
+    tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t n) {
+      if (parts_[faces[n]].cut == Cut::filled) return;
+      const auto part = simple_part(faces[n]);
+      hard[n] = !part;
+      if (part) parts_[faces[n]] = *part;
     });
     std::vector<std::uint32_t> found;
-    for (std::uint32_t f = 0; f < hard.size(); ++f)
-      if (hard[f]) found.push_back(f);
+    for (std::size_t n = 0; n < hard.size(); ++n)
+      if (hard[n]) found.push_back(faces[n]);
     return found;
   }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -34,12 +35,19 @@ std::vector<Beginning> beginnings(const Surface& surface, const EvenMeshOptions&
   return all;
 }
 
-/// Triangles that pass through others. Two that did not then, and have not changed since this was asked last, do not.
-std::vector<std::uint32_t> crossing(MeshOnSurface& mesh) {
-  const auto all = all_triangles(mesh.links());
+/// Triangles at vertices that changed since crossings were searched for last.
+std::vector<std::uint32_t> unchecked_triangles(const MeshOnSurface& mesh,
+                                               std::span<const std::array<std::uint32_t, 3>> all) {
   std::vector<std::uint32_t> unchecked;
   for (std::uint32_t t = 0; t < all.size(); ++t)
     if (std::ranges::any_of(all[t], [&](std::uint32_t v) { return mesh.vertex(v).unchecked; })) unchecked.push_back(t);
+  return unchecked;
+}
+
+/// Triangles that pass through others. Two that did not then, and have not changed since this was asked last, do not.
+std::vector<std::uint32_t> crossing(MeshOnSurface& mesh) {
+  const auto all = all_triangles(mesh.links());
+  const std::vector<std::uint32_t> unchecked = unchecked_triangles(mesh, all);
   const bool few = unchecked.size() < all.size() / RemeshTuning::few_unchecked;
   const auto pairs = few ? crossings_of(unchecked, mesh.positions(), all) : crossing_triangles(mesh.positions(), all);
   std::vector<std::uint8_t> bad(all.size(), 0);
@@ -145,12 +153,15 @@ FineMesh rows_of(const MeshOnSurface& mesh, double tolerance) {
 
 class EvenMeshing {
  public:
-  EvenMeshing(const Surface& surface, const EvenMeshOptions& options, bool follow_creases, Beginning beginning)
+  /// attempts: how often a mesh was begun, counted on.
+  EvenMeshing(const Surface& surface, const EvenMeshOptions& options, bool follow_creases, Beginning beginning,
+              std::uint32_t& attempts)
       : surface_(surface),
         options_(options),
         sizes_(surface, options),
         follow_creases_(follow_creases),
         contracted_(beginning == Beginning::contracted),
+        attempts_(attempts),
         walk_(surface),
         base_(base_mesh(surface, walk_, beginning, RemeshTuning::coarser_base * sizes_.tolerance())),
         nearness_(surface, walk_, sizes_) {}
@@ -160,6 +171,7 @@ class EvenMeshing {
     for (int attempt = 1;; ++attempt) {
       if (attempt == RemeshTuning::first_frozen && !sizes_.by_density())
         base_ = base_mesh(surface_, walk_, Beginning::patches, RemeshTuning::kept_base * options_.tolerance);
+      ++attempts_;
       start(watched);
       if (attempt >= RemeshTuning::first_frozen && !contracted_) freeze_watched();
       std::vector<std::uint32_t> bad = even_out(attempt >= RemeshTuning::first_unmended);
@@ -175,6 +187,7 @@ class EvenMeshing {
     }
     FineMesh even = rows_of(*mesh_, sizes_.by_density() ? 0.0 : options_.tolerance);
     check_volumes(even.mesh);
+    even.attempts = attempts_;
     return even;
   }
 
@@ -235,15 +248,21 @@ class EvenMeshing {
     mesh_->compact();
   }
 
-  /// Makes triangles smaller where few pass through others; returns those that still do.
+  /// Makes triangles smaller where few pass through others, as long as that helps; returns those that still do. Nothing
+  /// is watched meanwhile: of triangles that cross no half may be made where a guard looks on.
   std::vector<std::uint32_t> part(std::vector<std::uint32_t> bad) {
-    for (int n = 0; n < RemeshTuning::partings && !bad.empty() && bad.size() <= RemeshTuning::few_far; ++n) {
-      std::vector<Ball> places;
-      for (const std::uint32_t t : bad) places.push_back(around(mesh_->placed(t)));
-      mesh_->guard().watch(places);
+    const std::size_t most =
+        std::max(RemeshTuning::few_far, std::size_t{mesh_->links().triangle_count()} / RemeshTuning::most_parted);
+    std::size_t fewest = bad.size();
+    for (int n = 0, idle = 0;
+         n < RemeshTuning::partings && idle < RemeshTuning::idle_refinements && !bad.empty() && bad.size() <= most;
+         ++n) {
       refine(bad);
-      mend(crossing(*mesh_));
+      mender().mend_only(unchecked_triangles(*mesh_, all_triangles(mesh_->links())));
+      mesh_->compact();
       bad = crossing(*mesh_);
+      idle = bad.size() < fewest ? 0 : idle + 1;
+      fewest = std::min(fewest, bad.size());
     }
     return bad;
   }
@@ -294,6 +313,7 @@ class EvenMeshing {
   const EvenMeshOptions& options_;
   EvenSizes sizes_;
   bool follow_creases_, contracted_;
+  std::uint32_t& attempts_;
   SurfaceWalk walk_;
   BaseMesh base_;
   MeshNearness nearness_;
@@ -309,13 +329,14 @@ FineMesh even_mesh(const Surface& surface, const EvenMeshOptions& options) {
   if (options.density == 0.0 && !(options.tolerance > 0.0 && std::isfinite(options.tolerance)))
     throw Error(fmt::format("mesh tolerance: {} Å; give a number above 0", options.tolerance));
   // Where creases crowd, triangles that have to end at them may find no place; without that they are smaller there.
+  std::uint32_t attempts = 0;
   for (const Beginning beginning : beginnings(surface, options)) {
     try {
-      return EvenMeshing(surface, options, true, beginning).run();
+      return EvenMeshing(surface, options, true, beginning, attempts).run();
     } catch (const OpenSurfaceError&) {
     }
   }
-  return EvenMeshing(surface, options, false, Beginning::patches).run();
+  return EvenMeshing(surface, options, false, Beginning::patches, attempts).run();
 }
 
 }  // namespace meniscus

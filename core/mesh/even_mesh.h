@@ -18,10 +18,11 @@ struct FineMesh;
 /// surface is measured at 7 places, and that of the surface from the mesh at the vertices of one as near as 0.3
 /// tolerances; between those it may be larger, by an amount that is not bounded here (1.46 tolerances were seen, at 5
 /// of 140,000 points). Where triangles pass through others, lie too far away or are slivers, the best of all small
-/// changes there is made, again and again, as long as one helps: a few slivers may stay. Where triangles still cross or
-/// are too far away, all begins again, and what is around such places keeps to the triangles of the beginning, but for
-/// such changes; after several times slivers may stay. Throws Error for numbers that are not valid, OpenSurfaceError
-/// where no such mesh was found: where creases crowd, as on bare balls, a tolerance is refused at times.
+/// changes there is made, again and again, as long as one helps: a few slivers may stay. Where a few triangles still
+/// cross, with a density, they become smaller; where that does not help, or triangles are too far away, all begins
+/// again, and what is around such places keeps to the triangles of the beginning, but for such changes; after several
+/// times slivers may stay. Throws Error for numbers that are not valid, OpenSurfaceError where no such mesh was found:
+/// where creases crowd, as on bare balls, a tolerance is refused at times.
 FineMesh even_mesh(const Surface& surface, const EvenMeshOptions& options = {});
 
 }  // namespace meniscus

@@ -117,7 +117,7 @@ struct RemeshTuning {
   static constexpr double vertices_per_square = 1.34;
   /// What closes in itself has at least so many vertices, however small it is: of a cavity of four triangles nobody
   /// knows which side is its inner one.
-  static constexpr double fewest_vertices = 12.0;
+  static constexpr std::uint32_t fewest_vertices = 12;
   /// The share of the tolerance that the middle of an equilateral triangle with the edges wanted may take up: edges up
   /// to 4/3 of that length stay.
   static constexpr double share_of_tolerance = 0.62;
@@ -151,8 +151,9 @@ struct RemeshTuning {
   static constexpr std::uint32_t most_mended = 20;
   /// Edges around those that are too far away become shorter by this factor.
   static constexpr double finer = 0.7;
-  /// How often triangles that pass through others become smaller, with a density.
-  static constexpr int partings = 3;
+  /// How often triangles that pass through others become smaller, with a density; not if more than one in so many do.
+  static constexpr int partings = 12;
+  static constexpr std::uint32_t most_parted = 500;
   /// Refinements that make more triangles than these lead nowhere.
   static constexpr std::uint32_t most_growth = 2, growth_allowed = 500;
 

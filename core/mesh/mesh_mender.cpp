@@ -134,7 +134,8 @@ void MeshMender::for_each_change(std::uint32_t triangle, bool steep, const Visit
     if (has_room && links.can_flip(half)) offer({Kind::flip, half, {}});
     if (links.valence(links.from(half)) + links.valence(links.to(half)) < Tuning::most_mended_edges + 4)
       for (const std::uint32_t side : {half, other})
-        if (may_merge(side) && stays_short(mesh_, side) && links.can_collapse(side)) offer({Kind::collapse, side, {}});
+        if (may_merge(side) && stays_short(mesh_, side) && links.can_collapse(side) && mesh_.can_spare(links.from(side)))
+          offer({Kind::collapse, side, {}});
     if (has_room && mesh_.length(half) > 2.0 * Tuning::too_short * mesh_.wanted(half))
       if (const auto at = edge_middle(mesh_, half)) offer({Kind::split, half, *at});
   }
@@ -232,14 +233,25 @@ void MeshMender::reach(std::span<const PointAtTriangle> points) {
 }
 
 void MeshMender::mend(std::span<const std::uint32_t> triangles) {
-  const HalfEdges& links = mesh_.links();
-  const TriangleQuality& qualities = mesh_.quality();
-  std::vector<std::uint8_t> doubtful(links.triangle_count(), 0);  // and with them what comes about there
+  std::vector<std::uint8_t> doubtful(mesh_.links().triangle_count(), 0);
   for (const std::uint32_t t : triangles) doubtful[t] = 1;
   std::vector<std::uint32_t> bad;
   mesh_.quality().find_all();
-  for (std::uint32_t t = 0; t < links.triangle_count(); ++t)
-    if (doubtful[t] || qualities.of(t) < Tuning::good_quality) bad.push_back(t);
+  for (std::uint32_t t = 0; t < doubtful.size(); ++t)
+    if (doubtful[t] || mesh_.quality().of(t) < Tuning::good_quality) bad.push_back(t);
+  mend(std::move(bad), std::move(doubtful));
+}
+
+void MeshMender::mend_only(std::span<const std::uint32_t> triangles) {
+  std::vector<std::uint8_t> doubtful(mesh_.links().triangle_count(), 0);
+  for (const std::uint32_t t : triangles) doubtful[t] = 1;
+  mend({triangles.begin(), triangles.end()}, std::move(doubtful));
+}
+
+/// Doubtful are triangles that may cross others or be forbidden, and with them what comes about there.
+void MeshMender::mend(std::vector<std::uint32_t> bad, std::vector<std::uint8_t> doubtful) {
+  const HalfEdges& links = mesh_.links();
+  const TriangleQuality& qualities = mesh_.quality();
   mesh_.guard().watch_around(bad);
   for (int round = 0; round < Tuning::mending_rounds && !bad.empty(); ++round) {
     std::vector<std::uint32_t> next;

@@ -26,10 +26,12 @@ class MeshMender {
   /// mesh: has to live as long.
   MeshMender(MeshOnSurface& mesh, Allowed allowed) : mesh_(mesh), allowed_(std::move(allowed)) {}
 
-  /// Changes these triangles, and those with small angles, one by one until they pass through no others, are allowed
-  /// and have larger angles, wherever one flip, collapse, split or move does that. No others come to cross or to be
-  /// forbidden.
+  /// Changes these triangles, and all others with small angles, one by one until they pass through no others, are
+  /// allowed and have larger angles, wherever one flip, collapse, split or move does that. No others come to cross or
+  /// to be forbidden.
   void mend(std::span<const std::uint32_t> triangles);
+  /// The same of these alone, and of what comes about there.
+  void mend_only(std::span<const std::uint32_t> triangles);
   /// Puts vertices there, or moves some, where nothing comes to cross by that; they stay there.
   void reach(std::span<const PointAtTriangle> points);
 
@@ -55,6 +57,7 @@ class MeshMender {
   std::ptrdiff_t fewer_forbidden(const Exchange& exchange) const;
   std::ptrdiff_t fewer_wrong(const MeshChange& change) const;
   bool improve(std::uint32_t triangle, bool wrong);
+  void mend(std::vector<std::uint32_t> bad, std::vector<std::uint8_t> doubtful);
 
   MeshOnSurface& mesh_;
   Allowed allowed_;

@@ -88,12 +88,14 @@ MeshOnSurface::MeshOnSurface(const Surface& surface, SurfaceWalk& walk, const Tr
       edge_(std::move(edge)),
       links_(base.triangles, static_cast<std::uint32_t>(base.positions.size())),
       positions_(base.positions),
-      vertices_(base.positions.size()) {
+      vertices_(base.positions.size()),
+      vertex_count_(surface.components.size(), 0) {
   walk.bar(keep);
   tbb::parallel_for(std::size_t{0}, vertices_.size(), [&](std::size_t n) {
     const auto v = static_cast<std::uint32_t>(n);
     settle(v, {positions_[v], vertex_face[v]}, kNone);
   });
+  for (std::uint32_t v = 0; v < vertices_.size(); ++v) ++vertex_count_[component(v)];
   mark_creases(surface, walk, base, keep, links_);
   const std::vector<CreaseAt> creases = creases_at_vertices(links_);
   for (std::size_t v = 0; v < vertices_.size(); ++v) {
@@ -119,6 +121,14 @@ float MeshOnSurface::least_cosine(std::uint32_t vertex) const {
   const double turn = vertices_[vertex].size / std::max(walk_.radius(vertices_[vertex].face), 1e-9);
   return static_cast<float>(std::clamp(1.0 - RemeshTuning::cosine_fall * turn * turn, RemeshTuning::least_cosine,
                                        may_lean_ ? RemeshTuning::least_cosine : RemeshTuning::most_cosine));
+}
+
+std::uint32_t MeshOnSurface::component(std::uint32_t vertex) const {
+  return surface_.faces[vertices_[vertex].face].component;
+}
+
+bool MeshOnSurface::can_spare(std::uint32_t vertex) const {
+  return vertex_count_[component(vertex)] > RemeshTuning::fewest_vertices;
 }
 
 void MeshOnSurface::let_lean(bool as_they_have_to) {
@@ -172,12 +182,14 @@ void MeshOnSurface::add_vertex(std::uint32_t a, std::uint32_t b, const SurfacePo
   guard_.add_vertex(a, b);
   quality_.make_room();
   settle(m, at, crease);
+  ++vertex_count_[component(m)];
   note_changes_around(m);
 }
 
 void MeshOnSurface::collapse(std::uint32_t half) {
   const std::uint32_t a = links_.from(half), b = links_.to(half);
   guard_.merge_vertex(a, b);
+  --vertex_count_[component(a)];
   links_.collapse(half);
   note_changes_around(b);
 }

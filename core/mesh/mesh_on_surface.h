@@ -133,6 +133,8 @@ class MeshOnSurface {
   double wanted(std::uint32_t half) const {
     return 0.5 * (vertices_[links_.from(half)].size + vertices_[links_.to(half)].size);
   }
+  /// Has its component more vertices than it needs?
+  bool can_spare(std::uint32_t vertex) const;
   PlacedTriangle placed(std::uint32_t triangle) const { return guard_.placed(triangle); }
   TriangleQuality& quality() { return quality_; }
   const TriangleQuality& quality() const { return quality_; }
@@ -161,6 +163,7 @@ class MeshOnSurface {
   void add_vertex(std::uint32_t a, std::uint32_t b, const SurfacePoint& at, std::uint32_t crease);
   void note_changes_around(std::uint32_t vertex);
   float least_cosine(std::uint32_t vertex) const;
+  std::uint32_t component(std::uint32_t vertex) const;
 
   const Surface& surface_;
   const SurfaceWalk& walk_;
@@ -169,6 +172,7 @@ class MeshOnSurface {
   HalfEdges links_;
   std::vector<glm::dvec3> positions_;
   std::vector<MeshVertex> vertices_;
+  std::vector<std::uint32_t> vertex_count_;  ///< per component
   TriangleQuality quality_{links_, positions_, vertices_};
   CrossingGuard guard_{links_, positions_};
 };

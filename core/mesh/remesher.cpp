@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -69,13 +70,15 @@ bool Remesher::try_collapse(std::uint32_t half) {
     const double longest = Tuning::longest_edge * 0.5 * (mesh_.vertex(b).size + mesh_.vertex(c).size);
     fits = fits && (c == b || glm::distance(position[b], position[c]) <= longest);
   });
-  if (!fits || !links.can_collapse(half)) return false;
-  const double bar = std::min(mesh_.quality().score_around(a), Tuning::poor_quality);
+  if (!fits || !links.can_collapse(half) || !mesh_.can_spare(a)) return false;
+  double bar = Tuning::poor_quality;
+  bool looked = false;  // the bar is that, or what the vertex has now if that is less
   WorstQuality after;
   links.around(a, [&](std::uint32_t edge) {
     const std::uint32_t c = links.to(edge), d = links.opposite(edge);
     if (!fits || c == b || d == b) return;
     after.add(mesh_.quality().of(b, position[b], c, d));
+    if (after.score() < bar && !std::exchange(looked, true)) bar = std::min(bar, mesh_.quality().score_around(a));
     fits = after.score() >= bar;
   });
   const bool watched = mesh_.guard().watches(a) || mesh_.guard().watches(b);

@@ -57,6 +57,7 @@ struct FineMesh {
   TriangleMesh mesh;
   std::vector<std::uint32_t> vertex_face;  ///< into Surface::faces: one that the vertex lies on
   std::vector<std::uint32_t> vertex_atom;  ///< into Surface::atoms: the touched one whose contact is nearest
+  std::uint32_t attempts = 0;              ///< of an even mesh: how often it was begun
 };
 
 /// Of each vertex of a mesh that keeps to patches, the face of the first of its triangles.

@@ -233,6 +233,24 @@ TEST(EvenMesh, IsFoundWhereCreasesCrowd) {
   }
 }
 
+/// A few triangles that cross become smaller where they are: of a large molecule some always do.
+TEST(EvenMesh, DoesNotBeginAnewForAFewTrianglesThatCross) {
+  for (const std::uint32_t seed : {8u, 9u}) {
+    const Surface surface = compute_surface_cpu(gas(seed, 600, 40.0, 1.2, 2.0), kWater);
+    const FineMesh even = even_mesh(surface, {0.1, 0.0, {}});
+    expect_same_topology(surface, even.mesh);
+    EXPECT_EQ(even.attempts, 1u) << seed;
+  }
+}
+
+/// With four vertices a cavity's volume had the wrong sign, and all began anew, again and again.
+TEST(EvenMesh, LeavesSmallCavitiesTheirVertices) {
+  const Surface surface = compute_surface_cpu(ubiquitin(), 0.7);
+  const FineMesh even = even_mesh(surface, {0.05, 0.0, {}});
+  for (std::uint32_t c = 0; c < surface.components.size(); ++c) EXPECT_GE(measure(even.mesh, c).vertex_count, 12u) << c;
+  EXPECT_EQ(surface.components.size(), 2u);
+}
+
 TEST(EvenMesh, IsFoundByToleranceWhereBallsCrowd) {
   const Surface surface = compute_surface_cpu(gas(5, 150, 22.0, 1.2, 1.9), kWater);
   const TriangleMesh mesh = even_mesh(surface, {0.0, 0.1, {}}).mesh;
