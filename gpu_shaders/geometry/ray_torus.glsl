@@ -56,7 +56,9 @@ GEOMETRY TorusRuns torus_runs(real3 o, real3 d, real major, real minor, real low
   runs.waiting = integer(0);
   TorusFactors at_low = torus_factors(o, d, major, offset, low, real(1));
   for (int piece = 0; piece < 3; ++piece) {
-    TorusFactors at_high = torus_factors(o, d, major, offset, runs.knot[piece + 1], real(1));
+    TorusFactors at_high = at_low;
+    if (some(runs.knot[piece] < runs.knot[piece + 1]))
+      at_high = torus_factors(o, d, major, offset, runs.knot[piece + 1], real(1));
     bool concave = piece == 1;
     truth low_above = (at_low.apple > real(0)) != concave;
     truth high_above = (at_high.apple > real(0)) != concave;

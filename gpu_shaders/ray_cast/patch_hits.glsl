@@ -86,23 +86,32 @@ struct LocalRay {
   real high;
 };
 
-GEOMETRY LocalRay to_torus(TorusPatch saddle, real3 p, real3 d) {
+// As far as the sphere through both contact circles, which holds the whole patch and nothing of the outer half of the
+// torus.
+GEOMETRY LocalRay to_saddle_ball(TorusPatch saddle, real3 p, real3 d) {
   LocalRay ray;
   real3 o = p - saddle.center;
   ray.shift = -dot(o, d);
   o = o + d * ray.shift;
   ray.o = real3(dot(o, saddle.x_axis), dot(o, saddle.y_axis), dot(o, saddle.z_axis));
   ray.d = real3(dot(d, saddle.x_axis), dot(d, saddle.y_axis), dot(d, saddle.z_axis));
-  // The sphere through both contact circles holds the whole patch and nothing of the outer half of the torus.
   SphereHits chord = ray_sphere(ray.o - vec3(0.0, 0.0, saddle.shape.z), ray.d, saddle.shape.w + params.slack);
   ray.low = max(eye_parameter(d) - ray.shift, chord.near_t - params.slack);
-  ray.high = chord.far_t + params.slack;
-  if (saddle.primitive.plane_count == uint(kUpToHalfTurn)) {
-    clip_to_half_space(-ray.o.y - params.slack, -ray.d.y, ray.low, ray.high);
-    clip_to_half_space(ray.o.y * saddle.cos_sweep - ray.o.x * saddle.sin_sweep - params.slack,
-                       ray.d.y * saddle.cos_sweep - ray.d.x * saddle.sin_sweep, ray.low, ray.high);
-  }
-  ray.high = select(chord.found, ray.high, ray.low);
+  ray.high = select(chord.found, chord.far_t + params.slack, ray.low);
+  return ray;
+}
+
+// Where it is between the patch's ends.
+GEOMETRY void clip_to_sweep(TorusPatch saddle, GEOMETRY_INOUT(LocalRay) ray) {
+  if (saddle.primitive.plane_count != uint(kUpToHalfTurn)) return;
+  clip_to_half_space(-ray.o.y - params.slack, -ray.d.y, ray.low, ray.high);
+  clip_to_half_space(ray.o.y * saddle.cos_sweep - ray.o.x * saddle.sin_sweep - params.slack,
+                     ray.d.y * saddle.cos_sweep - ray.d.x * saddle.sin_sweep, ray.low, ray.high);
+}
+
+GEOMETRY LocalRay to_torus(TorusPatch saddle, real3 p, real3 d) {
+  LocalRay ray = to_saddle_ball(saddle, p, d);
+  clip_to_sweep(saddle, ray);
   return ray;
 }
 
@@ -123,12 +132,12 @@ GEOMETRY truth on_toroidal_patch(TorusPatch saddle, real3 x) {
 GEOMETRY real hit_torus(TorusPatch saddle, LocalRay ray) {
   TorusRuns runs = torus_runs(ray.o, ray.d, saddle.major, params.probe_radius, ray.low, ray.high);
   real t = real(kMiss);
-  do {
+  while (some(runs.waiting != 0)) {
     real root = torus_run(ray.o, ray.d, saddle.major, params.probe_radius, 2e-7, kMiss, runs);
     real3 x = ray.o + ray.d * root;
     truth hit = t == real(kMiss) && root < real(kMiss) && on_toroidal_patch(saddle, x);
     t = select(hit, root, t);
     runs.waiting = select(hit, integer(0), runs.waiting);
-  } while (some(runs.waiting != 0));
+  }
   return select(t < real(kMiss), t + ray.shift, t);
 }

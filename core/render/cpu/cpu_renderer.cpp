@@ -398,7 +398,7 @@ void CpuRenderer::cast_samples(int first, int count, const BlockTask& task, Inte
 }
 
 void CpuRenderer::cast_tile(std::size_t tile, LaneTile task) {
-  const std::span<const std::uint32_t> entries = lists_.entries(tile);
+  const std::span<std::uint32_t> entries = lists_.entries(tile);
   if (entries.empty()) return;
   const int number = static_cast<int>(tile);
   task.origin = kTileEdge * glm::ivec2(number % lists_.tiles().x, number / lists_.tiles().x);

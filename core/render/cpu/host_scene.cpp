@@ -72,23 +72,27 @@ void CpuTileLists::build(std::span<const ray_cast::Primitive> primitives, const 
   });
 }
 
-LaneList SortedList::sort(std::span<const std::uint32_t> entries, std::span<const ray_cast::Primitive> primitives) {
-  keys_.clear();
-  for (const std::uint32_t entry : entries)
-    keys_.push_back(static_cast<std::uint64_t>(ordered_bits(primitives[entry].nearest)) << 32 | entry);
-  std::ranges::sort(keys_);
-  const std::size_t size = entries.size() + LaneList::kListPadding;
-  for (std::vector<float>& numbers : numbers_) numbers.assign(size, 0.0f);
-  std::fill(numbers_[4].begin() + static_cast<std::ptrdiff_t>(entries.size()), numbers_[4].end(),
-            std::numeric_limits<float>::infinity());
-  primitives_.assign(size, 0);
+LaneList SortedList::sort(std::span<std::uint32_t> entries, std::span<const ray_cast::Primitive> primitives) {
+  const auto key_of = [&](std::uint32_t entry) {
+    return static_cast<std::uint64_t>(ordered_bits(primitives[entry].nearest)) << 32 | entry;
+  };
+  if (!std::ranges::is_sorted(entries, {}, key_of)) {
+    keys_.clear();
+    for (const std::uint32_t entry : entries) keys_.push_back(key_of(entry));
+    std::ranges::sort(keys_);
+    std::ranges::transform(keys_, entries.begin(), [](std::uint64_t key) { return static_cast<std::uint32_t>(key); });
+  }
+  for (std::vector<float>& numbers : numbers_) numbers.resize(entries.size());
   for (std::size_t n = 0; n < entries.size(); ++n) {
-    const auto entry = static_cast<std::uint32_t>(keys_[n]);
-    const ray_cast::Primitive& primitive = primitives[entry];
+    const ray_cast::Primitive& primitive = primitives[entries[n]];
     for (int axis = 0; axis < 4; ++axis) numbers_[axis][n] = primitive.bound[axis];
     numbers_[4][n] = primitive.nearest;
-    primitives_[n] = entry;
   }
+  primitives_.assign(entries.begin(), entries.end());
+  const std::size_t size = entries.size() + LaneList::kListPadding;
+  for (int axis = 0; axis < 4; ++axis) numbers_[axis].resize(size, 0.0f);
+  numbers_[4].resize(size, std::numeric_limits<float>::infinity());
+  primitives_.resize(size, 0);
   return {static_cast<int>(entries.size()),
           numbers_[0].data(),
           numbers_[1].data(),

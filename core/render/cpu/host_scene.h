@@ -68,7 +68,7 @@ class CpuTileLists {
 
   glm::ivec2 tiles() const { return tiles_; }  ///< columns, rows
   /// Places among the primitives, in any order; `tile` counts row by row.
-  std::span<const std::uint32_t> entries(std::size_t tile) const {
+  std::span<std::uint32_t> entries(std::size_t tile) {
     return std::span(entries_).subspan(starts_[tile], starts_[tile + 1] - starts_[tile]);
   }
 
@@ -81,8 +81,8 @@ class CpuTileLists {
 /// A tile's list as the inner loops read it. Keeps its arrays from tile to tile.
 class SortedList {
  public:
-  /// Valid until the next one is sorted.
-  LaneList sort(std::span<const std::uint32_t> entries, std::span<const ray_cast::Primitive> primitives);
+  /// Valid until the next one is sorted. Leaves the entries in its order, for tiles are cast again and again.
+  LaneList sort(std::span<std::uint32_t> entries, std::span<const ray_cast::Primitive> primitives);
 
  private:
   std::vector<std::uint64_t> keys_;

@@ -141,7 +141,7 @@ void LayeredScene::cast_tile(std::size_t tile, LaneTile task, const LaneKernels&
 void LayeredScene::cast_layer(std::uint32_t number, std::size_t tile, const TileWork& work) {
   Layer& layer = layers_[number];
   Workplace& place = work.place;
-  const std::span<const std::uint32_t> entries = layer.lists.entries(tile);
+  const std::span<std::uint32_t> entries = layer.lists.entries(tile);
   if (entries.empty()) return;
   LaneTile task = work.task;
   task.list = place.sorted.sort(entries, layer.scene.packed.primitives);

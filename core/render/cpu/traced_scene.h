@@ -134,7 +134,9 @@ class RayMeeter : protected TracedScene {
   }
 
   void meet_torus(uint index, const TorusPatch& saddle, Rays& rays) {
-    LocalRay ray = to_torus(saddle, rays.p, rays.d);
+    LocalRay ray = to_saddle_ball(saddle, rays.p, rays.d);
+    if (!some(goes_towards_torus(ray, rays.t))) return;
+    clip_to_sweep(saddle, ray);
     ray.low = max(ray.low, rays.from - ray.shift);
     const truth towards = goes_towards_torus(ray, rays.t);
     if (!some(towards)) return;
