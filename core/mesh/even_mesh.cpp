@@ -248,20 +248,24 @@ class EvenMeshing {
     mesh_->compact();
   }
 
-  /// Makes triangles smaller where few pass through others, as long as that helps; returns those that still do. Nothing
-  /// is watched meanwhile: of triangles that cross no half may be made where a guard looks on.
+  /// Makes triangles smaller where few pass through others, as long as that helps; returns those that still do. New
+  /// ones may pass through none at first; where that leaves all as it was, as halves of those that cross do, they may.
   std::vector<std::uint32_t> part(std::vector<std::uint32_t> bad) {
     const std::size_t most =
         std::max(RemeshTuning::few_far, std::size_t{mesh_->links().triangle_count()} / RemeshTuning::most_parted);
     std::size_t fewest = bad.size();
+    bool guarded = true;
     for (int n = 0, idle = 0;
          n < RemeshTuning::partings && idle < RemeshTuning::idle_refinements && !bad.empty() && bad.size() <= most;
          ++n) {
+      if (guarded) mesh_->guard().watch_around(bad);
       refine(bad);
       mender().mend_only(unchecked_triangles(*mesh_, all_triangles(mesh_->links())));
       mesh_->compact();
       bad = crossing(*mesh_);
-      idle = bad.size() < fewest ? 0 : idle + 1;
+      const bool helped = bad.size() < fewest;
+      idle = helped ? 0 : idle + 1;
+      if (!helped) guarded = !guarded;
       fewest = std::min(fewest, bad.size());
     }
     return bad;

@@ -134,7 +134,8 @@ void MeshMender::for_each_change(std::uint32_t triangle, bool steep, const Visit
     if (has_room && links.can_flip(half)) offer({Kind::flip, half, {}});
     if (links.valence(links.from(half)) + links.valence(links.to(half)) < Tuning::most_mended_edges + 4)
       for (const std::uint32_t side : {half, other})
-        if (may_merge(side) && stays_short(mesh_, side) && links.can_collapse(side) && mesh_.can_spare(links.from(side)))
+        if (may_merge(side) && stays_short(mesh_, side) && links.can_collapse(side) &&
+            mesh_.can_spare(links.from(side)))
           offer({Kind::collapse, side, {}});
     if (has_room && mesh_.length(half) > 2.0 * Tuning::too_short * mesh_.wanted(half))
       if (const auto at = edge_middle(mesh_, half)) offer({Kind::split, half, *at});
