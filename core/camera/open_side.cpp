@@ -76,8 +76,17 @@ struct Openness {
   double cover = 0.0;    ///< Å, from each other point to where the ray leaves the last ball, summed
 };
 
-Openness openness(const glm::dvec3& toward, std::span<const glm::dvec3> points, std::span<const Ball> others,
-                  const Ball& around) {
+/// From the point on, where its ray leaves the ball; 0: it passes by.
+double exit_from(const Ball& ball, const glm::dvec3& point, const glm::dvec3& toward) {
+  const glm::dvec3 from = ball.center - point;
+  const double along = glm::dot(from, toward);
+  const double half = ball.radius * ball.radius - (glm::dot(from, from) - along * along);
+  return half > 0.0 ? std::max(along + std::sqrt(half), 0.0) : 0.0;
+}
+
+/// Nothing if fewer than `least` points are free.
+std::optional<Openness> openness(const glm::dvec3& toward, std::span<const glm::dvec3> points,
+                                 std::span<const Ball> others, const Ball& around, std::size_t least) {
   // Only what is before the points can hide them.
   std::vector<Ball> near;
   for (const Ball& ball : others) {
@@ -85,15 +94,18 @@ Openness openness(const glm::dvec3& toward, std::span<const glm::dvec3> points, 
     const double along = glm::dot(from, toward), reach = around.radius + ball.radius;
     if (along > -reach && glm::dot(from, from) - along * along < reach * reach) near.push_back(ball);
   }
+  std::size_t may_be_free = points.size();
+  for (const glm::dvec3& point : points) {
+    const auto hides = [&](const Ball& ball) { return exit_from(ball, point, toward) > 0.0; };
+    const auto hiding = std::ranges::find_if(near, hides);
+    if (hiding == near.end()) continue;
+    if (--may_be_free < least) return {};
+    std::swap(*hiding, near.front());  // it may hide the next point, too
+  }
   Openness open;
   for (const glm::dvec3& point : points) {
     double exit = 0.0;
-    for (const Ball& ball : near) {
-      const glm::dvec3 from = ball.center - point;
-      const double along = glm::dot(from, toward);
-      const double half = ball.radius * ball.radius - (glm::dot(from, from) - along * along);
-      if (half > 0.0) exit = std::max(exit, along + std::sqrt(half));
-    }
+    for (const Ball& ball : near) exit = std::max(exit, exit_from(ball, point, toward));
     if (exit > 0.0)
       open.cover += exit;
     else
@@ -129,13 +141,13 @@ ViewBasis open_side(std::span<const Ball> seen, std::span<const Ball> all) {
   for (const Ball& ball : seen)
     around.radius = std::max(around.radius, glm::distance(ball.center, around.center) + ball.radius);
   glm::dvec3 best = spiral_direction(0, kTriedSides);
-  Openness most = openness(best, points, others, around);
+  Openness most = *openness(best, points, others, around, 0);
   for (std::size_t n = 1; n < kTriedSides; ++n) {
     const glm::dvec3 toward = spiral_direction(n, kTriedSides);
-    const Openness open = openness(toward, points, others, around);
-    if (open.free < most.free || (open.free == most.free && open.cover >= most.cover)) continue;
+    const std::optional<Openness> open = openness(toward, points, others, around, most.free);
+    if (!open || (open->free == most.free && open->cover >= most.cover)) continue;
     best = toward;
-    most = open;
+    most = *open;
   }
   const glm::dvec3 right = longest_across(best, seen);
   return {right, glm::cross(best, right), -best};
