@@ -248,13 +248,14 @@ class EvenMeshing {
     mesh_->compact();
   }
 
-  /// Makes triangles smaller where few pass through others, as long as that helps; returns those that still do. New
-  /// ones may pass through none at first; where that leaves all as it was, as halves of those that cross do, they may.
+  /// Makes triangles smaller where few pass through others, as long as that helps; returns those that still do. Where
+  /// very few do, new ones may pass through none at first; where that leaves all as it was, for halves of triangles that
+  /// cross do, too, they may.
   std::vector<std::uint32_t> part(std::vector<std::uint32_t> bad) {
     const std::size_t most =
         std::max(RemeshTuning::few_far, std::size_t{mesh_->links().triangle_count()} / RemeshTuning::most_parted);
     std::size_t fewest = bad.size();
-    bool guarded = true;
+    bool guarded = bad.size() <= RemeshTuning::few_far;
     for (int n = 0, idle = 0;
          n < RemeshTuning::partings && idle < RemeshTuning::idle_refinements && !bad.empty() && bad.size() <= most;
          ++n) {
