@@ -108,8 +108,11 @@ std::vector<Jobs::Worker> jobs_of(std::vector<FrameWorker> workers) {
   const auto cores = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
   const int each = std::max(1, static_cast<int>(cores / workers.size()));
   std::vector<Jobs::Worker> jobs;
-  for (FrameWorker& worker : workers)
-    jobs.push_back(job_of(std::move(worker), std::make_shared<tbb::task_arena>(each)));
+  for (FrameWorker& worker : workers) {
+    auto arena = std::make_shared<tbb::task_arena>(each);
+    arena->initialize();  // one that lacked the memory in the first frame would wait for itself in the next, for ever
+    jobs.push_back(job_of(std::move(worker), std::move(arena)));
+  }
   return jobs;
 }
 

@@ -249,8 +249,8 @@ class EvenMeshing {
   }
 
   /// Makes triangles smaller where few pass through others, as long as that helps; returns those that still do. Where
-  /// very few do, new ones may pass through none at first; where that leaves all as it was, for halves of triangles that
-  /// cross do, too, they may.
+  /// very few do, new ones may pass through none at first; where that leaves all as it was, for halves of triangles
+  /// that cross do, too, they may.
   std::vector<std::uint32_t> part(std::vector<std::uint32_t> bad) {
     const std::size_t most =
         std::max(RemeshTuning::few_far, std::size_t{mesh_->links().triangle_count()} / RemeshTuning::most_parted);
