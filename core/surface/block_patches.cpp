@@ -3,8 +3,6 @@
 #include "core/surface/block_patches.h"
 
 #include <algorithm>
-#include <array>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
