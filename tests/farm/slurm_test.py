@@ -48,11 +48,21 @@ class Slurm(FarmCase):
     def logs(self, folder):
         return "\n".join(f"{path.name}:\n{path.read_text()}" for path in sorted((folder / "logs").glob("*.log")))
 
+    def path_of_slow_requeues(self):
+        """A search path whose scontrol ends two seconds late, so that a requeued task is told to end before it does."""
+        shim = self.folder / "slow"
+        shim.mkdir()
+        found = self.cluster.environment["PATH"]
+        (shim / "scontrol").write_text(f'#!/bin/sh\ntrap "" TERM\n"{shutil.which("scontrol", path=found)}" "$@"\ncode=$?\n'
+                                       '[ "$1" != requeue ] || sleep 2\nexit $code\n')
+        (shim / "scontrol").chmod(0o755)
+        return f"{shim}:{found}"
+
     def test_an_array_survives_a_kill_and_a_preemption(self):
         options = ("--chunk-frames", "5", "--film", "film.mp4", "--engine", "slurm", "--task-cores", "1")
         local = self.povray_bundle("local", FRAMES, options=options)
         folder = self.povray_bundle("it's a $queue", FRAMES, options=options)
-        jobs = self.submit(folder, "--time=5")
+        jobs = self.submit(folder, "--time=5", PATH=self.path_of_slow_requeues())
         render = jobs["render"]
 
         # Task 1 is killed as a machine out of memory would; its script puts it back into the queue.
