@@ -62,7 +62,7 @@ def heard(hear):
 def surface(options):
     """The object that is measured, computed once."""
     meniscus_import.register()
-    computed._process = process.Process(os.path.join(ROOT, "exporters", "python", "meniscus"), options.program)
+    computed._process = process.Process(os.path.join(ROOT, "exporters", "bindings", "python", "meniscus"), options.program)
     computed.working = lambda: computed._process
     for other in list(bpy.data.objects):
         bpy.data.objects.remove(other)
