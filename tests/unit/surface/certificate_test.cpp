@@ -16,6 +16,7 @@
 #include "core/mesh/tessellate.h"
 #include "core/surface/components.h"
 #include "core/surface/compute_surface.h"
+#include "core/surface/convex_planes.h"
 #include "tests/support/molecules.h"
 
 namespace meniscus::testing {
@@ -217,7 +218,7 @@ TEST(SideOfComponents, AgreesWithTheSignOfTheVolume) {
   std::mt19937 random(3);
   std::size_t cavities = 0;
   const auto expect_agreement = [&](const Surface& surface) {
-    const std::vector<ComponentKind> sides = side_of_components(surface, listed_planes(surface));
+    const std::vector<ComponentKind> sides = side_of_components(surface, ListedPlanes(surface));
     ASSERT_EQ(sides.size(), surface.components.size());
     for (std::size_t c = 0; c < sides.size(); ++c) {
       if (std::abs(surface.components[c].volume) < 1e-6) continue;
