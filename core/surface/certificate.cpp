@@ -119,8 +119,7 @@ class Examination {
     std::size_t left = 0;
     for (const glm::dvec3& direction : spread_) {
       const glm::dvec3 x = atom.center + atom.radius * direction;
-      left +=
-          std::ranges::all_of(planes, [&](const Plane& plane) { return glm::dot(plane.normal, x) <= plane.offset; });
+      left += cut_off_by(planes, x) ? 0 : 1;
     }
     return 2 * left > spread_.size();
   }

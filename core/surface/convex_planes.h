@@ -32,6 +32,7 @@ class ConvexPlanes {
   virtual bool cut_off(std::uint32_t convex, const glm::dvec3& direction) const = 0;
 };
 
+/// Is the point outside of any of the half-spaces?
 inline bool cut_off_by(std::span<const Plane> planes, const glm::dvec3& point) {
   return std::ranges::any_of(planes, [&](const Plane& p) { return glm::dot(p.normal, point) > p.offset; });
 }

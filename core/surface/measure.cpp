@@ -151,9 +151,7 @@ class Measurement {
         if (n == 13) continue;
         const glm::dvec3 direction = glm::normalize(glm::dvec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1));
         const glm::dvec3 x = center + radius * direction;
-        candidates.push_back({direction, std::ranges::all_of(planes, [&](const Plane& plane) {
-                                return glm::dot(plane.normal, x) <= plane.offset;
-                              })});
+        candidates.push_back({direction, !cut_off_by(planes, x)});
       }
     std::vector<double> distance(candidates.size(), 4.0);
     for (std::uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
