@@ -25,6 +25,8 @@ using Pair = std::pair<std::uint32_t, std::uint32_t>;
 constexpr double kCellSides = 1.5;
 /// Unit normals of two triangles with a common edge that are folded onto one another: their product is below this.
 constexpr double kFolded = -1.0 + 1e-12;
+/// Of triangles of a flat fan, the cosine between their normals and the direction that it is seen from is above this.
+constexpr double kLeastFlat = 0.2;
 
 /// Six times the volume of a tetrahedron; above 0 where d sees a, b, c clockwise.
 double volume(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
@@ -38,10 +40,34 @@ bool passes_through(const glm::dvec3& p, const glm::dvec3& q, const std::array<g
   return (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
 }
 
+bool is_flat_fan(const HalfEdges& links, std::span<const glm::dvec3> positions, std::uint32_t vertex) {
+  const glm::dvec3& x = positions[vertex];
+  const auto normal = [&](std::uint32_t half) {
+    return glm::cross(positions[links.to(half)] - x, positions[links.opposite(half)] - x);
+  };
+  glm::dvec3 direction(0.0);
+  links.around(vertex, [&](std::uint32_t half) { direction += normal(half); });
+  const double least = kLeastFlat * kLeastFlat * glm::dot(direction, direction);
+  const bool look_there = links.all_around(vertex, [&](std::uint32_t half) {
+    const glm::dvec3 n = normal(half);
+    const double along = glm::dot(n, direction);
+    return along > 0.0 && along * along > least * glm::dot(n, n);
+  });
+  if (!look_there) return false;
+  const glm::dvec3 side = glm::cross(direction, positions[links.to(links.leaving(vertex))] - x);
+  int turns = 0;  // each goes over to this side once
+  links.around(vertex, [&](std::uint32_t half) {
+    const bool before = glm::dot(positions[links.to(half)] - x, side) < 0.0;
+    turns += before && !(glm::dot(positions[links.opposite(half)] - x, side) < 0.0);
+  });
+  return turns == 1;
+}
+
 class CrossingSearch {
  public:
-  CrossingSearch(std::span<const glm::dvec3> positions, std::span<const Triangle> triangles)
-      : positions_(positions), triangles_(triangles), boxes_(triangles.size()) {
+  CrossingSearch(std::span<const glm::dvec3> positions, std::span<const Triangle> triangles,
+                 std::span<const std::uint8_t> flat)
+      : positions_(positions), triangles_(triangles), flat_(flat), boxes_(triangles.size()) {
     tbb::parallel_for(std::size_t{0}, triangles.size(),
                       [&](std::size_t t) { boxes_[t] = placed(static_cast<std::uint32_t>(t)).box(); });
   }
@@ -99,6 +125,14 @@ class CrossingSearch {
     return {v, {positions_[v[0]], positions_[v[1]], positions_[v[2]]}};
   }
 
+  /// Have these a vertex in common whose triangles do not cross?
+  bool have_flat_fan(std::uint32_t t, std::uint32_t u) const {
+    if (flat_.empty()) return false;
+    const Triangle& other = triangles_[u];
+    return std::ranges::any_of(
+        triangles_[t], [&](std::uint32_t v) { return (v == other[0] || v == other[1] || v == other[2]) && flat_[v]; });
+  }
+
   void search(std::size_t bucket, Room& room) const {
     room.here.clear();
     grid_.for_each_in(bucket, [&](std::uint32_t t) { room.here.emplace_back(boxes_[t], t); });
@@ -106,7 +140,7 @@ class CrossingSearch {
       for (std::size_t j = i + 1; j < room.here.size(); ++j) {
         const auto& [box, t] = room.here[i];
         const auto& [other, u] = room.here[j];
-        if (are_apart(box, other)) continue;
+        if (are_apart(box, other) || have_flat_fan(t, u)) continue;
         const auto [a, b] = std::minmax(t, u);
         // Boxes that meet do so in several cells; they count in the first.
         const glm::dvec3 low = glm::max(box.low, other.low);
@@ -116,6 +150,7 @@ class CrossingSearch {
 
   std::span<const glm::dvec3> positions_;
   std::span<const Triangle> triangles_;
+  std::span<const std::uint8_t> flat_;  ///< per vertex, or empty
   std::vector<Box> boxes_;
   BoxGrid grid_;
 };
@@ -143,15 +178,24 @@ bool triangles_cross(const PlacedTriangle& a, const PlacedTriangle& b) {
   return !(product > 0.0) && !(product > kFolded * glm::length(n) * glm::length(m));
 }
 
+std::vector<std::uint8_t> flat_fans(const HalfEdges& links, std::span<const glm::dvec3> positions) {
+  std::vector<std::uint8_t> flat(links.vertex_count(), 0);
+  tbb::parallel_for(std::uint32_t{0}, links.vertex_count(), [&](std::uint32_t v) {
+    if (links.vertex_lives(v)) flat[v] = is_flat_fan(links, positions, v);
+  });
+  return flat;
+}
+
 std::vector<std::pair<std::uint32_t, std::uint32_t>> crossing_triangles(std::span<const glm::dvec3> positions,
-                                                                        std::span<const Triangle> triangles) {
-  return CrossingSearch(positions, triangles).run();
+                                                                        std::span<const Triangle> triangles,
+                                                                        std::span<const std::uint8_t> flat) {
+  return CrossingSearch(positions, triangles, flat).run();
 }
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings_of(std::span<const std::uint32_t> some,
                                                                   std::span<const glm::dvec3> positions,
                                                                   std::span<const Triangle> triangles) {
-  return CrossingSearch(positions, triangles).run(some);
+  return CrossingSearch(positions, triangles, {}).run(some);
 }
 
 namespace {
