@@ -294,16 +294,19 @@ void CrossingGuard::list_near(std::span<const PlacedTriangle> made, std::span<co
   });
 }
 
-std::size_t CrossingGuard::crossings(std::span<const PlacedTriangle> made, std::span<const std::uint32_t> gone) const {
+std::size_t CrossingGuard::crossings(std::span<const PlacedTriangle> made, std::span<const std::uint32_t> gone,
+                                     std::size_t enough) const {
   if (made.empty()) return 0;
   std::size_t count = 0;
   if (!unfolds(made))
     for (std::size_t i = 0; i < made.size(); ++i)
       for (std::size_t j = i + 1; j < made.size(); ++j) count += triangles_cross(made[i], made[j]);
+  if (count >= enough) return count;
   list_near(made, gone);
   for (const PlacedTriangle& x : made) {
     const Box box = x.box();
     for (const PlacedTriangle& other : near_) count += !are_apart(box, other.box()) && triangles_cross(x, other);
+    if (count >= enough) return count;
   }
   return count;
 }

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -147,13 +148,16 @@ class CrossingGuard {
   void compact(std::span<const std::uint32_t> old_vertices);
 
   /// How many pairs of the new triangles, which are neighbours, pass through one another, or of one of them and one
-  /// that is listed and stays? `gone` are those that they replace. Not for several threads at once.
-  std::size_t crossings(std::span<const PlacedTriangle> made, std::span<const std::uint32_t> gone) const;
+  /// that is listed and stays? `gone` are those that they replace. Once there are `enough`, no more are looked for. Not
+  /// for several threads at once.
+  std::size_t crossings(std::span<const PlacedTriangle> made, std::span<const std::uint32_t> gone,
+                        std::size_t enough = kAll) const;
   PlacedTriangle placed(std::uint32_t triangle) const;
 
  private:
   /// How a vertex is watched: bits.
   static constexpr std::uint8_t kLasting = 1, kForNow = 2;
+  static constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
   void mark(std::span<const Ball> places, std::uint8_t how);
   void list();
   void list_near(std::span<const PlacedTriangle> made, std::span<const std::uint32_t> gone) const;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,9 @@ using Tuning = RemeshTuning;
 using Kind = MeshChange::Kind;
 
 namespace {
+
+/// Of a change after which more is wrong than before.
+constexpr std::ptrdiff_t kMore = -1;
 
 /// Are no edges too long once the first vertex has gone to the second?
 bool stays_short(const MeshOnSurface& mesh, std::uint32_t half) {
@@ -151,20 +155,53 @@ bool MeshMender::is_wrong(std::uint32_t triangle) const {
   return mesh_.guard().crossings({&x, 1}, {&triangle, 1}) > 0 || !allowed_(x);
 }
 
-std::ptrdiff_t MeshMender::fewer_forbidden(const Exchange& exchange) const {
-  std::ptrdiff_t fewer = 0;
-  for (const std::uint32_t t : exchange.gone) fewer += !allowed_(mesh_.placed(t));
-  for (const PlacedTriangle& t : exchange.made) fewer -= !allowed_(t);
-  return fewer;
+/// Changes at a triangle take away the same ones again and again.
+class MeshMender::WrongNow {
+ public:
+  /// Both have to live as long.
+  WrongNow(const MeshOnSurface& mesh, const Allowed& allowed) : mesh_(mesh), allowed_(allowed) {}
+
+  std::size_t forbidden(std::span<const std::uint32_t> gone) {
+    std::size_t count = 0;
+    for (const std::uint32_t t : gone) {
+      const auto [known, is_new] = forbidden_.try_emplace(t, false);
+      if (is_new) known->second = !allowed_(mesh_.placed(t));
+      count += known->second;
+    }
+    return count;
+  }
+  std::size_t crossings(const std::vector<std::uint32_t>& gone) {
+    if (gone == gone_) return crossings_;
+    std::vector<PlacedTriangle> now;
+    for (const std::uint32_t t : gone) now.push_back(mesh_.placed(t));
+    gone_ = gone;
+    return crossings_ = mesh_.guard().crossings(now, gone);
+  }
+
+ private:
+  const MeshOnSurface& mesh_;
+  const Allowed& allowed_;
+  std::unordered_map<std::uint32_t, bool> forbidden_;
+  std::vector<std::uint32_t> gone_;  ///< those asked about last
+  std::size_t crossings_ = 0;        ///< theirs
+};
+
+/// How many of these would be forbidden; once there are `enough`, no more are looked for.
+std::size_t MeshMender::forbidden(std::span<const PlacedTriangle> made, std::size_t enough) const {
+  std::size_t count = 0;
+  for (const PlacedTriangle& t : made)
+    if (!allowed_(t) && ++count == enough) break;
+  return count;
 }
 
-/// How many triangles fewer are forbidden, and pairs cross; below 0 if more of either come to be.
-std::ptrdiff_t MeshMender::fewer_wrong(const MeshChange& change) const {
-  const Exchange all = exchange_by(mesh_, change);
-  const std::ptrdiff_t allowances = fewer_forbidden(all);
-  if (allowances < 0) return allowances;
-  const std::ptrdiff_t crossings = fewer_crossings(mesh_, all);
-  return crossings < 0 ? crossings : crossings + allowances;
+/// How many triangles fewer are forbidden, and pairs cross; kMore if more of either come to be.
+std::ptrdiff_t MeshMender::fewer_wrong(const Exchange& exchange, WrongNow& now) const {
+  const std::size_t are_forbidden = now.forbidden(exchange.gone), will_be = forbidden(exchange.made, are_forbidden + 1);
+  if (will_be > are_forbidden) return kMore;
+  const std::size_t cross = now.crossings(exchange.gone);
+  const std::size_t will_cross = mesh_.guard().crossings(exchange.made, exchange.gone, cross + 1);
+  if (will_cross > cross) return kMore;
+  return static_cast<std::ptrdiff_t>(are_forbidden - will_be + cross - will_cross);
 }
 
 /// Makes the change after which the worst triangle is best, or, at one that passes through others or is not allowed,
@@ -177,9 +214,10 @@ bool MeshMender::improve(std::uint32_t triangle, bool wrong) {
   };
   const bool sliver = quality(mesh_.placed(triangle), {}, true) < Tuning::sliver_quality;
   std::vector<Candidate> candidates;
+  WrongNow wrong_now(mesh_, allowed_);
   for_each_change(triangle, sliver, [&](const MeshChange& change, double now) {
     if (wrong) {
-      if (const std::ptrdiff_t fewer = fewer_wrong(change); fewer > 0)
+      if (const std::ptrdiff_t fewer = fewer_wrong(exchange_by(mesh_, change), wrong_now); fewer > 0)
         candidates.push_back({fewer, score_after(change, sliver) - now, change});
       return;
     }
@@ -196,7 +234,9 @@ bool MeshMender::improve(std::uint32_t triangle, bool wrong) {
   for (const Candidate& candidate : candidates) {
     if (!wrong) {
       const Exchange all = exchange_by(mesh_, candidate.change);
-      if (mesh_.guard().crossings(all.made, all.gone) > 0 || fewer_forbidden(all) < 0) continue;
+      if (mesh_.guard().crossings(all.made, all.gone, 1) > 0) continue;
+      const std::size_t will_be = forbidden(all.made, all.made.size());
+      if (will_be > 0 && will_be > wrong_now.forbidden(all.gone)) continue;
     }
     make(mesh_, candidate.change);
     return true;
@@ -213,11 +253,11 @@ void MeshMender::reach(std::span<const PointAtTriangle> points) {
     if (at.face == kNone || !links.lives(3 * triangle)) continue;
     std::optional<MeshChange> best;
     double score = 0.0;
+    WrongNow wrong_now(mesh_, allowed_);
     const auto consider = [&](const MeshChange& change) {
       const double now = score_after(change, false);
       if (best && now <= score) return;
-      const Exchange all = exchange_by(mesh_, change);
-      if (fewer_crossings(mesh_, all) < 0 || fewer_forbidden(all) < 0) return;
+      if (fewer_wrong(exchange_by(mesh_, change), wrong_now) == kMore) return;
       best = change;
       score = now;
     };

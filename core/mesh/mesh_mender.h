@@ -44,6 +44,9 @@ class MeshMender {
     bool on_crease = false;
   };
 
+  /// What is wrong with triangles that changes would take away, while the mesh stays as it is.
+  class WrongNow;
+
   bool is_wrong(std::uint32_t triangle) const;
   bool is_too_short(std::uint32_t half) const;
   bool may_merge(std::uint32_t half) const;
@@ -54,8 +57,8 @@ class MeshMender {
   double quality(const PlacedTriangle& triangle, const PlacedVertex& placed, bool steep) const;
   double score_after(const MeshChange& change, bool steep, double bar = -std::numeric_limits<double>::infinity()) const;
   double score_before(const MeshChange& change, bool steep) const;
-  std::ptrdiff_t fewer_forbidden(const Exchange& exchange) const;
-  std::ptrdiff_t fewer_wrong(const MeshChange& change) const;
+  std::size_t forbidden(std::span<const PlacedTriangle> made, std::size_t enough) const;
+  std::ptrdiff_t fewer_wrong(const Exchange& exchange, WrongNow& now) const;
   bool improve(std::uint32_t triangle, bool wrong);
   void mend(std::vector<std::uint32_t> bad, std::vector<std::uint8_t> doubtful);
 
