@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
 
 #include "core/mesh/even_sizes.h"
 #include "core/mesh/mesh_change.h"
@@ -204,44 +205,74 @@ std::ptrdiff_t MeshMender::fewer_wrong(const Exchange& exchange, WrongNow& now) 
   return static_cast<std::ptrdiff_t>(are_forbidden - will_be + cross - will_cross);
 }
 
-/// Makes the change after which the worst triangle is best, or, at one that passes through others or is not allowed,
-/// the fewest do and are.
-bool MeshMender::improve(std::uint32_t triangle, bool wrong) {
-  struct Candidate {
-    std::ptrdiff_t fewer;
-    double gain;
-    MeshChange change;
-  };
-  const bool sliver = quality(mesh_.placed(triangle), {}, true) < Tuning::sliver_quality;
-  std::vector<Candidate> candidates;
-  WrongNow wrong_now(mesh_, allowed_);
+/// At a sliver all triangles may lean.
+bool MeshMender::is_sliver(std::uint32_t triangle) const {
+  return quality(mesh_.placed(triangle), {}, true) < Tuning::sliver_quality;
+}
+
+/// Those after which the worst triangle is better, or a short edge is gone even if a worse one stays.
+MeshMender::Candidates MeshMender::better_changes(std::uint32_t triangle) const {
+  const bool sliver = is_sliver(triangle);
+  Candidates candidates;
   for_each_change(triangle, sliver, [&](const MeshChange& change, double now) {
-    if (wrong) {
-      if (const std::ptrdiff_t fewer = fewer_wrong(exchange_by(mesh_, change), wrong_now); fewer > 0)
-        candidates.push_back({fewer, score_after(change, sliver) - now, change});
-      return;
-    }
-    // Short edges go even where a worse triangle stays.
     const bool shortens = change.kind == Kind::collapse && is_too_short(change.where);
     const double bar = now + (shortens ? -Tuning::better : Tuning::better), score = score_after(change, sliver, bar);
     if (score > bar) candidates.push_back({0, score - now, change});
   });
+  put_best_first(candidates, sliver);
+  return candidates;
+}
+
+/// Those after which the fewest triangles pass through others or are forbidden.
+MeshMender::Candidates MeshMender::righting_changes(std::uint32_t triangle) const {
+  const bool sliver = is_sliver(triangle);
+  Candidates candidates;
+  WrongNow wrong_now(mesh_, allowed_);
+  for_each_change(triangle, sliver, [&](const MeshChange& change, double now) {
+    if (const std::ptrdiff_t fewer = fewer_wrong(exchange_by(mesh_, change), wrong_now); fewer > 0)
+      candidates.push_back({fewer, score_after(change, sliver) - now, change});
+  });
+  put_best_first(candidates, sliver);
+  return candidates;
+}
+
+/// Of a sliver all of them are tried.
+void MeshMender::put_best_first(Candidates& candidates, bool sliver) {
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     return a.fewer != b.fewer ? a.fewer > b.fewer : a.gain > b.gain;
   });
   if (!sliver && candidates.size() > Tuning::tries)
     candidates.erase(candidates.begin() + Tuning::tries, candidates.end());
+}
+
+/// Makes the first change that makes nothing wrong, if there is one.
+bool MeshMender::make_first(const Candidates& candidates) {
+  WrongNow wrong_now(mesh_, allowed_);
   for (const Candidate& candidate : candidates) {
-    if (!wrong) {
-      const Exchange all = exchange_by(mesh_, candidate.change);
+    const MeshChange& change = candidate.change;
+    if (change.kind == Kind::collapse && !mesh_.can_spare(mesh_.links().from(change.where))) continue;
+    const Exchange all = exchange_by(mesh_, change);
+    if (candidate.fewer == 0) {
       if (mesh_.guard().crossings(all.made, all.gone, 1) > 0) continue;
       const std::size_t will_be = forbidden(all.made, all.made.size());
       if (will_be > 0 && will_be > wrong_now.forbidden(all.gone)) continue;
     }
-    make(mesh_, candidate.change);
+    make(mesh_, change);
+    changed_.resize(mesh_.links().vertex_count(), 0);
+    for (const PlacedTriangle& t : all.made)
+      for (const std::uint32_t v : t.vertex) changed_[v] = 1;
     return true;
   }
   return false;
+}
+
+/// Has this round changed what the changes of a triangle follow from?
+bool MeshMender::has_changed_around(std::uint32_t triangle) const {
+  const auto corners = mesh_.links().corners(triangle);
+  return std::ranges::any_of(corners, [&](std::uint32_t v) {
+    return changed_[v] || !mesh_.links().all_around(
+                              v, [&](std::uint32_t half) { return changed_[mesh_.links().to(half)] == 0; });
+  });
 }
 
 void MeshMender::reach(std::span<const PointAtTriangle> points) {
@@ -289,7 +320,8 @@ void MeshMender::mend_only(std::span<const std::uint32_t> triangles) {
   mend({triangles.begin(), triangles.end()}, std::move(doubtful));
 }
 
-/// Doubtful are triangles that may cross others or be forbidden, and with them what comes about there.
+/// Doubtful are triangles that may cross others or be forbidden, and with them what comes about there. The changes of
+/// all others are found first, on all cores; they are found again where a round has changed something before.
 void MeshMender::mend(std::vector<std::uint32_t> bad, std::vector<std::uint8_t> doubtful) {
   const HalfEdges& links = mesh_.links();
   const TriangleQuality& qualities = mesh_.quality();
@@ -298,10 +330,22 @@ void MeshMender::mend(std::vector<std::uint32_t> bad, std::vector<std::uint8_t> 
     std::vector<std::uint32_t> next;
     std::sort(bad.begin(), bad.end());
     bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
-    for (const std::uint32_t t : bad) {
+    std::vector<std::optional<Candidates>> found(bad.size());
+    tbb::parallel_for(std::size_t{0}, bad.size(), [&](std::size_t n) {
+      const std::uint32_t t = bad[n];
+      if (links.lives(3 * t) && !doubtful[t] && qualities.of(t) < Tuning::good_quality) found[n] = better_changes(t);
+    });
+    changed_.assign(links.vertex_count(), 0);
+    for (std::size_t n = 0; n < bad.size(); ++n) {
+      const std::uint32_t t = bad[n];
       if (!links.lives(3 * t)) continue;
       const bool wrong = doubtful[t] && is_wrong(t);
-      if ((!wrong && qualities.of(t) >= Tuning::good_quality) || !improve(t, wrong)) continue;
+      if (!wrong && qualities.of(t) >= Tuning::good_quality) continue;
+      if (wrong)
+        found[n] = righting_changes(t);
+      else if (!found[n] || has_changed_around(t))
+        found[n] = better_changes(t);
+      if (!make_first(*std::exchange(found[n], {}))) continue;
       doubtful.resize(links.triangle_count(), 0);
       if (!links.lives(3 * t)) continue;
       for (const std::uint32_t v : links.corners(t))

@@ -7,6 +7,8 @@
 #include <functional>
 #include <limits>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "core/mesh/mesh_change.h"
 
@@ -44,6 +46,13 @@ class MeshMender {
     bool on_crease = false;
   };
 
+  struct Candidate {
+    std::ptrdiff_t fewer;  ///< how many are wrong fewer than before
+    double gain;           ///< of the score
+    MeshChange change;
+  };
+  using Candidates = std::vector<Candidate>;
+
   /// What is wrong with triangles that changes would take away, while the mesh stays as it is.
   class WrongNow;
 
@@ -59,11 +68,17 @@ class MeshMender {
   double score_before(const MeshChange& change, bool steep) const;
   std::size_t forbidden(std::span<const PlacedTriangle> made, std::size_t enough) const;
   std::ptrdiff_t fewer_wrong(const Exchange& exchange, WrongNow& now) const;
-  bool improve(std::uint32_t triangle, bool wrong);
+  bool is_sliver(std::uint32_t triangle) const;
+  Candidates better_changes(std::uint32_t triangle) const;
+  Candidates righting_changes(std::uint32_t triangle) const;
+  static void put_best_first(Candidates& candidates, bool sliver);
+  bool make_first(const Candidates& candidates);
+  bool has_changed_around(std::uint32_t triangle) const;
   void mend(std::vector<std::uint32_t> bad, std::vector<std::uint8_t> doubtful);
 
   MeshOnSurface& mesh_;
   Allowed allowed_;
+  std::vector<std::uint8_t> changed_;  ///< per vertex: since the round began; what is around it or where it is
 };
 
 }  // namespace meniscus
