@@ -270,8 +270,8 @@ bool MeshMender::make_first(const Candidates& candidates) {
 bool MeshMender::has_changed_around(std::uint32_t triangle) const {
   const auto corners = mesh_.links().corners(triangle);
   return std::ranges::any_of(corners, [&](std::uint32_t v) {
-    return changed_[v] || !mesh_.links().all_around(
-                              v, [&](std::uint32_t half) { return changed_[mesh_.links().to(half)] == 0; });
+    return changed_[v] ||
+           !mesh_.links().all_around(v, [&](std::uint32_t half) { return changed_[mesh_.links().to(half)] == 0; });
   });
 }
 
