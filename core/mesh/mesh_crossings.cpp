@@ -33,8 +33,9 @@ double volume(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, con
   return glm::dot(a - d, glm::cross(b - d, c - d));
 }
 
-bool passes_through(const glm::dvec3& p, const glm::dvec3& q, const std::array<glm::dvec3, 3>& t) {
-  const double at_p = volume(t[0], t[1], t[2], p), at_q = volume(t[0], t[1], t[2], q);
+/// at_p, at_q: on which side of the triangle its ends are.
+bool passes_through(const glm::dvec3& p, const glm::dvec3& q, const std::array<glm::dvec3, 3>& t, double at_p,
+                    double at_q) {
   if ((at_p > 0.0 && at_q > 0.0) || (at_p < 0.0 && at_q < 0.0) || (at_p == 0.0 && at_q == 0.0)) return false;
   const double u = volume(p, q, t[0], t[1]), v = volume(p, q, t[1], t[2]), w = volume(p, q, t[2], t[0]);
   return (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
@@ -61,6 +62,30 @@ bool is_flat_fan(const HalfEdges& links, std::span<const glm::dvec3> positions, 
     turns += before && !(glm::dot(positions[links.opposite(half)] - x, side) < 0.0);
   });
   return turns == 1;
+}
+
+bool passes_through(const glm::dvec3& p, const glm::dvec3& q, const std::array<glm::dvec3, 3>& t) {
+  return passes_through(p, q, t, volume(t[0], t[1], t[2], p), volume(t[0], t[1], t[2], q));
+}
+
+/// On which sides of a triangle's plane the corners of another are.
+std::array<double, 3> sides_of(const std::array<glm::dvec3, 3>& triangle, const std::array<glm::dvec3, 3>& other) {
+  const auto side = [&](const glm::dvec3& x) { return volume(triangle[0], triangle[1], triangle[2], x); };
+  return {side(other[0]), side(other[1]), side(other[2])};
+}
+bool is_one_side(const std::array<double, 3>& sides) {
+  return (sides[0] > 0.0 && sides[1] > 0.0 && sides[2] > 0.0) || (sides[0] < 0.0 && sides[1] < 0.0 && sides[2] < 0.0);
+}
+
+/// Of triangles without a common corner.
+bool cross_apart(const std::array<glm::dvec3, 3>& x, const std::array<glm::dvec3, 3>& y) {
+  const std::array<double, 3> at_y = sides_of(x, y);
+  if (is_one_side(at_y)) return false;
+  const std::array<double, 3> at_x = sides_of(y, x);
+  if (is_one_side(at_x)) return false;
+  for (int k = 0, l = 1; k < 3; ++k, l = (l + 1) % 3)
+    if (passes_through(x[k], x[l], y, at_x[k], at_x[l]) || passes_through(y[k], y[l], x, at_y[k], at_y[l])) return true;
+  return false;
 }
 
 class CrossingSearch {
@@ -163,11 +188,7 @@ bool triangles_cross(const PlacedTriangle& a, const PlacedTriangle& b) {
   for (int k = 0; k < 3; ++k)
     if (std::find(b.vertex.begin(), b.vertex.end(), a.vertex[k]) != b.vertex.end()) shared[count++] = k;
   const auto &x = a.at, &y = b.at;
-  if (count == 0) {
-    for (int k = 0; k < 3; ++k)
-      if (passes_through(x[k], x[(k + 1) % 3], y) || passes_through(y[k], y[(k + 1) % 3], x)) return true;
-    return false;
-  }
+  if (count == 0) return cross_apart(x, y);
   if (count == 1) {
     const int i = shared[0];
     const auto j = static_cast<int>(std::find(b.vertex.begin(), b.vertex.end(), a.vertex[i]) - b.vertex.begin());
