@@ -266,6 +266,25 @@ bool MeshMender::make_first(const Candidates& candidates) {
   return false;
 }
 
+/// Those that no triangle before them is likely to change.
+std::vector<std::optional<MeshMender::Candidates>> MeshMender::changes_of_first(
+    std::span<const std::uint32_t> bad, std::span<const std::uint8_t> doubtful) {
+  const HalfEdges& links = mesh_.links();
+  std::vector<std::size_t> first;
+  changed_.assign(links.vertex_count(), 0);
+  for (std::size_t n = 0; n < bad.size(); ++n) {
+    const std::uint32_t t = bad[n];
+    if (!links.lives(3 * t) || (!doubtful[t] && mesh_.quality().of(t) >= Tuning::good_quality)) continue;
+    if (!doubtful[t] && !has_changed_around(t)) first.push_back(n);
+    for (const std::uint32_t v : links.corners(t))
+      links.around(v, [&](std::uint32_t half) { changed_[links.to(half)] = 1; });
+  }
+  std::vector<std::optional<Candidates>> found(bad.size());
+  tbb::parallel_for(std::size_t{0}, first.size(),
+                    [&](std::size_t n) { found[first[n]] = better_changes(bad[first[n]]); });
+  return found;
+}
+
 /// Has this round changed what the changes of a triangle follow from?
 bool MeshMender::has_changed_around(std::uint32_t triangle) const {
   const auto corners = mesh_.links().corners(triangle);
@@ -321,7 +340,7 @@ void MeshMender::mend_only(std::span<const std::uint32_t> triangles) {
 }
 
 /// Doubtful are triangles that may cross others or be forbidden, and with them what comes about there. The changes of
-/// all others are found first, on all cores; they are found again where a round has changed something before.
+/// others that are far apart are found first, on all cores, and found again if a round has changed something there.
 void MeshMender::mend(std::vector<std::uint32_t> bad, std::vector<std::uint8_t> doubtful) {
   const HalfEdges& links = mesh_.links();
   const TriangleQuality& qualities = mesh_.quality();
@@ -330,11 +349,7 @@ void MeshMender::mend(std::vector<std::uint32_t> bad, std::vector<std::uint8_t> 
     std::vector<std::uint32_t> next;
     std::sort(bad.begin(), bad.end());
     bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
-    std::vector<std::optional<Candidates>> found(bad.size());
-    tbb::parallel_for(std::size_t{0}, bad.size(), [&](std::size_t n) {
-      const std::uint32_t t = bad[n];
-      if (links.lives(3 * t) && !doubtful[t] && qualities.of(t) < Tuning::good_quality) found[n] = better_changes(t);
-    });
+    std::vector<std::optional<Candidates>> found = changes_of_first(bad, doubtful);
     changed_.assign(links.vertex_count(), 0);
     for (std::size_t n = 0; n < bad.size(); ++n) {
       const std::uint32_t t = bad[n];

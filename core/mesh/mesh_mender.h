@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -73,6 +74,8 @@ class MeshMender {
   Candidates righting_changes(std::uint32_t triangle) const;
   static void put_best_first(Candidates& candidates, bool sliver);
   bool make_first(const Candidates& candidates);
+  std::vector<std::optional<Candidates>> changes_of_first(std::span<const std::uint32_t> bad,
+                                                          std::span<const std::uint8_t> doubtful);
   bool has_changed_around(std::uint32_t triangle) const;
   void mend(std::vector<std::uint32_t> bad, std::vector<std::uint8_t> doubtful);
 

@@ -94,11 +94,11 @@ void Remesher::flip_edges() {
   mesh_.quality().find_all();
   std::vector<std::uint8_t> stale = mesh_.quality().take_stale();
   for (std::uint32_t half = 0; half < links.half_edge_count(); ++half) {
-    if (half > links.twin(half) || !links.lives(half) || !busy(half)) continue;
+    if (half > links.twin(half) || !links.lives(half)) continue;
     const std::uint32_t t = half / 3, u = links.twin(half) / 3;
     if (!stale[t] && !stale[u]) continue;
-    if ((quality.of(t) < Tuning::fine_quality || quality.of(u) < Tuning::fine_quality) && try_flip(half))
-      stale[t] = stale[u] = 1;
+    if (quality.of(t) >= Tuning::fine_quality && quality.of(u) >= Tuning::fine_quality) continue;
+    if (busy(half) && try_flip(half)) stale[t] = stale[u] = 1;
   }
 }
 
