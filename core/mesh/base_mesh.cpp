@@ -146,8 +146,11 @@ class Contraction {
     std::vector<std::uint8_t> restored(surface_.faces.size(), 0);
     std::vector<std::uint8_t> broken(surface_.components.size(), 0);
     const CornerLists corners(made_.mesh.triangles, static_cast<std::uint32_t>(disc_.size()));
+    std::vector<std::uint8_t> is_sound(disc_.size());
+    tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(disc_.size()),
+                      [&](std::uint32_t v) { is_sound[v] = go_around_once(made_.mesh.triangles, corners.at(v)); });
     for (std::uint32_t v = 0; v < disc_.size(); ++v) {
-      if (go_around_once(made_.mesh.triangles, corners.at(v))) continue;
+      if (is_sound[v]) continue;
       sound_ = false;
       std::vector<std::uint32_t> beside;  // discs
       for (const std::uint32_t c : corners.at(v))

@@ -49,7 +49,8 @@ std::vector<std::uint32_t> crossing(MeshOnSurface& mesh) {
   const auto all = all_triangles(mesh.links());
   const std::vector<std::uint32_t> unchecked = unchecked_triangles(mesh, all);
   const bool few = unchecked.size() < all.size() / RemeshTuning::few_unchecked;
-  const auto pairs = few ? crossings_of(unchecked, mesh.positions(), all) : crossing_triangles(mesh.positions(), all);
+  const auto pairs = few ? crossings_of(unchecked, mesh.positions(), all)
+                         : crossing_triangles(mesh.positions(), all, flat_fans(mesh.links(), mesh.positions()));
   std::vector<std::uint8_t> bad(all.size(), 0);
   for (const auto& [a, b] : pairs) bad[a] = bad[b] = 1;
   for (std::uint32_t v = 0; v < mesh.links().vertex_count(); ++v) mesh.vertex(v).unchecked = false;

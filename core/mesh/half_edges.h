@@ -51,6 +51,8 @@ class HalfEdges {
   std::uint32_t to(std::uint32_t half) const { return from_[next(half)]; }
   std::uint32_t opposite(std::uint32_t half) const { return from_[last(half)]; }
   std::uint32_t twin(std::uint32_t half) const { return twin_[half]; }
+  /// Some half-edge that leaves a vertex, or kNone.
+  std::uint32_t leaving(std::uint32_t vertex) const { return leaving_[vertex]; }
   std::array<std::uint32_t, 3> corners(std::uint32_t triangle) const {
     return {from_[3 * triangle], from_[3 * triangle + 1], from_[3 * triangle + 2]};
   }
@@ -67,6 +69,17 @@ class HalfEdges {
       visit(half);
       half = next(twin_[half]);
     } while (half != first);
+  }
+  /// Is that so of each half-edge that leaves a vertex? Asked is no further than to the first of which it is not.
+  template <typename Predicate>
+  bool all_around(std::uint32_t vertex, const Predicate& is_so) const {
+    const std::uint32_t first = leaving_[vertex];
+    std::uint32_t half = first;
+    do {
+      if (!is_so(half)) return false;
+      half = next(twin_[half]);
+    } while (half != first);
+    return true;
   }
   std::uint32_t valence(std::uint32_t vertex) const {
     std::uint32_t count = 0;

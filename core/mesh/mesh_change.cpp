@@ -30,15 +30,7 @@ bool may_vanish(const MeshOnSurface& mesh, std::uint32_t half) {
 
 bool crosses_nothing(const MeshOnSurface& mesh, const MeshChange& change) {
   const Exchange all = exchange_by(mesh, change);
-  return mesh.guard().crossings(all.made, all.gone) == 0;
-}
-
-std::ptrdiff_t fewer_crossings(const MeshOnSurface& mesh, const Exchange& exchange) {
-  std::vector<PlacedTriangle> now;
-  now.reserve(exchange.gone.size());
-  for (const std::uint32_t t : exchange.gone) now.push_back(mesh.placed(t));
-  return static_cast<std::ptrdiff_t>(mesh.guard().crossings(now, exchange.gone)) -
-         static_cast<std::ptrdiff_t>(mesh.guard().crossings(exchange.made, exchange.gone));
+  return mesh.guard().crossings(all.made, all.gone, 1) == 0;
 }
 
 void make(MeshOnSurface& mesh, const MeshChange& change) {

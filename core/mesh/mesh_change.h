@@ -104,9 +104,6 @@ bool may_vanish(const MeshOnSurface& mesh, std::uint32_t half);
 /// Would no triangle that a change makes pass through watched ones?
 bool crosses_nothing(const MeshOnSurface& mesh, const MeshChange& change);
 
-/// How many pairs of triangles cross fewer with it than without.
-std::ptrdiff_t fewer_crossings(const MeshOnSurface& mesh, const Exchange& exchange);
-
 /// Makes a change. A vertex of a crease that goes into one beside it pins that one there.
 void make(MeshOnSurface& mesh, const MeshChange& change);
 

@@ -25,23 +25,74 @@ using Pair = std::pair<std::uint32_t, std::uint32_t>;
 constexpr double kCellSides = 1.5;
 /// Unit normals of two triangles with a common edge that are folded onto one another: their product is below this.
 constexpr double kFolded = -1.0 + 1e-12;
+/// Of triangles of a flat fan, the cosine between their normals and the direction that it is seen from is above this.
+constexpr double kLeastFlat = 0.2;
 
 /// Six times the volume of a tetrahedron; above 0 where d sees a, b, c clockwise.
 double volume(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
   return glm::dot(a - d, glm::cross(b - d, c - d));
 }
 
-bool passes_through(const glm::dvec3& p, const glm::dvec3& q, const std::array<glm::dvec3, 3>& t) {
-  const double at_p = volume(t[0], t[1], t[2], p), at_q = volume(t[0], t[1], t[2], q);
+/// at_p, at_q: on which side of the triangle its ends are.
+bool passes_through(const glm::dvec3& p, const glm::dvec3& q, const std::array<glm::dvec3, 3>& t, double at_p,
+                    double at_q) {
   if ((at_p > 0.0 && at_q > 0.0) || (at_p < 0.0 && at_q < 0.0) || (at_p == 0.0 && at_q == 0.0)) return false;
   const double u = volume(p, q, t[0], t[1]), v = volume(p, q, t[1], t[2]), w = volume(p, q, t[2], t[0]);
   return (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
 }
 
+bool is_flat_fan(const HalfEdges& links, std::span<const glm::dvec3> positions, std::uint32_t vertex) {
+  const glm::dvec3& x = positions[vertex];
+  const auto normal = [&](std::uint32_t half) {
+    return glm::cross(positions[links.to(half)] - x, positions[links.opposite(half)] - x);
+  };
+  glm::dvec3 direction(0.0);
+  links.around(vertex, [&](std::uint32_t half) { direction += normal(half); });
+  const double least = kLeastFlat * kLeastFlat * glm::dot(direction, direction);
+  const bool look_there = links.all_around(vertex, [&](std::uint32_t half) {
+    const glm::dvec3 n = normal(half);
+    const double along = glm::dot(n, direction);
+    return along > 0.0 && along * along > least * glm::dot(n, n);
+  });
+  if (!look_there) return false;
+  const glm::dvec3 side = glm::cross(direction, positions[links.to(links.leaving(vertex))] - x);
+  int turns = 0;  // each goes over to this side once
+  links.around(vertex, [&](std::uint32_t half) {
+    const bool before = glm::dot(positions[links.to(half)] - x, side) < 0.0;
+    turns += before && !(glm::dot(positions[links.opposite(half)] - x, side) < 0.0);
+  });
+  return turns == 1;
+}
+
+bool passes_through(const glm::dvec3& p, const glm::dvec3& q, const std::array<glm::dvec3, 3>& t) {
+  return passes_through(p, q, t, volume(t[0], t[1], t[2], p), volume(t[0], t[1], t[2], q));
+}
+
+/// On which sides of a triangle's plane the corners of another are.
+std::array<double, 3> sides_of(const std::array<glm::dvec3, 3>& triangle, const std::array<glm::dvec3, 3>& other) {
+  const auto side = [&](const glm::dvec3& x) { return volume(triangle[0], triangle[1], triangle[2], x); };
+  return {side(other[0]), side(other[1]), side(other[2])};
+}
+bool is_one_side(const std::array<double, 3>& sides) {
+  return (sides[0] > 0.0 && sides[1] > 0.0 && sides[2] > 0.0) || (sides[0] < 0.0 && sides[1] < 0.0 && sides[2] < 0.0);
+}
+
+/// Of triangles without a common corner.
+bool cross_apart(const std::array<glm::dvec3, 3>& x, const std::array<glm::dvec3, 3>& y) {
+  const std::array<double, 3> at_y = sides_of(x, y);
+  if (is_one_side(at_y)) return false;
+  const std::array<double, 3> at_x = sides_of(y, x);
+  if (is_one_side(at_x)) return false;
+  for (int k = 0, l = 1; k < 3; ++k, l = (l + 1) % 3)
+    if (passes_through(x[k], x[l], y, at_x[k], at_x[l]) || passes_through(y[k], y[l], x, at_y[k], at_y[l])) return true;
+  return false;
+}
+
 class CrossingSearch {
  public:
-  CrossingSearch(std::span<const glm::dvec3> positions, std::span<const Triangle> triangles)
-      : positions_(positions), triangles_(triangles), boxes_(triangles.size()) {
+  CrossingSearch(std::span<const glm::dvec3> positions, std::span<const Triangle> triangles,
+                 std::span<const std::uint8_t> flat)
+      : positions_(positions), triangles_(triangles), flat_(flat), boxes_(triangles.size()) {
     tbb::parallel_for(std::size_t{0}, triangles.size(),
                       [&](std::size_t t) { boxes_[t] = placed(static_cast<std::uint32_t>(t)).box(); });
   }
@@ -99,6 +150,14 @@ class CrossingSearch {
     return {v, {positions_[v[0]], positions_[v[1]], positions_[v[2]]}};
   }
 
+  /// Have these a vertex in common whose triangles do not cross?
+  bool have_flat_fan(std::uint32_t t, std::uint32_t u) const {
+    if (flat_.empty()) return false;
+    const Triangle& other = triangles_[u];
+    return std::ranges::any_of(
+        triangles_[t], [&](std::uint32_t v) { return (v == other[0] || v == other[1] || v == other[2]) && flat_[v]; });
+  }
+
   void search(std::size_t bucket, Room& room) const {
     room.here.clear();
     grid_.for_each_in(bucket, [&](std::uint32_t t) { room.here.emplace_back(boxes_[t], t); });
@@ -106,7 +165,7 @@ class CrossingSearch {
       for (std::size_t j = i + 1; j < room.here.size(); ++j) {
         const auto& [box, t] = room.here[i];
         const auto& [other, u] = room.here[j];
-        if (are_apart(box, other)) continue;
+        if (are_apart(box, other) || have_flat_fan(t, u)) continue;
         const auto [a, b] = std::minmax(t, u);
         // Boxes that meet do so in several cells; they count in the first.
         const glm::dvec3 low = glm::max(box.low, other.low);
@@ -116,6 +175,7 @@ class CrossingSearch {
 
   std::span<const glm::dvec3> positions_;
   std::span<const Triangle> triangles_;
+  std::span<const std::uint8_t> flat_;  ///< per vertex, or empty
   std::vector<Box> boxes_;
   BoxGrid grid_;
 };
@@ -128,11 +188,7 @@ bool triangles_cross(const PlacedTriangle& a, const PlacedTriangle& b) {
   for (int k = 0; k < 3; ++k)
     if (std::find(b.vertex.begin(), b.vertex.end(), a.vertex[k]) != b.vertex.end()) shared[count++] = k;
   const auto &x = a.at, &y = b.at;
-  if (count == 0) {
-    for (int k = 0; k < 3; ++k)
-      if (passes_through(x[k], x[(k + 1) % 3], y) || passes_through(y[k], y[(k + 1) % 3], x)) return true;
-    return false;
-  }
+  if (count == 0) return cross_apart(x, y);
   if (count == 1) {
     const int i = shared[0];
     const auto j = static_cast<int>(std::find(b.vertex.begin(), b.vertex.end(), a.vertex[i]) - b.vertex.begin());
@@ -143,15 +199,24 @@ bool triangles_cross(const PlacedTriangle& a, const PlacedTriangle& b) {
   return !(product > 0.0) && !(product > kFolded * glm::length(n) * glm::length(m));
 }
 
+std::vector<std::uint8_t> flat_fans(const HalfEdges& links, std::span<const glm::dvec3> positions) {
+  std::vector<std::uint8_t> flat(links.vertex_count(), 0);
+  tbb::parallel_for(std::uint32_t{0}, links.vertex_count(), [&](std::uint32_t v) {
+    if (links.vertex_lives(v)) flat[v] = is_flat_fan(links, positions, v);
+  });
+  return flat;
+}
+
 std::vector<std::pair<std::uint32_t, std::uint32_t>> crossing_triangles(std::span<const glm::dvec3> positions,
-                                                                        std::span<const Triangle> triangles) {
-  return CrossingSearch(positions, triangles).run();
+                                                                        std::span<const Triangle> triangles,
+                                                                        std::span<const std::uint8_t> flat) {
+  return CrossingSearch(positions, triangles, flat).run();
 }
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings_of(std::span<const std::uint32_t> some,
                                                                   std::span<const glm::dvec3> positions,
                                                                   std::span<const Triangle> triangles) {
-  return CrossingSearch(positions, triangles).run(some);
+  return CrossingSearch(positions, triangles, {}).run(some);
 }
 
 namespace {
@@ -250,16 +315,19 @@ void CrossingGuard::list_near(std::span<const PlacedTriangle> made, std::span<co
   });
 }
 
-std::size_t CrossingGuard::crossings(std::span<const PlacedTriangle> made, std::span<const std::uint32_t> gone) const {
+std::size_t CrossingGuard::crossings(std::span<const PlacedTriangle> made, std::span<const std::uint32_t> gone,
+                                     std::size_t enough) const {
   if (made.empty()) return 0;
   std::size_t count = 0;
   if (!unfolds(made))
     for (std::size_t i = 0; i < made.size(); ++i)
       for (std::size_t j = i + 1; j < made.size(); ++j) count += triangles_cross(made[i], made[j]);
+  if (count >= enough) return count;
   list_near(made, gone);
   for (const PlacedTriangle& x : made) {
     const Box box = x.box();
     for (const PlacedTriangle& other : near_) count += !are_apart(box, other.box()) && triangles_cross(x, other);
+    if (count >= enough) return count;
   }
   return count;
 }

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -38,7 +39,7 @@ class BoxGrid {
  public:
   /// cell: Å, the side of a cell; count: about how many boxes will be added.
   explicit BoxGrid(double cell = 1.0, std::size_t count = 0)
-      : cell_(cell), heads_(std::bit_ceil(std::max(2 * count, kFewestBuckets)), kNone) {}
+      : cells_(1.0 / cell), heads_(std::bit_ceil(std::max(2 * count, kFewestBuckets)), kNone) {}
 
   void add(std::uint32_t number, const Box& box) {
     for_each_bucket(box, [&](std::size_t bucket) {
@@ -68,7 +69,12 @@ class BoxGrid {
     std::uint32_t number, next;
   };
 
-  glm::i64vec3 cell_of(const glm::dvec3& x) const { return glm::i64vec3(glm::floor(x / cell_)); }
+  glm::i64vec3 cell_of(const glm::dvec3& x) const {
+    const glm::dvec3 at = x * cells_;
+    const glm::i64vec3 cut(at);  // towards 0
+    return cut - glm::i64vec3(at.x < static_cast<double>(cut.x), at.y < static_cast<double>(cut.y),
+                              at.z < static_cast<double>(cut.z));
+  }
   /// Cells of a cube of 4 x 4 x 4 have buckets side by side: near in space, near in memory.
   std::size_t bucket_of_cell(const glm::i64vec3& cell) const {
     const glm::i64vec3 cube = cell >> std::int64_t{2}, in_cube = cell & std::int64_t{3};
@@ -85,7 +91,7 @@ class BoxGrid {
         for (at.z = low.z; at.z <= high.z; ++at.z) visit(bucket_of_cell(at));
   }
 
-  double cell_;
+  double cells_;                      ///< per Å
   std::vector<std::uint32_t> heads_;  ///< per bucket, into entries_, or kNone
   std::vector<Entry> entries_;
 };
@@ -102,10 +108,15 @@ struct PlacedTriangle {
 /// precision.
 bool triangles_cross(const PlacedTriangle& a, const PlacedTriangle& b);
 
+/// Per vertex of a closed mesh, whether its triangles go around it once as seen from one direction, from which all look
+/// the same way and none leans almost at a right angle: of these no two cross.
+std::vector<std::uint8_t> flat_fans(const HalfEdges& links, std::span<const glm::dvec3> positions);
+
 /// All pairs of triangles that have a point in common other than a vertex or edge that both have, in ascending order.
-/// Runs on all cores TBB may use.
+/// flat: of flat_fans(), or nothing; what is known from it is not computed. Runs on all cores TBB may use.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> crossing_triangles(
-    std::span<const glm::dvec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles);
+    std::span<const glm::dvec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles,
+    std::span<const std::uint8_t> flat = {});
 
 /// Those of these pairs in which one of `some` (ascending) is: sooner found where these are few.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings_of(
@@ -137,13 +148,16 @@ class CrossingGuard {
   void compact(std::span<const std::uint32_t> old_vertices);
 
   /// How many pairs of the new triangles, which are neighbours, pass through one another, or of one of them and one
-  /// that is listed and stays? `gone` are those that they replace. Not for several threads at once.
-  std::size_t crossings(std::span<const PlacedTriangle> made, std::span<const std::uint32_t> gone) const;
+  /// that is listed and stays? `gone` are those that they replace. Once there are `enough`, no more are looked for. Not
+  /// for several threads at once.
+  std::size_t crossings(std::span<const PlacedTriangle> made, std::span<const std::uint32_t> gone,
+                        std::size_t enough = kAll) const;
   PlacedTriangle placed(std::uint32_t triangle) const;
 
  private:
   /// How a vertex is watched: bits.
   static constexpr std::uint8_t kLasting = 1, kForNow = 2;
+  static constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
   void mark(std::span<const Ball> places, std::uint8_t how);
   void list();
   void list_near(std::span<const PlacedTriangle> made, std::span<const std::uint32_t> gone) const;

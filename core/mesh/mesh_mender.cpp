@@ -6,10 +6,12 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
 
 #include "core/mesh/even_sizes.h"
 #include "core/mesh/mesh_change.h"
@@ -20,6 +22,9 @@ using Tuning = RemeshTuning;
 using Kind = MeshChange::Kind;
 
 namespace {
+
+/// Of a change after which more is wrong than before.
+constexpr std::ptrdiff_t kMore = -1;
 
 /// Are no edges too long once the first vertex has gone to the second?
 bool stays_short(const MeshOnSurface& mesh, std::uint32_t half) {
@@ -151,57 +156,142 @@ bool MeshMender::is_wrong(std::uint32_t triangle) const {
   return mesh_.guard().crossings({&x, 1}, {&triangle, 1}) > 0 || !allowed_(x);
 }
 
-std::ptrdiff_t MeshMender::fewer_forbidden(const Exchange& exchange) const {
-  std::ptrdiff_t fewer = 0;
-  for (const std::uint32_t t : exchange.gone) fewer += !allowed_(mesh_.placed(t));
-  for (const PlacedTriangle& t : exchange.made) fewer -= !allowed_(t);
-  return fewer;
-}
+/// Changes at a triangle take away the same ones again and again.
+class MeshMender::WrongNow {
+ public:
+  /// Both have to live as long.
+  WrongNow(const MeshOnSurface& mesh, const Allowed& allowed) : mesh_(mesh), allowed_(allowed) {}
 
-/// How many triangles fewer are forbidden, and pairs cross; below 0 if more of either come to be.
-std::ptrdiff_t MeshMender::fewer_wrong(const MeshChange& change) const {
-  const Exchange all = exchange_by(mesh_, change);
-  const std::ptrdiff_t allowances = fewer_forbidden(all);
-  if (allowances < 0) return allowances;
-  const std::ptrdiff_t crossings = fewer_crossings(mesh_, all);
-  return crossings < 0 ? crossings : crossings + allowances;
-}
-
-/// Makes the change after which the worst triangle is best, or, at one that passes through others or is not allowed,
-/// the fewest do and are.
-bool MeshMender::improve(std::uint32_t triangle, bool wrong) {
-  struct Candidate {
-    std::ptrdiff_t fewer;
-    double gain;
-    MeshChange change;
-  };
-  const bool sliver = quality(mesh_.placed(triangle), {}, true) < Tuning::sliver_quality;
-  std::vector<Candidate> candidates;
-  for_each_change(triangle, sliver, [&](const MeshChange& change, double now) {
-    if (wrong) {
-      if (const std::ptrdiff_t fewer = fewer_wrong(change); fewer > 0)
-        candidates.push_back({fewer, score_after(change, sliver) - now, change});
-      return;
+  std::size_t forbidden(std::span<const std::uint32_t> gone) {
+    std::size_t count = 0;
+    for (const std::uint32_t t : gone) {
+      const auto [known, is_new] = forbidden_.try_emplace(t, false);
+      if (is_new) known->second = !allowed_(mesh_.placed(t));
+      count += known->second;
     }
-    // Short edges go even where a worse triangle stays.
+    return count;
+  }
+  std::size_t crossings(const std::vector<std::uint32_t>& gone) {
+    if (gone == gone_) return crossings_;
+    std::vector<PlacedTriangle> now;
+    for (const std::uint32_t t : gone) now.push_back(mesh_.placed(t));
+    gone_ = gone;
+    return crossings_ = mesh_.guard().crossings(now, gone);
+  }
+
+ private:
+  const MeshOnSurface& mesh_;
+  const Allowed& allowed_;
+  std::unordered_map<std::uint32_t, bool> forbidden_;
+  std::vector<std::uint32_t> gone_;  ///< those asked about last
+  std::size_t crossings_ = 0;        ///< theirs
+};
+
+/// How many of these would be forbidden; once there are `enough`, no more are looked for.
+std::size_t MeshMender::forbidden(std::span<const PlacedTriangle> made, std::size_t enough) const {
+  std::size_t count = 0;
+  for (const PlacedTriangle& t : made)
+    if (!allowed_(t) && ++count == enough) break;
+  return count;
+}
+
+/// How many triangles fewer are forbidden, and pairs cross; kMore if more of either come to be.
+std::ptrdiff_t MeshMender::fewer_wrong(const Exchange& exchange, WrongNow& now) const {
+  const std::size_t are_forbidden = now.forbidden(exchange.gone), will_be = forbidden(exchange.made, are_forbidden + 1);
+  if (will_be > are_forbidden) return kMore;
+  const std::size_t cross = now.crossings(exchange.gone);
+  const std::size_t will_cross = mesh_.guard().crossings(exchange.made, exchange.gone, cross + 1);
+  if (will_cross > cross) return kMore;
+  return static_cast<std::ptrdiff_t>(are_forbidden - will_be + cross - will_cross);
+}
+
+/// At a sliver all triangles may lean.
+bool MeshMender::is_sliver(std::uint32_t triangle) const {
+  return quality(mesh_.placed(triangle), {}, true) < Tuning::sliver_quality;
+}
+
+/// Those after which the worst triangle is better, or a short edge is gone even if a worse one stays.
+MeshMender::Candidates MeshMender::better_changes(std::uint32_t triangle) const {
+  const bool sliver = is_sliver(triangle);
+  Candidates candidates;
+  for_each_change(triangle, sliver, [&](const MeshChange& change, double now) {
     const bool shortens = change.kind == Kind::collapse && is_too_short(change.where);
     const double bar = now + (shortens ? -Tuning::better : Tuning::better), score = score_after(change, sliver, bar);
     if (score > bar) candidates.push_back({0, score - now, change});
   });
+  put_best_first(candidates, sliver);
+  return candidates;
+}
+
+/// Those after which the fewest triangles pass through others or are forbidden.
+MeshMender::Candidates MeshMender::righting_changes(std::uint32_t triangle) const {
+  const bool sliver = is_sliver(triangle);
+  Candidates candidates;
+  WrongNow wrong_now(mesh_, allowed_);
+  for_each_change(triangle, sliver, [&](const MeshChange& change, double now) {
+    if (const std::ptrdiff_t fewer = fewer_wrong(exchange_by(mesh_, change), wrong_now); fewer > 0)
+      candidates.push_back({fewer, score_after(change, sliver) - now, change});
+  });
+  put_best_first(candidates, sliver);
+  return candidates;
+}
+
+/// Of a sliver all of them are tried.
+void MeshMender::put_best_first(Candidates& candidates, bool sliver) {
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     return a.fewer != b.fewer ? a.fewer > b.fewer : a.gain > b.gain;
   });
   if (!sliver && candidates.size() > Tuning::tries)
     candidates.erase(candidates.begin() + Tuning::tries, candidates.end());
+}
+
+/// Makes the first change that makes nothing wrong, if there is one.
+bool MeshMender::make_first(const Candidates& candidates) {
+  WrongNow wrong_now(mesh_, allowed_);
   for (const Candidate& candidate : candidates) {
-    if (!wrong) {
-      const Exchange all = exchange_by(mesh_, candidate.change);
-      if (mesh_.guard().crossings(all.made, all.gone) > 0 || fewer_forbidden(all) < 0) continue;
+    const MeshChange& change = candidate.change;
+    if (change.kind == Kind::collapse && !mesh_.can_spare(mesh_.links().from(change.where))) continue;
+    const Exchange all = exchange_by(mesh_, change);
+    if (candidate.fewer == 0) {
+      if (mesh_.guard().crossings(all.made, all.gone, 1) > 0) continue;
+      const std::size_t will_be = forbidden(all.made, all.made.size());
+      if (will_be > 0 && will_be > wrong_now.forbidden(all.gone)) continue;
     }
-    make(mesh_, candidate.change);
+    make(mesh_, change);
+    changed_.resize(mesh_.links().vertex_count(), 0);
+    for (const PlacedTriangle& t : all.made)
+      for (const std::uint32_t v : t.vertex) changed_[v] = 1;
     return true;
   }
   return false;
+}
+
+/// Those that no triangle before them is likely to change.
+std::vector<std::optional<MeshMender::Candidates>> MeshMender::changes_of_first(
+    std::span<const std::uint32_t> bad, std::span<const std::uint8_t> doubtful) {
+  const HalfEdges& links = mesh_.links();
+  std::vector<std::size_t> first;
+  changed_.assign(links.vertex_count(), 0);
+  for (std::size_t n = 0; n < bad.size(); ++n) {
+    const std::uint32_t t = bad[n];
+    if (!links.lives(3 * t) || (!doubtful[t] && mesh_.quality().of(t) >= Tuning::good_quality)) continue;
+    if (!doubtful[t] && !has_changed_around(t)) first.push_back(n);
+    for (const std::uint32_t v : links.corners(t))
+      links.around(v, [&](std::uint32_t half) { changed_[links.to(half)] = 1; });
+  }
+  std::vector<std::optional<Candidates>> found(bad.size());
+  tbb::parallel_for(std::size_t{0}, first.size(),
+                    [&](std::size_t n) { found[first[n]] = better_changes(bad[first[n]]); });
+  return found;
+}
+
+/// Has this round changed what the changes of a triangle follow from?
+bool MeshMender::has_changed_around(std::uint32_t triangle) const {
+  const auto corners = mesh_.links().corners(triangle);
+  return std::ranges::any_of(corners, [&](std::uint32_t v) {
+    return changed_[v] ||
+           !mesh_.links().all_around(v, [&](std::uint32_t half) { return changed_[mesh_.links().to(half)] == 0; });
+  });
 }
 
 void MeshMender::reach(std::span<const PointAtTriangle> points) {
@@ -213,11 +303,11 @@ void MeshMender::reach(std::span<const PointAtTriangle> points) {
     if (at.face == kNone || !links.lives(3 * triangle)) continue;
     std::optional<MeshChange> best;
     double score = 0.0;
+    WrongNow wrong_now(mesh_, allowed_);
     const auto consider = [&](const MeshChange& change) {
       const double now = score_after(change, false);
       if (best && now <= score) return;
-      const Exchange all = exchange_by(mesh_, change);
-      if (fewer_crossings(mesh_, all) < 0 || fewer_forbidden(all) < 0) return;
+      if (fewer_wrong(exchange_by(mesh_, change), wrong_now) == kMore) return;
       best = change;
       score = now;
     };
@@ -249,7 +339,8 @@ void MeshMender::mend_only(std::span<const std::uint32_t> triangles) {
   mend({triangles.begin(), triangles.end()}, std::move(doubtful));
 }
 
-/// Doubtful are triangles that may cross others or be forbidden, and with them what comes about there.
+/// Doubtful are triangles that may cross others or be forbidden, and with them what comes about there. The changes of
+/// others that are far apart are found first, on all cores, and found again if a round has changed something there.
 void MeshMender::mend(std::vector<std::uint32_t> bad, std::vector<std::uint8_t> doubtful) {
   const HalfEdges& links = mesh_.links();
   const TriangleQuality& qualities = mesh_.quality();
@@ -258,10 +349,18 @@ void MeshMender::mend(std::vector<std::uint32_t> bad, std::vector<std::uint8_t> 
     std::vector<std::uint32_t> next;
     std::sort(bad.begin(), bad.end());
     bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
-    for (const std::uint32_t t : bad) {
+    std::vector<std::optional<Candidates>> found = changes_of_first(bad, doubtful);
+    changed_.assign(links.vertex_count(), 0);
+    for (std::size_t n = 0; n < bad.size(); ++n) {
+      const std::uint32_t t = bad[n];
       if (!links.lives(3 * t)) continue;
       const bool wrong = doubtful[t] && is_wrong(t);
-      if ((!wrong && qualities.of(t) >= Tuning::good_quality) || !improve(t, wrong)) continue;
+      if (!wrong && qualities.of(t) >= Tuning::good_quality) continue;
+      if (wrong)
+        found[n] = righting_changes(t);
+      else if (!found[n] || has_changed_around(t))
+        found[n] = better_changes(t);
+      if (!make_first(*std::exchange(found[n], {}))) continue;
       doubtful.resize(links.triangle_count(), 0);
       if (!links.lives(3 * t)) continue;
       for (const std::uint32_t v : links.corners(t))

@@ -6,7 +6,10 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "core/mesh/mesh_change.h"
 
@@ -44,6 +47,16 @@ class MeshMender {
     bool on_crease = false;
   };
 
+  struct Candidate {
+    std::ptrdiff_t fewer;  ///< how many are wrong fewer than before
+    double gain;           ///< of the score
+    MeshChange change;
+  };
+  using Candidates = std::vector<Candidate>;
+
+  /// What is wrong with triangles that changes would take away, while the mesh stays as it is.
+  class WrongNow;
+
   bool is_wrong(std::uint32_t triangle) const;
   bool is_too_short(std::uint32_t half) const;
   bool may_merge(std::uint32_t half) const;
@@ -54,13 +67,21 @@ class MeshMender {
   double quality(const PlacedTriangle& triangle, const PlacedVertex& placed, bool steep) const;
   double score_after(const MeshChange& change, bool steep, double bar = -std::numeric_limits<double>::infinity()) const;
   double score_before(const MeshChange& change, bool steep) const;
-  std::ptrdiff_t fewer_forbidden(const Exchange& exchange) const;
-  std::ptrdiff_t fewer_wrong(const MeshChange& change) const;
-  bool improve(std::uint32_t triangle, bool wrong);
+  std::size_t forbidden(std::span<const PlacedTriangle> made, std::size_t enough) const;
+  std::ptrdiff_t fewer_wrong(const Exchange& exchange, WrongNow& now) const;
+  bool is_sliver(std::uint32_t triangle) const;
+  Candidates better_changes(std::uint32_t triangle) const;
+  Candidates righting_changes(std::uint32_t triangle) const;
+  static void put_best_first(Candidates& candidates, bool sliver);
+  bool make_first(const Candidates& candidates);
+  std::vector<std::optional<Candidates>> changes_of_first(std::span<const std::uint32_t> bad,
+                                                          std::span<const std::uint8_t> doubtful);
+  bool has_changed_around(std::uint32_t triangle) const;
   void mend(std::vector<std::uint32_t> bad, std::vector<std::uint8_t> doubtful);
 
   MeshOnSurface& mesh_;
   Allowed allowed_;
+  std::vector<std::uint8_t> changed_;  ///< per vertex: since the round began; what is around it or where it is
 };
 
 }  // namespace meniscus

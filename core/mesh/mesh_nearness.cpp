@@ -34,20 +34,24 @@ std::uint64_t key_of(std::span<const glm::dvec3> positions, const std::array<std
   return key;
 }
 
-/// Triangles by their keys. One of two that fall on the same place is lost.
-class TriangleGuesses {
+/// The keys of all triangles of a mesh.
+class TriangleKeys {
  public:
-  TriangleGuesses(std::span<const glm::dvec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles)
+  TriangleKeys(std::span<const glm::dvec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles)
       : slots_(std::bit_ceil(2 * triangles.size() + 1), kNone), keys_(triangles.size()) {
     tbb::parallel_for(std::size_t{0}, keys_.size(), [&](std::size_t t) { keys_[t] = key_of(positions, triangles[t]); });
     for (std::uint32_t t = 0; t < keys_.size(); ++t) slots_[slot(keys_[t])] = t;
   }
-  /// A triangle that may have this key, or kNone.
-  std::uint32_t triangle(std::uint64_t key) const { return slots_[slot(key)]; }
-  std::uint64_t key(std::uint32_t triangle) const { return keys_[triangle]; }
+  std::uint64_t of(std::uint32_t triangle) const { return keys_[triangle]; }
+  bool contain(std::uint64_t key) const { return slots_[slot(key)] != kNone; }
 
  private:
-  std::size_t slot(std::uint64_t key) const { return key & (slots_.size() - 1); }
+  /// That of this key, or the empty one where it would be.
+  std::size_t slot(std::uint64_t key) const {
+    std::size_t at = key & (slots_.size() - 1);
+    while (slots_[at] != kNone && keys_[slots_[at]] != key) at = (at + 1) & (slots_.size() - 1);
+    return at;
+  }
 
   std::vector<std::uint32_t> slots_;
   std::vector<std::uint64_t> keys_;
@@ -129,27 +133,31 @@ std::vector<PointAtTriangle> MeshNearness::too_far(MeshOnSurface& mesh) {
 
 void MeshNearness::add_bridges(const MeshOnSurface& mesh, std::vector<PointAtTriangle>& points) {
   const std::vector<std::array<std::uint32_t, 3>> all = all_triangles(mesh.links());
-  const MeshDistance from_mesh(mesh.positions(), all);
-  const TriangleGuesses guesses(mesh.positions(), all);
-  std::vector<NearestTriangle> bridging(to_reach_.size(), {kNone, 0.0});
+  const TriangleKeys keys(mesh.positions(), all);
   near_.resize(to_reach_.size(), 0);
-  tbb::parallel_for(std::size_t{0}, bridging.size(), [&](std::size_t v) {
-    const glm::dvec3& x = to_reach_[v].position;
+  std::vector<std::uint8_t> unknown(to_reach_.size());
+  tbb::parallel_for(std::size_t{0}, unknown.size(), [&](std::size_t v) { unknown[v] = !keys.contain(near_[v]); });
+  std::vector<std::uint32_t> asked;
+  for (std::uint32_t v = 0; v < unknown.size(); ++v)
+    if (unknown[v]) asked.push_back(v);
+  if (asked.empty()) return;
+  const MeshDistance from_mesh(mesh.positions(), all);
+  std::vector<NearestTriangle> bridging(asked.size(), {kNone, 0.0});
+  tbb::parallel_for(std::size_t{0}, asked.size(), [&](std::size_t n) {
+    const glm::dvec3& x = to_reach_[asked[n]].position;
     const double limit = Tuning::margin * sizes_.tolerance_at(x);
-    const std::uint32_t guess = guesses.triangle(near_[v]);
-    if (guess != kNone && from_mesh.to_triangle(x, guess) < limit) return;
     const std::uint32_t near = from_mesh.any_within(x, limit);
     if (near < all.size())
-      near_[v] = guesses.key(near);
+      near_[asked[n]] = keys.of(near);
     else
-      bridging[v] = from_mesh(x, std::numeric_limits<double>::infinity());
+      bridging[n] = from_mesh(x, std::numeric_limits<double>::infinity());
   });
   std::vector<double> farthest(all.size(), 0.0);
-  for (std::size_t v = 0; v < bridging.size(); ++v) {
-    const auto& [t, distance] = bridging[v];
+  for (std::size_t n = 0; n < bridging.size(); ++n) {
+    const auto& [t, distance] = bridging[n];
     if (t == kNone || distance <= farthest[t]) continue;
     farthest[t] = distance;
-    points[t] = {t, to_reach_[v]};
+    points[t] = {t, to_reach_[asked[n]]};
   }
 }
 

@@ -49,7 +49,7 @@ class MeshNearness {
   const SurfaceWalk& walk_;
   const EvenSizes& sizes_;
   std::vector<SurfacePoint> to_reach_;
-  std::vector<std::uint64_t> near_;  ///< per place to reach, by its corners, a triangle that was near it; 0: none known
+  std::vector<std::uint64_t> near_;  ///< per place to reach, the key of a triangle that was near it; 0: none known
   std::vector<SurfacePoint> fine_vertices_;  ///< made when it is asked for first
   mutable std::once_flag distance_made_;
   mutable std::optional<SurfaceDistance> distance_;

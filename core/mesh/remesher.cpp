@@ -63,23 +63,22 @@ bool Remesher::try_collapse(std::uint32_t half) {
   const auto& position = mesh_.positions();
   const std::uint32_t a = links.from(half), b = links.to(half);
   if (mesh_.vertex(a).frozen || !may_vanish(mesh_, half)) return false;
-  if (links.valence(a) + links.valence(b) > Tuning::most_edges) return false;
-  bool fits = true;
-  links.around(a, [&](std::uint32_t edge) {
+  bool fits = links.all_around(a, [&](std::uint32_t edge) {
     const std::uint32_t c = links.to(edge);
     const double longest = Tuning::longest_edge * 0.5 * (mesh_.vertex(b).size + mesh_.vertex(c).size);
-    fits = fits && (c == b || glm::distance(position[b], position[c]) <= longest);
+    return c == b || glm::distance(position[b], position[c]) <= longest;
   });
-  if (!fits || !links.can_collapse(half) || !mesh_.can_spare(a)) return false;
+  if (!fits || links.valence(a) + links.valence(b) > Tuning::most_edges) return false;
+  if (!links.can_collapse(half) || !mesh_.can_spare(a)) return false;
   double bar = Tuning::poor_quality;
   bool looked = false;  // the bar is that, or what the vertex has now if that is less
   WorstQuality after;
-  links.around(a, [&](std::uint32_t edge) {
+  fits = links.all_around(a, [&](std::uint32_t edge) {
     const std::uint32_t c = links.to(edge), d = links.opposite(edge);
-    if (!fits || c == b || d == b) return;
+    if (c == b || d == b) return true;
     after.add(mesh_.quality().of(b, position[b], c, d));
     if (after.score() < bar && !std::exchange(looked, true)) bar = std::min(bar, mesh_.quality().score_around(a));
-    fits = after.score() >= bar;
+    return after.score() >= bar;
   });
   const bool watched = mesh_.guard().watches(a) || mesh_.guard().watches(b);
   if (!fits || (watched && !crosses_nothing(mesh_, {MeshChange::Kind::collapse, half, {}}))) return false;
@@ -95,11 +94,11 @@ void Remesher::flip_edges() {
   mesh_.quality().find_all();
   std::vector<std::uint8_t> stale = mesh_.quality().take_stale();
   for (std::uint32_t half = 0; half < links.half_edge_count(); ++half) {
-    if (half > links.twin(half) || !links.lives(half) || !busy(half)) continue;
+    if (half > links.twin(half) || !links.lives(half)) continue;
     const std::uint32_t t = half / 3, u = links.twin(half) / 3;
     if (!stale[t] && !stale[u]) continue;
-    if ((quality.of(t) < Tuning::fine_quality || quality.of(u) < Tuning::fine_quality) && try_flip(half))
-      stale[t] = stale[u] = 1;
+    if (quality.of(t) >= Tuning::fine_quality && quality.of(u) >= Tuning::fine_quality) continue;
+    if (busy(half) && try_flip(half)) stale[t] = stale[u] = 1;
   }
 }
 
