@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/vec4.hpp>
@@ -65,7 +66,12 @@ class LayeredScene {
     std::vector<LayerHit> hits;
     std::vector<float> farthest;
     std::vector<ClippedRay> clipped;
-    std::vector<std::uint32_t> starts, order;
+    std::vector<std::uint32_t> starts, next, order;
+
+    /// A ray's hits, once they are in order.
+    std::span<std::uint32_t> order_of(std::uint32_t ray) {
+      return std::span(order).subspan(starts[ray], starts[ray + 1] - starts[ray]);
+    }
   };
 
   /// A tile at work.
@@ -86,7 +92,18 @@ class LayeredScene {
 
   glm::dvec3 cap_point(const LaneTile& task, const LayerHit& cap) const;
   void color_caps(const Layer& layer, std::span<Cap> caps) const;
-  void order_hits(Workplace& place) const;
+  /// Of caps, and how far from it they lie, Å.
+  struct Middle {
+    glm::dvec3 point{0.0};
+    double reach = 0.0;
+  };
+  static Middle middle_of(std::span<const Cap> caps);
+  using NearAtom = std::pair<double, std::uint32_t>;  // how far its sphere is from the middle, Å
+  /// near: in order.
+  void color_caps(const Layer& layer, std::span<Cap> caps, const glm::dvec3& middle,
+                  std::span<const NearAtom> near) const;
+  /// Of each ray, the nearest first; those from first_hit on.
+  void order_hits(std::size_t first_hit, const TileWork& work) const;
   void put_together(const TileWork& work) const;
   /// Of a sample what the look needs to know beside its colour; nullptr: nothing is met.
   void write(const LaneSamples& samples, std::size_t at, const LayerHit* hit) const;
