@@ -311,7 +311,8 @@ void CrossingGuard::list_near(std::span<const PlacedTriangle> made, std::span<co
   grid_.for_each_near(all, [&](std::uint32_t t) {
     if (std::exchange(seen_[t], question_) == question_ || !links_.lives(3 * t)) return;
     const PlacedTriangle other = placed(t);
-    if (!are_apart(all, other.box())) near_.push_back(other);
+    const Box box = other.box();
+    if (!are_apart(all, box)) near_.emplace_back(box, other);
   });
 }
 
@@ -326,7 +327,7 @@ std::size_t CrossingGuard::crossings(std::span<const PlacedTriangle> made, std::
   list_near(made, gone);
   for (const PlacedTriangle& x : made) {
     const Box box = x.box();
-    for (const PlacedTriangle& other : near_) count += !are_apart(box, other.box()) && triangles_cross(x, other);
+    for (const auto& [around, other] : near_) count += !are_apart(box, around) && triangles_cross(x, other);
     if (count >= enough) return count;
   }
   return count;

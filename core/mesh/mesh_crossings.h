@@ -167,7 +167,7 @@ class CrossingGuard {
   std::vector<std::uint8_t> watched_;  ///< per vertex
   BoxGrid grid_;
   // of the last question: not to be asked by two threads
-  mutable std::vector<PlacedTriangle> near_;
+  mutable std::vector<std::pair<Box, PlacedTriangle>> near_;
   mutable std::vector<std::uint32_t> seen_;  ///< per triangle: the number of the question that last met it
   mutable std::uint32_t question_ = 0;
 };

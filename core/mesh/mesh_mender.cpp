@@ -3,6 +3,7 @@
 #include "core/mesh/mesh_mender.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -120,11 +121,13 @@ void MeshMender::for_each_place(std::uint32_t vertex, const Visit& visit) const 
   glm::dvec3 u = glm::cross(n, std::abs(n.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0));
   u = glm::normalize(u);
   const glm::dvec3 w = glm::cross(n, u);
+  std::array<glm::dvec3, Tuning::directions> along;
+  for (int k = 0; k < Tuning::directions; ++k) {
+    const double angle = 2.0 * std::numbers::pi * k / Tuning::directions;
+    along[k] = std::cos(angle) * u + std::sin(angle) * w;
+  }
   for (const double step : Tuning::steps)
-    for (int k = 0; k < Tuning::directions; ++k) {
-      const double angle = 2.0 * std::numbers::pi * k / Tuning::directions;
-      visit_below(x + step * size * (std::cos(angle) * u + std::sin(angle) * w));
-    }
+    for (const glm::dvec3& direction : along) visit_below(x + step * size * direction);
 }
 
 /// visit(change, the score of what it takes away) for all small changes of a triangle.

@@ -69,7 +69,7 @@ bool Remesher::try_collapse(std::uint32_t half) {
     return c == b || glm::distance(position[b], position[c]) <= longest;
   });
   if (!fits || links.valence(a) + links.valence(b) > Tuning::most_edges) return false;
-  if (!links.can_collapse(half) || !mesh_.can_spare(a)) return false;
+  if (!mesh_.can_spare(a)) return false;
   double bar = Tuning::poor_quality;
   bool looked = false;  // the bar is that, or what the vertex has now if that is less
   WorstQuality after;
@@ -81,7 +81,8 @@ bool Remesher::try_collapse(std::uint32_t half) {
     return after.score() >= bar;
   });
   const bool watched = mesh_.guard().watches(a) || mesh_.guard().watches(b);
-  if (!fits || (watched && !crosses_nothing(mesh_, {MeshChange::Kind::collapse, half, {}}))) return false;
+  if (!fits || !links.can_collapse(half)) return false;
+  if (watched && !crosses_nothing(mesh_, {MeshChange::Kind::collapse, half, {}})) return false;
   mesh_.vertex(b).active = true;
   mesh_.collapse(half);
   return true;
@@ -192,10 +193,11 @@ void Remesher::refine(std::span<const std::uint32_t> triangles, double factor) {
   for (std::uint32_t v = 0; v < bad.size(); ++v) {
     MeshVertex& vertex = mesh_.vertex(v);
     vertex.active = bad[v] || beside[v];
-    const double asked = bad[v] ? factor : beside[v] ? std::sqrt(factor) : 1.0;
-    mesh_.scale_size(v, vertex.scale > Tuning::finest_scale ? static_cast<float>(asked) : 1.0f);
+    if (!vertex.active) continue;
+    if (vertex.scale > Tuning::finest_scale)
+      mesh_.scale_size(v, static_cast<float>(bad[v] ? factor : std::sqrt(factor)));
+    links.around(v, [&](std::uint32_t half) { mesh_.quality().forget(half / 3); });
   }
-  mesh_.quality().forget_all();
 }
 
 }  // namespace meniscus

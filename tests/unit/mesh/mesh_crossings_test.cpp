@@ -4,7 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <iterator>
+#include <numbers>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -71,6 +75,66 @@ TEST(MeshCrossings, AreThoseOfAllPairs) {
   EXPECT_EQ(crossings_of(some, x, triangles), expected);
 }
 
+/// Two pyramids over `corners` points that go around an axis `turns` times; the tips are the last vertices.
+std::pair<std::vector<glm::dvec3>, std::vector<Triangle>> double_pyramid(std::uint32_t corners, std::uint32_t turns) {
+  std::vector<glm::dvec3> x;
+  std::vector<Triangle> triangles;
+  for (std::uint32_t k = 0; k < corners; ++k) {
+    const double angle = 2.0 * std::numbers::pi * turns * k / corners;
+    x.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+    triangles.push_back({k, (k + 1) % corners, corners});
+    triangles.push_back({(k + 1) % corners, k, corners + 1});
+  }
+  x.emplace_back(0.0, 0.0, 0.6);
+  x.emplace_back(0.0, 0.0, -0.6);
+  return {x, triangles};
+}
+
+TEST(FlatFans, GoAroundOnceAndLookOneWay) {
+  const auto flat = [](std::vector<glm::dvec3> x, const std::vector<Triangle>& triangles) {
+    return flat_fans(HalfEdges(triangles, static_cast<std::uint32_t>(x.size())), x);
+  };
+  const auto [x, triangles] = double_pyramid(7, 1);
+  EXPECT_EQ(flat(x, triangles)[7], 1);
+  auto bent = x;
+  bent[7].z = 40.0;  // a needle
+  EXPECT_EQ(flat(bent, triangles)[7], 0);
+  bent = x;
+  bent[7].x = 3.0;  // beside its base
+  EXPECT_EQ(flat(bent, triangles)[7], 0);
+  const auto [star, twice] = double_pyramid(7, 2);
+  EXPECT_EQ(flat(star, twice)[7], 0);
+}
+
+// Of a torus whose vertices are moved about more and more.
+TEST(FlatFans, LeaveNoCrossingOut) {
+  constexpr std::uint32_t kLong = 30, kShort = 14;
+  std::vector<glm::dvec3> smooth;
+  std::vector<Triangle> triangles;
+  for (std::uint32_t i = 0; i < kLong; ++i)
+    for (std::uint32_t j = 0; j < kShort; ++j) {
+      const double u = 2.0 * std::numbers::pi * i / kLong, v = 2.0 * std::numbers::pi * j / kShort;
+      smooth.emplace_back((3.0 + std::cos(v)) * std::cos(u), (3.0 + std::cos(v)) * std::sin(u), std::sin(v));
+      const auto at = [](std::uint32_t a, std::uint32_t b) { return a % kLong * kShort + b % kShort; };
+      triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  const HalfEdges links(triangles, static_cast<std::uint32_t>(smooth.size()));
+  std::mt19937 random(5);  // NOLINT: the same numbers each time
+  std::uniform_real_distribution<double> some(-1.0, 1.0);
+  for (const double size : {0.0, 0.1, 0.3, 0.6}) {
+    std::vector<glm::dvec3> x = smooth;
+    for (glm::dvec3& at : x) at += size * glm::dvec3(some(random), some(random), some(random));
+    const std::vector<std::uint8_t> flat = flat_fans(links, x);
+    const auto count = std::ranges::count(flat, 1);
+    EXPECT_GT(count, 20) << size;
+    EXPECT_EQ(count == std::ssize(flat), size < 0.2) << size;
+    const auto expected = crossing_triangles(x, triangles);
+    EXPECT_EQ(expected.empty(), size < 0.2) << size;
+    EXPECT_EQ(crossing_triangles(x, triangles, flat), expected) << size;
+  }
+}
+
 TEST(CrossingGuard, CountsWhatPassesThroughWatchedTriangles) {
   const std::vector<glm::dvec3> x{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const HalfEdges links(std::vector<Triangle>{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}, 4);
@@ -84,6 +148,7 @@ TEST(CrossingGuard, CountsWhatPassesThroughWatchedTriangles) {
   guard.watch_around(std::vector<std::uint32_t>{0});
   EXPECT_EQ(crossings(through, {}), 4u);
   EXPECT_EQ(crossings(through, {0}), 3u);
+  EXPECT_GE(guard.crossings({&through, 1}, {}, 2), 2u);
   EXPECT_EQ(crossings(beside, {}), 0u);
   guard.release();
   EXPECT_EQ(crossings(through, {}), 0u);
