@@ -292,6 +292,19 @@ TEST(Layers, ASphereIsTheBallThatItIs) {
   EXPECT_TRUE(same_bits(shape.picture(), ball.picture()));
 }
 
+TEST(Layers, ACutSphereShowsItsLitInside) {
+  ShapeSubject subject;
+  subject.shapes.spheres = {{{0.0, 0.0, 0.0}, 1.5, 0}};
+  PictureObject object;
+  object.shapes = &subject.shapes;
+  object.coloring = &subject.coloring;
+  object.clip.push_back({{0.0, 0.0, 1.0}, 0.0});  // the viewer's half is gone
+  const Framebuffer picture = CpuRenderer().render({&object, 1}, subject.camera, subject.settings);
+  const std::size_t middle = 120 * 320 + 160;
+  EXPECT_NEAR(picture.position[middle].z, -1.5f, 1e-3f);
+  EXPECT_GT(picture.color[middle].x, 0.1f);
+}
+
 TEST(Layers, ACylinderIsRoundAndOfTwoColors) {
   ShapeSubject shape;
   shape.shapes.cylinders.push_back({{-2.0, 0.0, 0.0}, {2.0, 0.0, 0.0}, 0.5, 0, 1});

@@ -191,6 +191,7 @@ void LayeredScene::cast_layer(std::uint32_t number, std::size_t tile, const Tile
   const LayerTask wanted{.planes = layer.planes.data(),
                          .plane_count = static_cast<int>(layer.planes.size()),
                          .all = layer.translucent,
+                         .has_caps = layer.object->surface != nullptr && !layer.translucent,
                          .thickens = layer.object->thickens,
                          // What lies behind a plane, however far, tells whether there is a cap.
                          .farthest = cut_by_planes ? nullptr : place.farthest.data(),
@@ -225,7 +226,8 @@ void LayeredScene::cut(std::uint32_t number, std::size_t first_hit, const TileWo
   const Layer& layer = layers_[number];
   std::vector<LayerHit>& hits = work.place.hits;
   order_hits(first_hit, work);
-  std::vector<Cap> caps;
+  std::vector<Cap>& caps = work.place.caps;
+  caps.clear();
   const auto add_cap = [&](std::uint32_t ray, float t, std::uint32_t plane, float facing) {
     Cap cap;
     cap.t = t;
@@ -288,25 +290,28 @@ void LayeredScene::color_caps(const Layer& layer, std::span<Cap> caps) const {
     }
     std::erase_if(near, [&](const NearAtom& atom) { return atom.first > nearest + 2.0 * reach_of_row + kCapRoom; });
     std::ranges::sort(near);
-    color_caps(layer, row, middle_of_row, near);
+    color_caps(layer, row, reach_of_row, near);
   }
 }
 
 LayeredScene::Middle LayeredScene::middle_of(std::span<const Cap> caps) {
   Middle result{0.5 * (caps.front().point + caps.back().point)};
-  for (const Cap& cap : caps) result.reach = std::max(result.reach, glm::length(cap.point - result.point));
+  for (const Cap& cap : caps) {
+    const glm::dvec3 off = cap.point - result.point;
+    result.reach = std::max(result.reach, glm::dot(off, off));
+  }
+  result.reach = std::sqrt(result.reach);
   return result;
 }
 
-void LayeredScene::color_caps(const Layer& layer, std::span<Cap> caps, const glm::dvec3& middle,
+void LayeredScene::color_caps(const Layer& layer, std::span<Cap> caps, double reach,
                               std::span<const NearAtom> near) const {
   const Coloring& coloring = *layer.object->coloring;
   const std::vector<Ball>& balls = layer.object->surface->atoms;
   for (Cap& cap : caps) {
     NearAtom first{std::numeric_limits<double>::infinity(), 0};
-    const double off_middle = glm::length(cap.point - middle);
     for (const auto& [distance, a] : near) {
-      if (distance - off_middle > first.first + kCapRoom) break;  // as are all that follow
+      if (distance - reach > first.first + kCapRoom) break;  // as are all that follow
       first = std::min(first, {glm::length(cap.point - balls[a].center) - balls[a].radius, a});
     }
     cap.atom = first.second;
@@ -391,8 +396,10 @@ void LayeredScene::write(const LaneSamples& samples, std::size_t at, const Layer
   if (!samples.mark) return;
   const std::vector<float>* const marks = hit ? &layers_[hit->layer].scene.marks : nullptr;
   float mark = marks && !marks->empty() ? (*marks)[hit->atom] : 0.0f;
-  constexpr float kOfPart = Coloring::kMarksOfPart;
-  if (hit && hit->primitive == ray_cast::kOnPlane) mark = kOfPart * std::floor(mark / kOfPart);  // caps have no patches
+  if (hit && hit->primitive == ray_cast::kOnPlane) {  // caps have no patches
+    const auto number = static_cast<std::uint32_t>(mark);
+    mark = static_cast<float>(number - number % Coloring::kMarksOfPart);
+  }
   samples.mark[at] = mark;
 }
 

@@ -60,10 +60,17 @@ class LayeredScene {
     double farthest_atom = 0.0;     // Å: a point of the solid has the surface of an atom's sphere within this reach
   };
 
+  /// A point of a cap, on which plane.
+  struct Cap : LayerHit {
+    std::uint32_t plane = 0;
+    glm::dvec3 point{0.0};  // Å
+  };
+
   /// What a thread works with.
   struct Workplace {
     SortedList sorted;
     std::vector<LayerHit> hits;
+    std::vector<Cap> caps;
     std::vector<float> farthest;
     std::vector<ClippedRay> clipped;
     std::vector<std::uint32_t> starts, next, order;
@@ -84,12 +91,6 @@ class LayeredScene {
   void pack(Layer& layer, const ScenePlacement& placement, const Look& look) const;
   void cast_layer(std::uint32_t number, std::size_t tile, const TileWork& work);
   void cut(std::uint32_t number, std::size_t first_hit, const TileWork& work) const;
-  /// A point of a cap, on which plane.
-  struct Cap : LayerHit {
-    std::uint32_t plane = 0;
-    glm::dvec3 point{0.0};  // Å
-  };
-
   glm::dvec3 cap_point(const LaneTile& task, const LayerHit& cap) const;
   void color_caps(const Layer& layer, std::span<Cap> caps) const;
   /// Of caps, and how far from it they lie, Å.
@@ -99,9 +100,8 @@ class LayeredScene {
   };
   static Middle middle_of(std::span<const Cap> caps);
   using NearAtom = std::pair<double, std::uint32_t>;  // how far its sphere is from the middle, Å
-  /// near: in order.
-  void color_caps(const Layer& layer, std::span<Cap> caps, const glm::dvec3& middle,
-                  std::span<const NearAtom> near) const;
+  /// near: in order. reach: of the caps, from that middle.
+  void color_caps(const Layer& layer, std::span<Cap> caps, double reach, std::span<const NearAtom> near) const;
   /// Of each ray, the nearest first; those from first_hit on.
   void order_hits(std::size_t first_hit, const TileWork& work) const;
   void put_together(const TileWork& work) const;
