@@ -177,6 +177,7 @@ class MeshMender::WrongNow {
   std::size_t crossings(const std::vector<std::uint32_t>& gone) {
     if (gone == gone_) return crossings_;
     std::vector<PlacedTriangle> now;
+    now.reserve(gone.size());
     for (const std::uint32_t t : gone) now.push_back(mesh_.placed(t));
     gone_ = gone;
     return crossings_ = mesh_.guard().crossings(now, gone);
