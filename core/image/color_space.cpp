@@ -105,14 +105,15 @@ void display_bytes(std::span<const glm::vec4> pixels, const std::optional<glm::v
 }
 
 void layout_bytes(std::span<const glm::vec4> pixels, std::uint8_t* bytes) {
-  for (const glm::vec4& pixel : pixels) {
-    if (pixel.w <= 0.0f || pixel.w >= 1.0f) {  // most are
-      display_bytes({&pixel, 1}, {}, 4, bytes);
-    } else {
-      const glm::vec4 color = layout_color(pixel);
-      for (int channel = 0; channel < 4; ++channel) bytes[channel] = display_byte(color[channel]);
+  const auto is_partly_covered = [](const glm::vec4& pixel) { return !(pixel.w <= 0.0f || pixel.w >= 1.0f); };
+  for (auto pixel = pixels.begin(); pixel != pixels.end();) {
+    const auto end = std::find_if(pixel, pixels.end(), is_partly_covered);
+    display_bytes({pixel, end}, {}, 4, bytes);  // most are alike
+    bytes += 4 * (end - pixel);
+    for (pixel = end; pixel != pixels.end() && is_partly_covered(*pixel); ++pixel) {
+      const glm::vec4 color = layout_color(*pixel);
+      for (int channel = 0; channel < 4; ++channel) *bytes++ = display_byte(color[channel]);
     }
-    bytes += 4;
   }
 }
 

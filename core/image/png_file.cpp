@@ -16,6 +16,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/image/png_stream.h"
+#include "core/math/vector_loops.h"
 
 namespace meniscus {
 namespace {
@@ -106,30 +107,49 @@ struct Row {
   const std::uint8_t* bytes;
   const std::uint8_t* above;
   std::size_t size, pixel;  // bytes
-
-  template <int filter>
-  void write(std::uint8_t* out) const {
-    for (std::size_t n = 0; n < pixel; ++n)
-      out[n] = static_cast<std::uint8_t>(bytes[n] - predicted<filter>(0, above[n], 0));
-    for (std::size_t n = pixel; n < size; ++n)
-      out[n] = static_cast<std::uint8_t>(bytes[n] - predicted<filter>(bytes[n - pixel], above[n], above[n - pixel]));
-  }
-
-  /// Behind its number the filter that leaves the smallest sum of absolute differences (section 12.8).
-  void write_best(std::uint8_t* out, Bytes& trial, bool averages) const {
-    constexpr std::array kFilters{&Row::write<0>, &Row::write<1>, &Row::write<2>, &Row::write<3>, &Row::write<4>};
-    std::size_t least = std::numeric_limits<std::size_t>::max();
-    for (std::size_t filter = 0; filter < kFilters.size(); ++filter) {
-      if (filter == 3 && !averages) continue;
-      (this->*kFilters[filter])(trial.data());
-      const std::size_t sum = sum_of_differences(trial);
-      if (sum >= least) continue;
-      least = sum;
-      out[0] = static_cast<std::uint8_t>(filter);
-      std::ranges::copy(trial, out + 1);
-    }
-  }
 };
+
+/// Takes the row by its value: bytes that are written could be any others.
+template <int filter>
+void write_filtered(const Row row, std::uint8_t* out) {
+  for (std::size_t n = 0; n < row.pixel; ++n)
+    out[n] = static_cast<std::uint8_t>(row.bytes[n] - predicted<filter>(0, row.above[n], 0));
+  MENISCUS_INDEPENDENT_STEPS
+  for (std::size_t n = row.pixel; n < row.size; ++n)
+    out[n] = static_cast<std::uint8_t>(
+        row.bytes[n] - predicted<filter>(row.bytes[n - row.pixel], row.above[n], row.above[n - row.pixel]));
+}
+
+MENISCUS_VECTOR_CLONES
+void write_filtered(const Row& row, int filter, std::uint8_t* out) {
+  switch (filter) {
+    case 0:
+      return write_filtered<0>(row, out);
+    case 1:
+      return write_filtered<1>(row, out);
+    case 2:
+      return write_filtered<2>(row, out);
+    case 3:
+      return write_filtered<3>(row, out);
+    default:
+      return write_filtered<4>(row, out);
+  }
+}
+
+/// Behind its number the filter that leaves the smallest sum of absolute differences (section 12.8).
+void write_best(const Row& row, std::uint8_t* out, Bytes& trial, bool averages) {
+  constexpr int kFilters = 5;
+  std::size_t least = std::numeric_limits<std::size_t>::max();
+  for (int filter = 0; filter < kFilters && least > 0; ++filter) {
+    if (filter == 3 && !averages) continue;
+    write_filtered(row, filter, trial.data());
+    const std::size_t sum = sum_of_differences(trial);
+    if (sum >= least) continue;
+    least = sum;
+    out[0] = static_cast<std::uint8_t>(filter);
+    std::ranges::copy(trial, out + 1);
+  }
+}
 
 Bytes header(const ImageToEncode& image) {
   Bytes file{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
@@ -175,8 +195,8 @@ void PngEncoder::filter(std::span<const std::uint8_t> rows) {
     Bytes trial(row_size_);
     for (std::size_t y = range.begin(); y < range.end(); ++y) {
       const std::uint8_t* const first = &rows[y * row_size_];
-      Row{first, y > 0 ? first - row_size_ : last_row_.data(), row_size_, pixel_}.write_best(
-          &filtered[y * (row_size_ + 1)], trial, averages_);
+      write_best({first, y > 0 ? first - row_size_ : last_row_.data(), row_size_, pixel_},
+                 &filtered[y * (row_size_ + 1)], trial, averages_);
     }
   });
   std::ranges::copy(rows.last(row_size_), last_row_.begin());

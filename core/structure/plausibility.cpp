@@ -3,42 +3,116 @@
 #include "core/structure/plausibility.h"
 
 #include <algorithm>
-#include <cstring>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
-#include <unordered_map>
 #include <utility>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 #include "core/base/text.h"
-#include "core/math/ball.h"
+#include "core/math/vector_loops.h"
 #include "core/structure/structure.h"
 
 namespace meniscus {
 namespace {
 
-double nearest_distance(const std::vector<Atom>& atoms, const Atom& of) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Atom& other : atoms) {
-    if (&other == &of || other.model != of.model || other.altloc != of.altloc) continue;
-    nearest = std::min(nearest, glm::distance(other.position, of.position));
+// The first atom at each place, in an open hash table.
+class Places {
+ public:
+  // of_models: atoms of several models may share a place.
+  Places(const std::vector<Atom>& atoms, bool of_models)
+      : atoms_(atoms), of_models_(of_models), slots_(std::bit_ceil(2 * atoms.size() + 1), kFree) {}
+
+  // Of the place of atom n; n itself if none was asked for before.
+  std::uint32_t first_at_place_of(std::uint32_t n) {
+    for (std::size_t slot = scrambled(n);; ++slot) {
+      std::uint32_t& first = slots_[slot & (slots_.size() - 1)];
+      if (first == kFree) return first = n;
+      if (share_place(first, n)) return first;
+    }
   }
-  return nearest;
+
+ private:
+  static constexpr std::uint32_t kFree = std::numeric_limits<std::uint32_t>::max();
+
+  std::size_t scrambled(std::uint32_t n) const {
+    std::uint64_t hash = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      hash ^= std::bit_cast<std::uint64_t>(atoms_[n].position[axis] + 0.0);  // -0 becomes 0
+      hash *= 0x9e3779b97f4a7c15;
+      hash ^= hash >> 32;
+    }
+    return hash;
+  }
+
+  bool share_place(std::uint32_t a, std::uint32_t b) const {
+    return atoms_[a].position == atoms_[b].position && (!of_models_ || atoms_[a].model == atoms_[b].model);
+  }
+
+  const std::vector<Atom>& atoms_;
+  const bool of_models_;
+  std::vector<std::uint32_t> slots_;
+};
+
+constexpr std::size_t kSample = 64;
+
+// Some atoms, and the square of the distance from each to the nearest other one.
+struct Sample {
+  std::array<double, kSample> x, y, z, nearest;
+};
+
+// Is the point nearer to any of them than all before? Then `squares` has the square of its distance to each.
+MENISCUS_VECTOR_CLONES
+bool is_nearer(const Sample& sample, const glm::dvec3& point, double* squares) {
+  const double px = point.x, py = point.y, pz = point.z;
+  std::int64_t nearer = 0;
+  for (std::size_t s = 0; s < kSample; ++s) {
+    const double dx = px - sample.x[s], dy = py - sample.y[s], dz = pz - sample.z[s];
+    squares[s] = dx * dx + dy * dy + dz * dz;
+    nearer |= squares[s] < sample.nearest[s] ? 1 : 0;
+  }
+  return nearer != 0;
+}
+
+// From each of at most 64 atoms, evenly spread, to the nearest one of its model and alternate location.
+std::vector<double> nearest_distances(const std::vector<Atom>& atoms) {
+  const std::size_t step = (atoms.size() + kSample - 1) / kSample, count = (atoms.size() + step - 1) / step;
+  Sample sample{};  // those beyond the count have nothing nearer than 0
+  for (std::size_t s = 0; s < count; ++s) {
+    const glm::dvec3& position = atoms[s * step].position;
+    sample.x[s] = position.x;
+    sample.y[s] = position.y;
+    sample.z[s] = position.z;
+    sample.nearest[s] = std::numeric_limits<double>::infinity();
+  }
+  std::array<double, kSample> squares;
+  for (const Atom& other : atoms) {
+    if (!is_nearer(sample, other.position, squares.data())) continue;
+    for (std::size_t s = 0; s < count; ++s) {
+      const Atom& atom = atoms[s * step];
+      if (&atom != &other && atom.model == other.model && atom.altloc == other.altloc)
+        sample.nearest[s] = std::min(sample.nearest[s], squares[s]);
+    }
+  }
+  std::vector<double> distances(sample.nearest.begin(), sample.nearest.begin() + static_cast<std::ptrdiff_t>(count));
+  for (double& distance : distances) distance = std::sqrt(distance);
+  return distances;
 }
 
 }  // namespace
 
 void warn_of_coincident_atoms(Structure& structure) {
-  std::unordered_map<std::string, const Atom*> places;
+  const std::vector<Atom>& atoms = structure.atoms;
+  Places places(atoms, !structure.added.empty());  // superposed files may have atoms in common
   std::vector<std::string> cases;
-  for (const Atom& atom : structure.atoms) {
-    const glm::dvec3 place_of_atom = atom.position + 0.0;  // -0 becomes 0
-    std::string key(sizeof(place_of_atom), '\0');
-    std::memcpy(key.data(), &place_of_atom, sizeof(place_of_atom));
-    if (!structure.added.empty()) key += fmt::format("{}", atom.model);  // superposed files may have atoms in common
-    const auto [place, free] = places.try_emplace(std::move(key), &atom);
-    if (!free) cases.push_back(fmt::format("{} at {}", label_of(atom), label_of(*place->second)));
+  for (std::uint32_t n = 0; n < atoms.size(); ++n) {
+    const std::uint32_t first = places.first_at_place_of(n);
+    if (first != n) cases.push_back(fmt::format("{} at {}", label_of(atoms[n]), label_of(atoms[first])));
   }
   if (cases.empty()) return;
   std::string sentence =
@@ -48,13 +122,11 @@ void warn_of_coincident_atoms(Structure& structure) {
 }
 
 void warn_of_wrong_unit(Structure& structure) {
-  constexpr std::size_t kFewest = 8, kSample = 64;
+  constexpr std::size_t kFewest = 8;
   constexpr double kShortestUsual = 0.5;
   const std::vector<Atom>& atoms = structure.atoms;
   if (atoms.size() < kFewest) return;
-  std::vector<double> distances;
-  const std::size_t step = (atoms.size() + kSample - 1) / kSample;
-  for (std::size_t n = 0; n < atoms.size(); n += step) distances.push_back(nearest_distance(atoms, atoms[n]));
+  std::vector<double> distances = nearest_distances(atoms);
   const auto median = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
   std::nth_element(distances.begin(), median, distances.end());
   if (*median >= kShortestUsual) return;

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <mutex>
-#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -70,15 +68,9 @@ Surface build_surface(std::span<const Ball> atoms, double probe_radius, const Re
   return surface;
 }
 
-ConvexPlanes planes_when_asked(const Surface& surface, const ReducedSurface& rs) {
-  struct Trimmer {
-    std::once_flag asked;
-    std::optional<ConvexTrimmer> found;
-  };
-  return [&surface, &rs, trimmer = std::make_shared<Trimmer>()](std::uint32_t c, PlaneChoice choice) {
-    std::call_once(trimmer->asked, [&] { trimmer->found.emplace(surface, rs); });
-    return trimmer->found->planes_of(c, choice);
-  };
+std::unique_ptr<ConvexPlanes> planes_for(ClipPlanes planes, const Surface& surface, const ReducedSurface& rs) {
+  if (planes == ClipPlanes::left_out) return std::make_unique<PlanesWhenAsked>(surface, rs);
+  return std::make_unique<ListedPlanes>(surface);
 }
 
 Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs, StageClock* clock,
@@ -89,8 +81,8 @@ Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const
   Surface surface = build_surface(atoms, probe_radius, rs, stages, tracer ? *tracer : *cpu_tracer, planes, cut_within);
   if (surface.faces.empty() && !surface.certificate.open_atoms.empty()) return surface;
   const auto stage = stages.stage("area and volume");
-  const ConvexPlanes convex = planes == ClipPlanes::left_out ? planes_when_asked(surface, rs) : listed_planes(surface);
-  certify(surface, measure_surface(surface, convex), convex);
+  const std::unique_ptr<ConvexPlanes> convex = planes_for(planes, surface, rs);
+  certify(surface, measure_surface(surface, *convex), *convex);
   return surface;
 }
 

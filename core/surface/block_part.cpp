@@ -16,6 +16,7 @@
 #include "core/surface/block_patches.h"
 #include "core/surface/certificate.h"
 #include "core/surface/compute_surface.h"
+#include "core/surface/convex_planes.h"
 #include "core/surface/cusp_tracer.h"
 #include "core/surface/measure.h"
 
@@ -68,14 +69,15 @@ class Block {
       const auto stage = clock.stage("reduced surface");
       rs_ = enumerate_reduced_surface(atoms_, probe_radius, nullptr, number_);
     }
-    s_ = build_surface(atoms_, probe_radius, rs_, clock, *make_cpu_cusp_tracer(),
-                       patches ? ClipPlanes::listed : ClipPlanes::left_out);
+    const ClipPlanes clip_planes = patches ? ClipPlanes::listed : ClipPlanes::left_out;
+    s_ = build_surface(atoms_, probe_radius, rs_, clock, *make_cpu_cusp_tracer(), clip_planes);
     part_.exact_within = s_.certificate.exact_within;
     const bool is_without_faces = s_.faces.empty() && !s_.certificate.open_atoms.empty();
     add_open(s_.certificate.open_atoms, is_without_faces);
     if (is_without_faces) return std::move(part_);
     const auto stage = clock.stage("area and volume");
-    const ConvexPlanes planes = patches ? listed_planes(s_) : planes_when_asked(s_, rs_);
+    const std::unique_ptr<ConvexPlanes> found = planes_for(clip_planes, s_, rs_);
+    const ConvexPlanes& planes = *found;
     const MeasuredFaces measured = measure_faces(s_, origin, planes);
     add_open(unsound_atoms(s_, measured.doubts, planes), false);
     number_pieces();

@@ -15,6 +15,7 @@
 
 #include "core/math/spiral.h"
 #include "core/surface/atom_areas.h"
+#include "core/surface/convex_planes.h"
 #include "core/surface/walks.h"
 
 namespace meniscus {
@@ -109,8 +110,8 @@ class Examination {
   // If the bordering circles leave little, all planes do, and nobody need find them.
   bool leaves_most(std::uint32_t convex) const {
     const Ball& atom = s_.atoms[s_.convex[convex].atom];
-    return most_is_left(planes_(convex, PlaneChoice::bordering), atom) &&
-           most_is_left(planes_(convex, PlaneChoice::all), atom);
+    return most_is_left(planes_.of(convex, PlaneChoice::bordering), atom) &&
+           most_is_left(planes_.of(convex, PlaneChoice::all), atom);
   }
 
   // Whether the clip planes leave most of an atom's sphere, judged by points spread evenly.
@@ -118,8 +119,7 @@ class Examination {
     std::size_t left = 0;
     for (const glm::dvec3& direction : spread_) {
       const glm::dvec3 x = atom.center + atom.radius * direction;
-      left +=
-          std::ranges::all_of(planes, [&](const Plane& plane) { return glm::dot(plane.normal, x) <= plane.offset; });
+      left += cut_off_by(planes, x) ? 0 : 1;
     }
     return 2 * left > spread_.size();
   }
@@ -198,6 +198,6 @@ bool is_sound(const Component& component, double probe_radius) {
   return component.euler % 2 == 0 && component.euler <= 2 && sided;
 }
 
-void certify(Surface& surface, const MeasurementDoubts& doubts) { certify(surface, doubts, listed_planes(surface)); }
+void certify(Surface& surface, const MeasurementDoubts& doubts) { certify(surface, doubts, ListedPlanes(surface)); }
 
 }  // namespace meniscus

@@ -7,6 +7,8 @@
 
 namespace meniscus {
 
+class ConvexPlanes;
+
 /// Completes the certificate of a measured surface: adds the atoms of whatever fails to Certificate::open_atoms and
 /// sets Certificate::closed if there are none. Checked are
 ///  * the Euler characteristic of every component: even and at most 2 (theorem 3);

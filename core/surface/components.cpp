@@ -16,6 +16,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/math/union_find.h"
+#include "core/surface/convex_planes.h"
 #include "core/surface/parallel_tables.h"
 #include "core/surface/primitives.h"
 #include "core/surface/spherical.h"
@@ -172,15 +173,17 @@ class SideTest {
     look_at_borders();
     look_at_poles(
         s_.convex, [&](const ConvexPatch& patch) { return s_.atoms[patch.atom]; },
-        [&](std::uint32_t c, PlaneChoice choice) { return planes_(c, choice); }, &Farthest::convex);
+        [&](std::uint32_t n) { return planes_.cut_off(n, kDirection); }, &Farthest::convex);
     if (s_.probe_radius > 0)
       look_at_poles(
           s_.concave,
           [&](const ConcavePatch& patch) {
             return Ball{patch.center, s_.probe_radius};
           },
-          [&](std::uint32_t n, PlaneChoice) {
-            return std::span(s_.planes).subspan(s_.concave[n].first_plane, s_.concave[n].plane_count());
+          [&](std::uint32_t n) {
+            const ConcavePatch& patch = s_.concave[n];
+            return cut_off_by(std::span(s_.planes).subspan(patch.first_plane, patch.plane_count()),
+                              pole_of({patch.center, s_.probe_radius}));
           },
           &Farthest::concave);
     return std::move(farthest_);
@@ -212,18 +215,17 @@ class SideTest {
     return std::max(farthest.*which, beside);
   }
 
-  // Of the patches of one table; `ball_of` says on which sphere a patch lies, `planes_of` within which planes.
-  template <typename Patch, typename BallOf, typename PlanesOf>
-  void look_at_poles(const std::vector<Patch>& patches, const BallOf& ball_of, const PlanesOf& planes_of,
+  // Of the patches of one table; `ball_of` says on which sphere a patch lies, `without_pole` whether its planes cut off
+  // the pole.
+  template <typename Patch, typename BallOf, typename WithoutPole>
+  void look_at_poles(const std::vector<Patch>& patches, const BallOf& ball_of, const WithoutPole& without_pole,
                      double Farthest::*which) {
     tbb::enumerable_thread_specific<std::vector<std::uint32_t>> lists;  // patches that hold their pole
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, patches.size(), 64), [&](const auto& range) {
       for (std::size_t n = range.begin(); n != range.end(); ++n) {
-        const Ball ball = ball_of(patches[n]);
-        if (!may_be_farthest(patches[n], ball, which)) continue;
+        if (!may_be_farthest(patches[n], ball_of(patches[n]), which)) continue;
         const auto patch = static_cast<std::uint32_t>(n);
-        if (holds_pole(ball, [&](PlaneChoice choice) { return planes_of(patch, choice); }))
-          lists.local().push_back(patch);
+        if (!without_pole(patch)) lists.local().push_back(patch);
       }
     });
     for (const std::vector<std::uint32_t>& list : lists)
@@ -241,16 +243,6 @@ class SideTest {
     const double reached = glm::dot(pole_of(ball), kDirection);
     return std::ranges::any_of(faces_of(s_, patch),
                                [&](const Face& face) { return reached > threshold(farthest_[face.component], which); });
-  }
-
-  // As a rule those that border the patch leave the pole out already, and they are found with less work.
-  template <typename Planes>
-  static bool holds_pole(const Ball& ball, const Planes& planes) {
-    const glm::dvec3 pole = pole_of(ball);
-    for (const PlaneChoice choice : {PlaneChoice::bordering, PlaneChoice::all})
-      for (const Plane& plane : planes(choice))
-        if (glm::dot(plane.normal, pole) > plane.offset) return false;
-    return true;
   }
 
   // The face of the patch that holds the pole: the one whose loops have it farthest on their left.

@@ -9,6 +9,8 @@
 
 namespace meniscus {
 
+class ConvexPlanes;
+
 struct Surface;
 
 /// Fills in Face::component, Component::euler and as many components as there are, in the order of their first faces.

@@ -3,6 +3,7 @@
 // certificate.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,7 @@
 
 namespace meniscus {
 
+class ConvexPlanes;
 class CuspTracer;
 class ReducedSurfaceEngine;
 class StageClock;
@@ -37,8 +39,8 @@ Surface assemble_surface(std::span<const Ball> atoms, double probe_radius, const
 Surface build_surface(std::span<const Ball> atoms, double probe_radius, const ReducedSurface& rs, StageClock& clock,
                       CuspTracer& tracer, ClipPlanes planes, const ReducedComponents* cut_within = nullptr);
 
-/// The planes of the few convex patches that are asked for, of a surface that lists none. Both live longer.
-ConvexPlanes planes_when_asked(const Surface& surface, const ReducedSurface& rs);
+/// The planes of a surface that was built with this choice. Surface and reduced surface live longer.
+std::unique_ptr<ConvexPlanes> planes_for(ClipPlanes planes, const Surface& surface, const ReducedSurface& rs);
 
 /// Throws OpenSurfaceError, naming atoms by their index, unless the certificate says the surface is closed.
 void require_closed(const Surface& surface);

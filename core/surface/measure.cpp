@@ -15,6 +15,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/surface/components.h"
+#include "core/surface/convex_planes.h"
 #include "core/surface/spherical.h"
 
 namespace meniscus {
@@ -142,7 +143,7 @@ class Measurement {
   Antipode farthest_known(const Face& face, const glm::dvec3& center, double radius,
                           std::vector<SphereArc>& loop) const {
     std::vector<Antipode> candidates;
-    const std::vector<Plane> planes = planes_(face.patch, PlaneChoice::all);
+    const std::vector<Plane> planes = planes_.of(face.patch, PlaneChoice::all);
     for (const Plane& plane : planes)
       if (plane.offset - glm::dot(plane.normal, center) < radius) candidates.push_back({plane.normal, false});
     if (s_.convex[face.patch].face_count == 1)
@@ -150,9 +151,7 @@ class Measurement {
         if (n == 13) continue;
         const glm::dvec3 direction = glm::normalize(glm::dvec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1));
         const glm::dvec3 x = center + radius * direction;
-        candidates.push_back({direction, std::ranges::all_of(planes, [&](const Plane& plane) {
-                                return glm::dot(plane.normal, x) <= plane.offset;
-                              })});
+        candidates.push_back({direction, !cut_off_by(planes, x)});
       }
     std::vector<double> distance(candidates.size(), 4.0);
     for (std::uint32_t l = face.first_loop; l < face.first_loop + face.loop_count; ++l) {
@@ -236,7 +235,7 @@ MeasurementDoubts measure_surface(Surface& surface, const ConvexPlanes& planes) 
   return std::move(measured.doubts);
 }
 
-MeasurementDoubts measure_surface(Surface& surface) { return measure_surface(surface, listed_planes(surface)); }
+MeasurementDoubts measure_surface(Surface& surface) { return measure_surface(surface, ListedPlanes(surface)); }
 
 std::array<double, 2> contact_tube_angles(const Surface& surface, const ToroidalPatch& patch) {
   const Ball &a = surface.atoms[patch.atom[0]], &b = surface.atoms[patch.atom[1]];

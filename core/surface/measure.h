@@ -11,6 +11,8 @@
 
 namespace meniscus {
 
+class ConvexPlanes;
+
 /// Faces by the trust in their areas.
 struct MeasurementDoubts {
   std::vector<std::uint32_t> doubtful;  ///< corners do not fit their circles: measured by a second closed form

@@ -215,20 +215,4 @@ inline std::uint32_t first_atom(const Surface& surface, const ConcavePatch& patc
 /// Of the patches whose lowest atom is counted.
 SurfaceCounts counts_of(const Surface& surface, const std::function<bool(std::uint32_t atom)>& is_counted);
 
-/// Where the clip planes of convex patches (by their index) come from: the tables of a surface, or code that finds them
-/// for the few that are asked for.
-enum class PlaneChoice {
-  bordering,  ///< at least the contact circles that border the patch: what they leave holds all of it
-  all         ///< those that leave the patch and nothing else
-};
-using ConvexPlanes = std::function<std::vector<Plane>(std::uint32_t, PlaneChoice)>;
-
-/// Those that the tables list.
-inline ConvexPlanes listed_planes(const Surface& surface) {
-  return [&surface](std::uint32_t convex, PlaneChoice) {
-    const Plane* first = surface.planes.data() + surface.convex[convex].first_plane;
-    return std::vector<Plane>(first, first + surface.convex[convex].plane_count);
-  };
-}
-
 }  // namespace meniscus

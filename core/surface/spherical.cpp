@@ -199,6 +199,7 @@ glm::dvec3 moment_of_steps(std::span<const SphereArc> loop) {
 }
 
 bool lies_left_of(std::span<const SphereArc> inner, std::span<const SphereArc> loop) {
+  constexpr double kClear = 0.01;  // far beyond what rounding moves, so that no other point is asked
   double clearest = 0;
   double nearest = std::numeric_limits<double>::infinity();  // cosine of that distance
   bool left = false;
@@ -216,6 +217,7 @@ bool lies_left_of(std::span<const SphereArc> inner, std::span<const SphereArc> l
         clearest = distance;
         nearest = side.nearest;
         left = side.left;
+        if (clearest > kClear) return left;
       }
     }
   return left;

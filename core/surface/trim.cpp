@@ -82,11 +82,35 @@ class ConvexTrimmer::Search {
     const std::uint32_t a = s_.convex[convex].atom;
     keep_bordering(a, w);
     if (choice == PlaneChoice::all) keep_covering(a, w);
-    for (const std::uint32_t b : w.kept) planes.push_back(contact_plane(s_.atoms[a], s_.atoms[b], s_.probe_radius));
+    for (const std::uint32_t b : w.kept) planes.push_back(plane_of(a, b));
     return static_cast<std::uint32_t>(w.kept.size());
   }
 
+  // As a rule the planes of circles that border the patch cut off the point, or a ball covers it. All planes take more
+  // work, and are found only where neither does.
+  bool cuts_off(std::uint32_t convex, const glm::dvec3& direction, Worker& w) const {
+    const std::uint32_t a = s_.convex[convex].atom;
+    const Ball& atom = s_.atoms[a];
+    const glm::dvec3 point = atom.center + atom.radius * direction;
+    const auto cut_by_kept = [&](std::size_t first) {
+      return std::any_of(w.kept.begin() + static_cast<std::ptrdiff_t>(first), w.kept.end(), [&](std::uint32_t b) {
+        const Plane plane = plane_of(a, b);
+        return glm::dot(plane.normal, point) > plane.offset;
+      });
+    };
+    keep_bordering(a, w);
+    if (cut_by_kept(0)) return true;
+    if (covering(a, atom.center + (atom.radius + s_.probe_radius) * direction, w) != kNone) return true;
+    const std::size_t bordering = w.kept.size();
+    keep_covering(a, w);
+    return cut_by_kept(bordering);
+  }
+
  private:
+  Plane plane_of(std::uint32_t a, std::uint32_t b) const {
+    return contact_plane(s_.atoms[a], s_.atoms[b], s_.probe_radius);
+  }
+
   static double largest_radius(const Surface& surface) {
     double largest = 0;
     for (const Ball& b : surface.atoms) largest = std::max(largest, b.radius + surface.probe_radius + 2e-9);
@@ -143,20 +167,24 @@ class ConvexTrimmer::Search {
   std::uint32_t missing_on_circle(std::uint32_t a, std::uint32_t b, Worker& w) const {
     const auto arcs = arcs_of(a);
     const auto known = [&](const BorderArc& arc) { return std::find(arcs.begin(), arcs.end(), arc) != arcs.end(); };
-    if (w.contour.whole()) return known({b, kNone, kNone}) ? kNone : covering(a, 0.0, w);
+    if (w.contour.whole()) return known({b, kNone, kNone}) ? kNone : covering_circle(a, 0.0, w);
     for (const ExposedArc& arc : w.contour.arcs()) {
       if (known({b, arc.begin_by, arc.end_by})) continue;
       const double middle = arc.begin + 0.5 * geometry::pseudo_sweep(arc.begin, arc.end);
-      const std::uint32_t missing = covering(a, middle < 4 ? middle : middle - 4, w);
+      const std::uint32_t missing = covering_circle(a, middle < 4 ? middle : middle - 4, w);
       if (missing != kNone) return missing;
     }
     return kNone;
   }
 
-  // The atom that covers the point of the contour's circle at this pseudo-angle deepest, or kNone.
-  std::uint32_t covering(std::uint32_t a, double pseudo, Worker& w) const {
+  // As covering(), of the point of the contour's circle at this pseudo-angle.
+  std::uint32_t covering_circle(std::uint32_t a, double pseudo, Worker& w) const {
     const geometry::Circle& c = w.contour.circle();
-    const glm::dvec3 point = s_.atoms[a].center + c.axis * c.height + c.radius * w.contour.direction(pseudo);
+    return covering(a, s_.atoms[a].center + c.axis * c.height + c.radius * w.contour.direction(pseudo), w);
+  }
+
+  // The atom, none of the kept ones, that covers this point of the SAS sphere of `a` deepest, or kNone.
+  std::uint32_t covering(std::uint32_t a, const glm::dvec3& point, Worker& w) const {
     const Balls& balls = this->balls();
     std::uint32_t deepest = kNone;
     double depth = 1e-8;  // decision weights blur the surface of a ball by 1e-8 Å² at most
@@ -224,6 +252,11 @@ std::vector<Plane> ConvexTrimmer::planes_of(std::uint32_t convex, PlaneChoice ch
   std::vector<Plane> planes;
   search_->append_planes(convex, choice, worker, planes);
   return planes;
+}
+
+bool ConvexTrimmer::cuts_off(std::uint32_t convex, const glm::dvec3& direction) const {
+  Search::Worker worker;
+  return search_->cuts_off(convex, direction, worker);
 }
 
 void ConvexTrimmer::list_all(Surface& surface) const {

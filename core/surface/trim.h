@@ -4,8 +4,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <vector>
 
+#include "core/surface/convex_planes.h"
 #include "core/surface/cusps.h"
 #include "core/surface/fixed_probes.h"
 #include "core/surface/primitives.h"
@@ -25,8 +28,11 @@ class ConvexTrimmer {
   ConvexTrimmer(const Surface& surface, const ReducedSurface& rs);
   ~ConvexTrimmer();
 
-  /// Those of one convex patch. Several threads may ask.
+  /// Those of one convex patch. Several threads may ask, as they may for the next.
   std::vector<Plane> planes_of(std::uint32_t convex, PlaneChoice choice) const;
+
+  /// Do they cut off the point of the patch's sphere in this direction of its centre?
+  bool cuts_off(std::uint32_t convex, const glm::dvec3& direction) const;
 
   /// Appends those of all convex patches to the planes of the surface that it was made for.
   void list_all(Surface& surface) const;
@@ -34,6 +40,30 @@ class ConvexTrimmer {
  private:
   class Search;
   std::unique_ptr<const Search> search_;
+};
+
+/// Planes that are found for the few patches that are asked for, by a trimmer that the first one makes.
+class PlanesWhenAsked final : public ConvexPlanes {
+ public:
+  PlanesWhenAsked(const Surface& surface, const ReducedSurface& rs) : s_(surface), rs_(rs) {}
+
+  std::vector<Plane> of(std::uint32_t convex, PlaneChoice choice) const override {
+    return trimmer().planes_of(convex, choice);
+  }
+  bool cut_off(std::uint32_t convex, const glm::dvec3& direction) const override {
+    return trimmer().cuts_off(convex, direction);
+  }
+
+ private:
+  const ConvexTrimmer& trimmer() const {
+    std::call_once(asked_, [&] { trimmer_.emplace(s_, rs_); });
+    return *trimmer_;
+  }
+
+  const Surface& s_;
+  const ReducedSurface& rs_;
+  mutable std::once_flag asked_;
+  mutable std::optional<ConvexTrimmer> trimmer_;
 };
 
 /// Fills in the planes of the convex patches.

@@ -18,12 +18,12 @@ GEOMETRY integer pattern(integer2 pixel) {
   return (x & 1) << 3 | (pixel.y & 1) << 2 | (x & 2) | (pixel.y & 2) >> 1;
 }
 
-// What is some pixels on from a pixel: where it is seen, in pixels from the picture's middle, and its depth.
-GEOMETRY real3 occluder_at(pixel_row pixel, real2 way) {
-  integer2 texel = integer2(round((place_of(pixel) + way) * (1.0 / occlusion.texel_edge) + occlusion.map_middle));
-  real2 place = (real2(texel) - occlusion.map_middle) * occlusion.texel_edge;
-  real3 occluder = real3(place.x, place.y, map_depth_or_nothing(texel));
-  if (occlusion.texel_edge == 1.0) return occluder;
+// What is some pixels on from a pixel at `from`: where it is seen, in pixels from the picture's middle, and its depth.
+GEOMETRY real3 occluder_at(pixel_row pixel, real2 from, real2 way, float texels, vec2 middle) {
+  real2 texel = round((from + way) * texels + middle);
+  real2 place = (texel - middle) * occlusion.texel_edge;
+  real3 occluder = real3(place.x, place.y, map_depth_or_nothing(integer2(texel)));
+  if (texels == 1.0) return occluder;
   truth is_near = length(way) < occlusion.near_reach;
   if (!some(is_near)) return occluder;
   integer2 other = pixel + integer2(round(way));
@@ -31,16 +31,30 @@ GEOMETRY real3 occluder_at(pixel_row pixel, real2 way) {
   return select(is_near, real3(place.x, place.y, depth_or_nothing(other)), occluder);
 }
 
-// Cosine of the horizon, seen from p, on the way along `direction`, at least `lowest`; in the picture's axes.
-GEOMETRY real horizon(pixel_row pixel, real3 p, real3 to_viewer, real2 direction, real reach, real offset, real lowest) {
+// How far it is looked, in pixels.
+struct Steps {
+  real ways[kStepCount];
+};
+
+// Closer steps near by, where small clefts are.
+GEOMETRY Steps steps_within(real reach, real offset) {
+  Steps steps;
+  for (int k = 0; k < kStepCount; ++k) {
+    real share = (float(k) + offset) / float(kStepCount);
+    steps.ways[k] = max(share * share * reach, float(k) + 1.0);
+  }
+  return steps;
+}
+
+// Cosine of the horizon, seen from p, on the way along `direction`, at least `lowest`; in the picture's axes. range: Å.
+GEOMETRY real horizon(pixel_row pixel, real3 p, real3 to_viewer, real2 direction, Steps steps, real range, real lowest) {
   // All are fetched first: each takes its time, but they do not wait for each other.
   real3 occluder[kStepCount];
-  for (int k = 0; k < kStepCount; ++k) {
-    // Closer steps near by, where small clefts are.
-    real share = (float(k) + offset) / float(kStepCount);
-    occluder[k] = occluder_at(pixel, direction * max(share * share * reach, float(k) + 1.0));
-  }
-  real range = reach * pixel_size_at(p.z);
+  real2 from = real2(place_of(pixel));
+  float texels = 1.0 / occlusion.texel_edge;
+  vec2 middle = occlusion.map_middle;
+  for (int k = 0; k < kStepCount; ++k)
+    occluder[k] = occluder_at(pixel, from, direction * steps.ways[k], texels, middle);
   real highest = lowest;
   for (int k = 0; k < kStepCount; ++k) {
     real depth = occluder[k].z;
@@ -58,12 +72,18 @@ GEOMETRY real horizon(pixel_row pixel, real3 p, real3 to_viewer, real2 direction
 // is at angle n.
 GEOMETRY real arc(real h, real n) { return 0.25 * (cos(n) + 2.0 * h * sin(n) - cos(2.0 * h - n)); }
 
+// How far around a hit at this depth is looked for what hides the sky, in pixels.
+GEOMETRY real shade_reach(real depth) {
+  return min(occlusion.radius / pixel_size_at(depth), occlusion.longest_reach);
+}
+
 // Of a pixel whose ray met something, at this depth.
 GEOMETRY real sky_visibility(pixel_row pixel, real depth) {
   real3 p = position_at(pixel, depth);
   real3 to_viewer = to_viewer_at(p);
   real3 normal = facing(hit_normal_at(pixel), to_viewer);
-  real reach = min(occlusion.radius / pixel_size_at(depth), occlusion.longest_reach);
+  real reach = shade_reach(depth);
+  real range = reach * pixel_size_at(depth);
   integer place = (pattern(pixel) + 5 * int(occlusion.sample_index)) & 15;
   real seen = real(0.0);
   real open = real(0.0);  // what it would see alone
@@ -80,8 +100,9 @@ GEOMETRY real sky_visibility(pixel_row pixel, real depth) {
     real2 on_picture = real2(direction.x, -direction.y);
     real3 seen_from = turned_over(p);
     real3 seen_viewer = turned_over(to_viewer);
-    real ahead = horizon(pixel, seen_from, seen_viewer, on_picture, reach, offset, cos(n + 0.5 * kPi));
-    real behind = horizon(pixel, seen_from, seen_viewer, -on_picture, reach, offset, cos(n - 0.5 * kPi));
+    Steps steps = steps_within(reach, offset);
+    real ahead = horizon(pixel, seen_from, seen_viewer, on_picture, steps, range, cos(n + 0.5 * kPi));
+    real behind = horizon(pixel, seen_from, seen_viewer, -on_picture, steps, range, cos(n - 0.5 * kPi));
     real slice_seen = length_projected * (arc(acos(clamp(ahead, -1.0, 1.0)), n) + arc(-acos(clamp(behind, -1.0, 1.0)), n));
     real slice_open = length_projected * (cos(n) + n * sin(n));
     truth counts = length_projected >= 1e-4;

@@ -94,6 +94,16 @@ TEST(Layers, ComeInPairsOnSlabsToo) {
   EXPECT_GT(std::ranges::count(picture.kind, Framebuffer::kCap), 1000);
 }
 
+TEST(Layers, ComeInPairsWhereAPlaneIsSeenFromTheSide) {
+  Subject subject(testing::enterotoxin());
+  subject.see_through();
+  const glm::dvec3 left = -view_basis(subject.camera).right;  // rays on the left go out through the plane
+  subject.object.clip.push_back({left, glm::dot(left, subject.camera.position) + 5.0});
+  const Framebuffer picture = subject.picture();
+  EXPECT_LE(odd_pixels(picture), 2);
+  EXPECT_GT(std::ranges::count_if(picture.color, [](const glm::vec4& pixel) { return pixel.w > 0.0f; }), 10000);
+}
+
 TEST(Layers, CapsAreWhereThePlaneIsInTheSolid) {
   Subject subject(testing::enterotoxin());
   subject.cut("depth>0.5");
@@ -108,9 +118,14 @@ TEST(Layers, CapsAreWhereThePlaneIsInTheSolid) {
       const std::size_t at = static_cast<std::size_t>(y) * 320 + x;
       caps += solid;
       wrong += solid != (picture.kind[at] == Framebuffer::kCap);
-      if (solid) {
-        EXPECT_NEAR(picture.z[at], t, 1e-3);
-      }
+      if (!solid) continue;
+      EXPECT_NEAR(picture.z[at], t, 1e-3);
+      const auto off_sphere = [&](const Ball& ball) {
+        return glm::length(ray.origin + t * ray.direction - ball.center) - ball.radius;
+      };
+      const std::vector<Ball>& balls = subject.surface.atoms;
+      const double least = off_sphere(*std::ranges::min_element(balls, {}, off_sphere));
+      EXPECT_NEAR(off_sphere(balls[picture.atom[at]]), least, 1e-4) << x << ' ' << y;
     }
   EXPECT_GT(caps, 1000);
   EXPECT_EQ(wrong, 0);
@@ -223,6 +238,17 @@ TEST(Layers, WhatIsSeenThroughHasShadeAndLinesAsFarAsItCovers) {
     ASSERT_EQ(opaque.color[n].w > 0.0f, halved.color[n].w > 0.0f) << n;
 }
 
+TEST(Layers, LinesOfWhatIsSeenThroughDoNotAddUpFromSampleToSample) {
+  Subject subject({{{0.0, 0.0, 0.0}, 1.7}});
+  subject.camera = {{0, 0, 20}, {0, 0, 0}, {0, 1, 0}, Projection::orthographic, 30.0, 6.0};
+  subject.settings.samples = 4;
+  subject.settings.look.silhouettes = 14.0f;  // far into tiles where nothing is met
+  const Framebuffer opaque = subject.picture();
+  subject.coloring.opacity.assign(1, 0.9999f);
+  const Framebuffer nearly = subject.picture();
+  for (std::size_t n = 0; n < opaque.color.size(); ++n) ASSERT_NEAR(opaque.color[n].w, nearly.color[n].w, 0.002f) << n;
+}
+
 TEST(Layers, AreTheSameForAllVectorsAndBlocks) {
   Subject subject(testing::ubiquitin());
   subject.see_through();
@@ -264,6 +290,19 @@ TEST(Layers, ASphereIsTheBallThatItIs) {
   shape.coloring.atom[0] = ball.coloring.atom[0];
   ball.camera = shape.camera;
   EXPECT_TRUE(same_bits(shape.picture(), ball.picture()));
+}
+
+TEST(Layers, ACutSphereShowsItsLitInside) {
+  ShapeSubject subject;
+  subject.shapes.spheres = {{{0.0, 0.0, 0.0}, 1.5, 0}};
+  PictureObject object;
+  object.shapes = &subject.shapes;
+  object.coloring = &subject.coloring;
+  object.clip.push_back({{0.0, 0.0, 1.0}, 0.0});  // the viewer's half is gone
+  const Framebuffer picture = CpuRenderer().render({&object, 1}, subject.camera, subject.settings);
+  const std::size_t middle = 120 * 320 + 160;
+  EXPECT_NEAR(picture.position[middle].z, -1.5f, 1e-3f);
+  EXPECT_GT(picture.color[middle].x, 0.1f);
 }
 
 TEST(Layers, ACylinderIsRoundAndOfTwoColors) {

@@ -49,14 +49,17 @@ std::uint32_t ordered_bits(float value) {
 glm::ivec4 TileFootprints::of(const glm::vec4& bound) const { return Footprints{params_}.bound_footprint(bound); }
 
 void CpuTileLists::build(std::span<const ray_cast::Primitive> primitives, const PictureFrame& frame,
-                         const PictureBlock& block) {
+                         const PictureBlock& block, std::span<const glm::vec4> cuts) {
   tiles_ = tile_counts(block);
   const auto tile_count = static_cast<std::size_t>(tiles_.x) * tiles_.y;
   const TileFootprints footprints(frame, block);
   std::vector<ivec4> touched(primitives.size());
   std::vector<std::atomic<std::uint32_t>> next(tile_count);
   tbb::parallel_for(std::size_t{0}, primitives.size(), [&](std::size_t n) {
-    touched[n] = footprints.of(primitives[n].bound);
+    const vec4& bound = primitives[n].bound;
+    const bool is_cut_away =
+        std::ranges::any_of(cuts, [&](const vec4& cut) { return glm::dot(vec3(cut), vec3(bound)) - bound.w > cut.w; });
+    touched[n] = is_cut_away ? ivec4(0) : footprints.of(bound);
     for_each_tile(touched[n], tiles_.x, [&](std::size_t tile) { next[tile].fetch_add(1, std::memory_order_relaxed); });
   });
   starts_.assign(tile_count + 1, 0);

@@ -64,7 +64,10 @@ class TileFootprints {
 /// For each tile the primitives whose bounds it may touch: the same lists as the GPU's (ray_caster.h), each in order.
 class CpuTileLists {
  public:
-  void build(std::span<const ray_cast::Primitive> primitives, const PictureFrame& frame, const PictureBlock& block);
+  /// cuts: planes, kept is where dot(xyz, x) < w, through which all rays of the block come in; what is wholly cut away
+  /// by one of them is not listed.
+  void build(std::span<const ray_cast::Primitive> primitives, const PictureFrame& frame, const PictureBlock& block,
+             std::span<const glm::vec4> cuts = {});
 
   glm::ivec2 tiles() const { return tiles_; }  ///< columns, rows
   /// Places among the primitives, in any order; `tile` counts row by row.

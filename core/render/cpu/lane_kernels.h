@@ -160,6 +160,7 @@ struct LayerTask {
   const glm::vec4* planes = nullptr;  ///< kept is where dot(xyz, x) < w, relative to the pivot
   int plane_count = 0;
   bool all = false;                 ///< every hit; else the nearest of each ray
+  bool has_caps = false;            ///< where a ray meets its solid from inside behind a plane, that is not seen
   bool thickens = false;            ///< opacity grows where a ray goes along the surface, as in a thin film
   const float* farthest = nullptr;  ///< for each ray of the tile, what may still be seen; nullptr: everything
   ClippedRay* clipped = nullptr;    ///< gets, for each ray of the tile, where its planes cut it

@@ -22,13 +22,22 @@ class LayerBundle : Bundle {
     }
     trace([this](uint index) { meet(index, rays_, packet_count_); });
     for (int n = 0; n < packet_count_; ++n) {
-      const Shaded shaded = shade(n);
+      const Shaded shaded = shade_before_caps(n);
       add(n, shaded.met, rays_[n].t, rays_[n].primitive, {shaded.normal, shaded.atom},
           {shaded.color, shaded.visibility});
     }
   }
 
  private:
+  /// Light is for what is seen: of points behind caps alone it matters that they are there.
+  Shaded shade_before_caps(int packet) {
+    Shaded shaded = met_by(packet);
+    const Rays& rays = rays_[packet];
+    const truth behind_cap = task_.has_caps && rays.from > rays.eye_t && dot(shaded.normal, rays.d) > 0.0f;
+    if (some(shaded.met && !behind_cap)) light(packet, shaded);
+    return shaded;
+  }
+
   /// The number of the ray in this lane of a packet; kNoRay outside of the block.
   static constexpr uint kNoRay = ~0u;
   uint ray_of(int packet, int n) const {

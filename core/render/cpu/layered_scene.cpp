@@ -22,13 +22,18 @@ namespace {
 
 using ray_cast::kOnPlane;
 
-constexpr float kFar = 3.0e38f;  // beyond every hit
+constexpr float kFar = 3.0e38f;    // beyond every hit
+constexpr double kCapRoom = 1e-6;  // Å, for rounding of distances
 /// Of what was seen through, what is left of a ray that has met enough.
 constexpr float kLeastLeft = 1.0f / 1024.0f;
 
 glm::ivec2 pixel_of(const LaneTile& task, std::uint32_t ray) {
   const int in_tile = static_cast<int>(ray % (kTileEdge * kTileEdge));
   return task.origin + glm::ivec2(in_tile % kTileEdge, in_tile / kTileEdge);
+}
+
+std::uint32_t ray_count(const LaneTile& task) {
+  return static_cast<std::uint32_t>(task.sample_count * kTileEdge * kTileEdge);
 }
 
 std::uint32_t sample_of(std::uint32_t ray) { return ray / (kTileEdge * kTileEdge); }
@@ -40,6 +45,20 @@ struct SingleRays {
 #include "gpu_shaders/ray_cast/repeated_hit.glsl"
 };
 
+/// Through a place of the picture, in pixels from its corner.
+struct PictureRay {
+  glm::dvec3 on_pivot_plane;  // Å from the pivot
+  glm::dvec3 direction;       // of length 1
+};
+
+PictureRay picture_ray(const PictureFrame& frame, const glm::dvec2& place) {
+  const glm::dvec2 offset = (place - 0.5 * glm::dvec2(frame.size)) * frame.pixel_size;
+  const glm::dvec3 on_pivot_plane = frame.basis.right * offset.x - frame.basis.up * offset.y;
+  return {on_pivot_plane, frame.camera.projection == Projection::orthographic
+                              ? frame.basis.forward
+                              : glm::normalize(frame.basis.forward * frame.eye_distance + on_pivot_plane)};
+}
+
 bool is_repeated(const LayerHit& hit, const LayerHit& before, float slack) {
   if (hit.primitive == kOnPlane || before.primitive == kOnPlane || hit.layer != before.layer) return false;
   return SingleRays().is_repeated(hit.t, hit.facing, before.t, before.facing, slack);
@@ -48,6 +67,25 @@ bool is_repeated(const LayerHit& hit, const LayerHit& before, float slack) {
 /// Where a plane cuts, hidden atoms are seen through: their points tell what is solid.
 bool is_translucent(const PictureObject& object) {
   return object.coloring->is_translucent() || (!object.clip.empty() && object.coloring->hides_some());
+}
+
+/// Of the planes of an object those through which every ray of the block comes in, moved outwards by more than all
+/// roundings: no ray meets what lies wholly beyond one of them.
+std::vector<glm::vec4> entered_planes(std::span<const glm::vec4> planes, float slack, const PictureFrame& frame,
+                                      const PictureBlock& block) {
+  constexpr float kSteep = 1e-2f;  // of a plane that rays do not graze
+  const float room = 0.01f + 100.0f * slack;
+  std::vector<glm::vec4> entered;
+  for (const glm::vec4& plane : planes) {
+    // Of directions that are not of unit length this is linear: corners have the extremes.
+    bool by_all = true;
+    for (const glm::ivec2 corner : {glm::ivec2(0, 0), glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(1, 1)}) {
+      const PictureRay ray = picture_ray(frame, glm::dvec2(block.origin + corner * block.size));
+      by_all = by_all && glm::dot(glm::dvec3(plane), ray.direction) < -kSteep;
+    }
+    if (by_all) entered.emplace_back(glm::vec3(plane), plane.w + room);
+  }
+  return entered;
 }
 
 /// Darker in stripes across a plane.
@@ -120,21 +158,25 @@ void LayeredScene::begin_block(const PictureFrame& frame, const PictureBlock& bl
   frame_ = frame;
   block_ = block;
   for (Layer& layer : layers_) {
-    layer.lists.build(layer.scene.packed.primitives, frame_, block);
+    layer.lists.build(layer.scene.packed.primitives, frame_, block,
+                      entered_planes(layer.planes, layer.scene.placement.slack, frame_, block_));
     layer.scene.lanes.view = block_view(frame_, block, glm::vec2(0.0f));
   }
 }
 
 void LayeredScene::cast_tile(std::size_t tile, LaneTile task, const LaneKernels& kernels) {
+  // Nothing has changed there since the block began, but for lines of what is seen through.
+  const bool is_empty = std::ranges::all_of(layers_, [&](Layer& layer) { return layer.lists.entries(tile).empty(); });
+  if (is_empty && !task.front.color) return;
   Workplace& place = workplaces_.local();
   const int number = static_cast<int>(tile), columns = tile_counts(block_).x;
   task.origin = kTileEdge * glm::ivec2(number % columns, number / columns);
   place.hits.clear();
-  place.farthest.assign(LaneTile::kMostRays, kFar);
-  place.clipped.assign(LaneTile::kMostRays, {});
+  place.farthest.assign(ray_count(task), kFar);
+  place.clipped.resize(ray_count(task));
   const TileWork work{task, kernels, place};
   for (std::uint32_t n = 0; n < layers_.size(); ++n) cast_layer(n, tile, work);
-  order_hits(place);
+  order_hits(0, work);
   put_together(work);
 }
 
@@ -149,12 +191,13 @@ void LayeredScene::cast_layer(std::uint32_t number, std::size_t tile, const Tile
   const LayerTask wanted{.planes = layer.planes.data(),
                          .plane_count = static_cast<int>(layer.planes.size()),
                          .all = layer.translucent,
+                         .has_caps = layer.object->surface != nullptr && !layer.translucent,
                          .thickens = layer.object->thickens,
                          // What lies behind a plane, however far, tells whether there is a cap.
                          .farthest = cut_by_planes ? nullptr : place.farthest.data(),
                          .clipped = place.clipped.data()};
   const std::size_t first = place.hits.size();
-  place.hits.resize(std::max(place.hits.capacity(), first + LaneTile::kMostRays));
+  place.hits.resize(first + ray_count(task));
   struct Room : LayerHits {
     std::vector<LayerHit>* all;
   } room;
@@ -182,11 +225,9 @@ void LayeredScene::cast_layer(std::uint32_t number, std::size_t tile, const Tile
 void LayeredScene::cut(std::uint32_t number, std::size_t first_hit, const TileWork& work) const {
   const Layer& layer = layers_[number];
   std::vector<LayerHit>& hits = work.place.hits;
-  const auto begin = hits.begin() + static_cast<std::ptrdiff_t>(first_hit);
-  std::sort(begin, hits.end(), [](const LayerHit& a, const LayerHit& b) {
-    return std::tie(a.ray, a.t, a.primitive) < std::tie(b.ray, b.t, b.primitive);
-  });
-  std::vector<Cap> caps;
+  order_hits(first_hit, work);
+  std::vector<Cap>& caps = work.place.caps;
+  caps.clear();
   const auto add_cap = [&](std::uint32_t ray, float t, std::uint32_t plane, float facing) {
     Cap cap;
     cap.t = t;
@@ -199,24 +240,23 @@ void LayeredScene::cut(std::uint32_t number, std::size_t first_hit, const TileWo
     caps.push_back(cap);
   };
   const bool has_caps = layer.object->surface != nullptr;
-  for (std::size_t n = first_hit; n < hits.size();) {
-    const std::uint32_t ray = hits[n].ray;
+  for (std::uint32_t ray = 0; ray < ray_count(work.task); ++ray) {
+    const std::span<const std::uint32_t> order = work.place.order_of(ray);
+    if (order.empty()) continue;
     const ClippedRay& clipped = work.place.clipped[ray];
     bool hidden = false;  // by a cap
-    if (has_caps && clipped.in_plane != ClippedRay::kNoPlane && hits[n].facing > 0.0f) {
+    if (has_caps && clipped.in_plane != ClippedRay::kNoPlane && hits[order.front()].facing > 0.0f) {
       add_cap(ray, clipped.in, clipped.in_plane, -1.0f);
       hidden = !layer.translucent;
     }
-    while (!hidden && n < hits.size() && hits[n].ray == ray && hits[n].t < clipped.out) ++n;
-    if (n < hits.size() && hits[n].ray == ray && has_caps && layer.translucent && hits[n].facing > 0.0f)
+    std::size_t n = 0;
+    while (!hidden && n < order.size() && hits[order[n]].t < clipped.out) ++n;
+    if (n < order.size() && has_caps && layer.translucent && hits[order[n]].facing > 0.0f)
       add_cap(ray, clipped.out, clipped.out_plane, 1.0f);
-    for (; n < hits.size() && hits[n].ray == ray; ++n) hits[n].t = kFar;  // cut away
+    for (; n < order.size(); ++n) hits[order[n]].t = kFar;  // cut away
   }
   std::erase_if(hits, [](const LayerHit& hit) { return hit.t == kFar; });
-  for (std::size_t n = 0, end = 0; n < caps.size(); n = end) {
-    while (end < caps.size() && caps[end].ray / kTileEdge == caps[n].ray / kTileEdge) ++end;  // of a row of pixels
-    color_caps(layer, std::span(caps).subspan(n, end - n));
-  }
+  color_caps(layer, caps);
   const std::size_t first_cap = hits.size();
   hits.insert(hits.end(), caps.begin(), caps.end());
   work.kernels.light_points(layer.scene.lanes, work.task, hits.data() + first_cap,
@@ -224,34 +264,56 @@ void LayeredScene::cut(std::uint32_t number, std::size_t first_hit, const TileWo
 }
 
 glm::dvec3 LayeredScene::cap_point(const LaneTile& task, const LayerHit& cap) const {
-  const glm::dvec2 pixel =
-      glm::dvec2(block_.origin + pixel_of(task, cap.ray)) + 0.5 + glm::dvec2(task.offset[sample_of(cap.ray)]);
-  const glm::dvec2 offset = (pixel - 0.5 * glm::dvec2(frame_.size)) * frame_.pixel_size;
-  const glm::dvec3 on_pivot_plane = frame_.basis.right * offset.x - frame_.basis.up * offset.y;
-  const glm::dvec3 direction = frame_.camera.projection == Projection::orthographic
-                                   ? frame_.basis.forward
-                                   : glm::normalize(frame_.basis.forward * frame_.eye_distance + on_pivot_plane);
-  return frame_.pivot + on_pivot_plane + direction * static_cast<double>(cap.t);
+  const PictureRay ray = picture_ray(
+      frame_, glm::dvec2(block_.origin + pixel_of(task, cap.ray)) + 0.5 + glm::dvec2(task.offset[sample_of(cap.ray)]));
+  return frame_.pivot + ray.on_pivot_plane + ray.direction * static_cast<double>(cap.t);
 }
 
-/// Caps beside each other: only atoms that are near enough to the middle of them are asked for each.
+/// All of a tile, row by row: the atoms that are near the tile are looked for once, and only those that are near enough
+/// to the middle of a row are asked for each of its caps.
 void LayeredScene::color_caps(const Layer& layer, std::span<Cap> caps) const {
+  if (caps.empty()) return;
+  const std::vector<Ball>& balls = layer.object->surface->atoms;
+  const auto [middle, reach] = middle_of(caps);
+  std::vector<std::uint32_t> around;
+  layer.atoms->for_each_near(middle, layer.farthest_atom + reach + 1e-3, [&](std::uint32_t a) { around.push_back(a); });
+  std::vector<NearAtom> near;
+  for (std::size_t n = 0, end = 0; n < caps.size(); n = end) {
+    while (end < caps.size() && caps[end].ray / kTileEdge == caps[n].ray / kTileEdge) ++end;
+    const std::span<Cap> row = caps.subspan(n, end - n);
+    const auto [middle_of_row, reach_of_row] = middle_of(row);
+    near.clear();
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t a : around) {
+      near.emplace_back(glm::length(middle_of_row - balls[a].center) - balls[a].radius, a);
+      nearest = std::min(nearest, near.back().first);
+    }
+    std::erase_if(near, [&](const NearAtom& atom) { return atom.first > nearest + 2.0 * reach_of_row + kCapRoom; });
+    std::ranges::sort(near);
+    color_caps(layer, row, reach_of_row, near);
+  }
+}
+
+LayeredScene::Middle LayeredScene::middle_of(std::span<const Cap> caps) {
+  Middle result{0.5 * (caps.front().point + caps.back().point)};
+  for (const Cap& cap : caps) {
+    const glm::dvec3 off = cap.point - result.point;
+    result.reach = std::max(result.reach, glm::dot(off, off));
+  }
+  result.reach = std::sqrt(result.reach);
+  return result;
+}
+
+void LayeredScene::color_caps(const Layer& layer, std::span<Cap> caps, double reach,
+                              std::span<const NearAtom> near) const {
   const Coloring& coloring = *layer.object->coloring;
   const std::vector<Ball>& balls = layer.object->surface->atoms;
-  const glm::dvec3 middle = 0.5 * (caps.front().point + caps.back().point);
-  double reach = 0.0;
-  for (const Cap& cap : caps) reach = std::max(reach, glm::length(cap.point - middle));
-  std::vector<std::pair<double, std::uint32_t>> near;  // distances from the middle
-  double nearest = std::numeric_limits<double>::infinity();
-  layer.atoms->for_each_near(middle, layer.farthest_atom + reach + 1e-3, [&](std::uint32_t a) {
-    near.emplace_back(glm::length(middle - balls[a].center) - balls[a].radius, a);
-    nearest = std::min(nearest, near.back().first);
-  });
-  std::erase_if(near, [&](const auto& atom) { return atom.first > nearest + 2.0 * reach + 1e-6; });
   for (Cap& cap : caps) {
-    std::pair<double, std::uint32_t> first{std::numeric_limits<double>::infinity(), 0};
-    for (const auto& [unused, a] : near)
+    NearAtom first{std::numeric_limits<double>::infinity(), 0};
+    for (const auto& [distance, a] : near) {
+      if (distance - reach > first.first + kCapRoom) break;  // as are all that follow
       first = std::min(first, {glm::length(cap.point - balls[a].center) - balls[a].radius, a});
+    }
     cap.atom = first.second;
     cap.color = layer.scene.colors[cap.atom];
     cap.normal = glm::vec3(layer.object->clip[cap.plane].normal);
@@ -267,29 +329,32 @@ void LayeredScene::color_caps(const Layer& layer, std::span<Cap> caps) const {
   }
 }
 
-void LayeredScene::order_hits(Workplace& place) const {
-  place.starts.assign(LaneTile::kMostRays + 1, 0);
-  for (const LayerHit& hit : place.hits) ++place.starts[hit.ray + 1];
+void LayeredScene::order_hits(std::size_t first_hit, const TileWork& work) const {
+  Workplace& place = work.place;
+  const std::uint32_t rays = ray_count(work.task);
+  const auto count = static_cast<std::uint32_t>(place.hits.size());
+  place.starts.assign(rays + 1, 0);
+  for (std::size_t n = first_hit; n < count; ++n) ++place.starts[place.hits[n].ray + 1];
   std::partial_sum(place.starts.begin(), place.starts.end(), place.starts.begin());
-  std::vector<std::uint32_t> next(place.starts.begin(), place.starts.end() - 1);
-  place.order.resize(place.hits.size());
-  for (std::uint32_t n = 0; n < place.hits.size(); ++n) place.order[next[place.hits[n].ray]++] = n;
-  for (std::size_t ray = 0; ray < LaneTile::kMostRays; ++ray)
-    std::sort(place.order.begin() + place.starts[ray], place.order.begin() + place.starts[ray + 1],
-              [&](std::uint32_t a, std::uint32_t b) {
-                const LayerHit &left = place.hits[a], &right = place.hits[b];
-                return std::tie(left.t, left.layer, left.primitive) < std::tie(right.t, right.layer, right.primitive);
-              });
+  place.next.assign(place.starts.begin(), place.starts.end() - 1);
+  place.order.resize(count - first_hit);
+  for (auto n = static_cast<std::uint32_t>(first_hit); n < count; ++n) place.order[place.next[place.hits[n].ray]++] = n;
+  for (std::uint32_t ray = 0; ray < rays; ++ray) {
+    const std::span<std::uint32_t> order = place.order_of(ray);
+    if (order.size() < 2) continue;
+    std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
+      const LayerHit &left = place.hits[a], &right = place.hits[b];
+      return std::tie(left.t, left.layer, left.primitive) < std::tie(right.t, right.layer, right.primitive);
+    });
+  }
 }
 
 void LayeredScene::put_together(const TileWork& work) const {
-  const Workplace& place = work.place;
+  Workplace& place = work.place;
   const LaneTile& task = work.task;
   const auto width = static_cast<std::size_t>(block_.size.x);
-  const auto ray_count = static_cast<std::uint32_t>(task.sample_count * kTileEdge * kTileEdge);
-  for (std::uint32_t ray = 0; ray < ray_count; ++ray) {
-    const std::span<const std::uint32_t> order =
-        std::span(place.order).subspan(place.starts[ray], place.starts[ray + 1] - place.starts[ray]);
+  for (std::uint32_t ray = 0; ray < ray_count(task); ++ray) {
+    const std::span<const std::uint32_t> order = place.order_of(ray);
     const glm::ivec2 pixel = pixel_of(task, ray);
     if (pixel.x >= block_.size.x || pixel.y >= block_.size.y) continue;
     const std::size_t at = static_cast<std::size_t>(pixel.y) * width + static_cast<std::size_t>(pixel.x);
@@ -331,8 +396,10 @@ void LayeredScene::write(const LaneSamples& samples, std::size_t at, const Layer
   if (!samples.mark) return;
   const std::vector<float>* const marks = hit ? &layers_[hit->layer].scene.marks : nullptr;
   float mark = marks && !marks->empty() ? (*marks)[hit->atom] : 0.0f;
-  constexpr float kOfPart = Coloring::kMarksOfPart;
-  if (hit && hit->primitive == ray_cast::kOnPlane) mark = kOfPart * std::floor(mark / kOfPart);  // caps have no patches
+  if (hit && hit->primitive == ray_cast::kOnPlane) {  // caps have no patches
+    const auto number = static_cast<std::uint32_t>(mark);
+    mark = static_cast<float>(number - number % Coloring::kMarksOfPart);
+  }
   samples.mark[at] = mark;
 }
 

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/vec4.hpp>
@@ -59,13 +60,25 @@ class LayeredScene {
     double farthest_atom = 0.0;     // Å: a point of the solid has the surface of an atom's sphere within this reach
   };
 
+  /// A point of a cap, on which plane.
+  struct Cap : LayerHit {
+    std::uint32_t plane = 0;
+    glm::dvec3 point{0.0};  // Å
+  };
+
   /// What a thread works with.
   struct Workplace {
     SortedList sorted;
     std::vector<LayerHit> hits;
+    std::vector<Cap> caps;
     std::vector<float> farthest;
     std::vector<ClippedRay> clipped;
-    std::vector<std::uint32_t> starts, order;
+    std::vector<std::uint32_t> starts, next, order;
+
+    /// A ray's hits, once they are in order.
+    std::span<std::uint32_t> order_of(std::uint32_t ray) {
+      return std::span(order).subspan(starts[ray], starts[ray + 1] - starts[ray]);
+    }
   };
 
   /// A tile at work.
@@ -78,15 +91,19 @@ class LayeredScene {
   void pack(Layer& layer, const ScenePlacement& placement, const Look& look) const;
   void cast_layer(std::uint32_t number, std::size_t tile, const TileWork& work);
   void cut(std::uint32_t number, std::size_t first_hit, const TileWork& work) const;
-  /// A point of a cap, on which plane.
-  struct Cap : LayerHit {
-    std::uint32_t plane = 0;
-    glm::dvec3 point{0.0};  // Å
-  };
-
   glm::dvec3 cap_point(const LaneTile& task, const LayerHit& cap) const;
   void color_caps(const Layer& layer, std::span<Cap> caps) const;
-  void order_hits(Workplace& place) const;
+  /// Of caps, and how far from it they lie, Å.
+  struct Middle {
+    glm::dvec3 point{0.0};
+    double reach = 0.0;
+  };
+  static Middle middle_of(std::span<const Cap> caps);
+  using NearAtom = std::pair<double, std::uint32_t>;  // how far its sphere is from the middle, Å
+  /// near: in order. reach: of the caps, from that middle.
+  void color_caps(const Layer& layer, std::span<Cap> caps, double reach, std::span<const NearAtom> near) const;
+  /// Of each ray, the nearest first; those from first_hit on.
+  void order_hits(std::size_t first_hit, const TileWork& work) const;
   void put_together(const TileWork& work) const;
   /// Of a sample what the look needs to know beside its colour; nullptr: nothing is met.
   void write(const LaneSamples& samples, std::size_t at, const LayerHit* hit) const;

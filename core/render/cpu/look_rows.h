@@ -39,6 +39,7 @@ struct LookedAtBlock {
   /// Outside of the map the entry behind its last says that there is nothing.
   real map_depth_or_nothing(integer2 texel) {
     const glm::ivec2 size = occlusion.map_size;
+    if (within_map_) return gather(look_.shade_map, texel.y * integer(size.x) + texel.x);
     const truth inside =
         texel.x >= integer(0) && texel.y >= integer(0) && texel.x < integer(size.x) && texel.y < integer(size.y);
     return gather(look_.shade_map, select(inside, texel.y * integer(size.x) + texel.x, integer(size.x * size.y)));
@@ -74,26 +75,15 @@ struct LookedAtBlock {
 
   /// No line reaches the pixels: what is around each is one part without a step, or nothing.
   bool has_no_ink(pixel_row pixel) requires kInside {
-    const int reach = farthest_neighbor();
-    const float *const depths = look_.samples.depth, *const marks = look_.samples.mark;
-    const std::ptrdiff_t width = view.size.x, first = place_in_block(pixel);
-    real nearest = load(depths + first), farthest = nearest;
-    real least_mark(0.0f), greatest_mark(0.0f);
-    if (params.has_marks != 0u) least_mark = greatest_mark = load(marks + first);
-    for (int row = -reach; row <= reach; ++row)
-      for (int column = -reach; column <= reach; ++column) {
-        const std::ptrdiff_t at = first + row * width + column;
-        const real depth = load(depths + at);
-        nearest = min(nearest, depth);
-        farthest = max(farthest, depth);
-        if (params.has_marks == 0u) continue;
-        const real mark = load(marks + at);
-        least_mark = min(least_mark, mark);
-        greatest_mark = max(greatest_mark, mark);
-      }
-    const truth nothing = nearest == real(kNothing);
-    const truth steps = farthest == real(kNothing) || farthest - nearest > least_step(nearest);
-    return !some(!nothing && (steps || least_mark != greatest_mark));
+    const Extremes depth = extremes_around(look_.samples.depth, pixel);
+    const truth nothing = depth.least == real(kNothing);
+    if (!some(!nothing)) return true;
+    truth changes = depth.greatest == real(kNothing) || depth.greatest - depth.least > least_step(depth.least);
+    if (params.has_marks != 0u) {
+      const Extremes mark = extremes_around(look_.samples.mark, pixel);
+      changes = changes || mark.least != mark.greatest;
+    }
+    return !some(!nothing && changes);
   }
 
   Ink ink_on(pixel_row pixel, real depth) {
@@ -134,8 +124,6 @@ struct LookedAtBlock {
 
   void finish(pixel_row pixel) {
     const real depth = depth_or_nothing(pixel);
-    first_across_ = pixel.x - kShadeReach;
-    for (int n = 0; n <= 2 * kShadeReach; ++n) across_[n] = place_of(pixel_row{first_across_ + n, pixel.y}).x;
     const truth met = depth != real(kNothing);
     const bool has_ink = params.widest_line > 0.0f && !nothing_to_ink(pixel);
     if (!some(met) && !has_ink && !look_.samples.over) return;
@@ -145,7 +133,11 @@ struct LookedAtBlock {
     if (some(met)) {
       const real4 cast = colors(look_.samples.color + first, pixel);
       color = {cast.x, cast.y, cast.z};
-      if (params.ambient_occlusion > 0.0f) color = select(met, shaded(color, alpha, pixel, depth), color);
+      if (params.ambient_occlusion > 0.0f) {
+        first_across_ = pixel.x - kShadeReach;
+        for (int n = 0; n <= 2 * kShadeReach; ++n) across_[n] = place_of(pixel_row{first_across_ + n, pixel.y}).x;
+        color = select(met, shaded(color, alpha, pixel, depth), color);
+      }
       const real left = select(met, clarity(depth), real(1.0f));
       if (params.keeps_alpha != 0u) {
         color = mix(real3(params.air) * alpha, color, left);
@@ -175,12 +167,46 @@ struct LookedAtBlock {
 
   void occlude(pixel_row pixel) {
     const real depth = depth_or_nothing(pixel);
-    if (!some(depth != real(kNothing))) return;
+    const truth met = depth != real(kNothing);
+    if (!some(met)) return;
+    within_map_ = lies_within_map(pixel, greatest(select(met, shade_reach(depth), real(0.0f))));
     const real visibility = sky_visibility(pixel, depth);
     for (int n = 0; n < count_of(pixel); ++n) look_.visibility[place_in_block(pixel) + n] = lane(visibility, n);
   }
 
  private:
+  /// Whether all texels that the shade of these pixels asks for are in the map. reach: shade_reach(), at most.
+  bool lies_within_map(pixel_row pixel, float reach) const {
+    constexpr float kRoom = 2.0f;  // for rounding
+    const glm::vec2 first = view.first_offset + glm::vec2(pixel.x, pixel.y) + view.sample_offset;
+    const float farthest = reach > kStepCount ? reach : kStepCount;
+    const glm::vec2 low = (first - farthest) / occlusion.texel_edge + occlusion.map_middle - kRoom;
+    const glm::vec2 high =
+        (first + glm::vec2(kLanes, 0.0f) + farthest) / occlusion.texel_edge + occlusion.map_middle + kRoom;
+    return low.x >= 0.0f && low.y >= 0.0f && high.x < static_cast<float>(occlusion.map_size.x) &&
+           high.y < static_cast<float>(occlusion.map_size.y);
+  }
+
+  struct Extremes {
+    real least, greatest;
+  };
+
+  /// Of the pixels as far as lines reach. reach: farthest_neighbor(), where the compiler may know it.
+  [[gnu::always_inline]] Extremes extremes_around(const float* values, pixel_row pixel, int reach) const {
+    const float* const middle = values + place_in_block(pixel);
+    Extremes found{load(middle), load(middle)};
+    for (int row = -reach; row <= reach; ++row)
+      for (int column = -reach; column <= reach; ++column) {
+        const real value = load(middle + row * static_cast<std::ptrdiff_t>(view.size.x) + column);
+        found = {min(found.least, value), max(found.greatest, value)};
+      }
+    return found;
+  }
+  Extremes extremes_around(const float* values, pixel_row pixel) {
+    const int reach = farthest_neighbor();
+    return reach == 1 ? extremes_around(values, pixel, 1) : extremes_around(values, pixel, reach);
+  }
+
   /// Pixels of the block.
   int count_of(pixel_row pixel) const {
     return kInside || view.size.x - pixel.x > kLanes ? kLanes : view.size.x - pixel.x;
@@ -216,6 +242,7 @@ struct LookedAtBlock {
     for (int n = 0; n < count_of(pixel); ++n) sums[n] = all[n];
   }
 
+  bool within_map_ = false;
   int first_across_ = 0;
   real across_[2 * kShadeReach + 1];  // of the pixels that a packet's shade is made of: place_of().x
 };

@@ -116,6 +116,13 @@ class Bundle : protected LightedScene {
   int sample_of(int packet) const { return tile_.first_sample + packet / kPixelPackets; }
 
   Shaded shade(int n) {
+    Shaded shaded = met_by(n);
+    if (some(shaded.met)) light(n, shaded);
+    return shaded;
+  }
+
+  /// Without light.
+  Shaded met_by(int n) {
     const Rays& rays = rays_[n];
     const real3 x = rays.p + rays.d * rays.t;
     Shaded shaded;
@@ -133,11 +140,16 @@ class Bundle : protected LightedScene {
       shaded.atom = select(here, point.atom, shaded.atom);
       left &= ~bits(here);
     }
+    return shaded;
+  }
+
+  void light(int n, Shaded& shaded) {
+    const Rays& rays = rays_[n];
+    const real3 x = rays.p + rays.d * rays.t;
     const real3 color = albedo(shaded.met, rays.kind, x, {shaded.normal, shaded.atom});
     const Lighted lighted = lit_at(color, {x, shaded.normal, rays.d, shaded.met}, sample_of(n));
     shaded.color = select(shaded.met, lighted.color, real3(0.0f));
     shaded.visibility = lighted.visibility;
-    return shaded;
   }
 
   /// Of points on patches of these kinds.

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
+#include <string_view>
 #include <tuple>
 #include <unordered_map>
 
@@ -99,12 +101,17 @@ std::vector<RadiiChoice::Given> RadiiChoice::radii_for(const Structure& structur
   std::vector<Given> given;
   given.reserve(structure.atoms.size());
   std::unordered_map<std::string, Given> known;
+  std::string key;
   for (const Atom& atom : structure.atoms) {
     if (from_file_) {  // every atom has a radius of its own
       given.push_back(radius_for(atom, hydrogens_used));
       continue;
     }
-    const std::string key = fmt::format("{}\n{}\n{}", atom.residue_name, atom.name, atom.element);
+    key = atom.residue_name;
+    key += '\n';
+    key += atom.name;
+    key += '\n';
+    key += static_cast<char>(atom.element);
     const auto [found, added] = known.try_emplace(key);
     if (added) found->second = radius_for(atom, hydrogens_used);
     given.push_back(found->second);
@@ -176,7 +183,7 @@ std::vector<std::string> RadiiChoice::assign(Structure& structure) const {
   structure.radii_set = name();
 
   std::vector<std::string> unknown;
-  std::map<std::tuple<std::string, double, std::string>, std::size_t> classes;
+  std::map<std::tuple<std::string_view, double, std::string_view>, std::size_t> classes;
   std::size_t kept = 0;
   for (std::size_t n = 0; n < given.size(); ++n) {
     Atom& atom = structure.atoms[n];
@@ -186,14 +193,15 @@ std::vector<std::string> RadiiChoice::assign(Structure& structure) const {
       ++structure.report.excluded[kExcludedRadius];
       continue;
     }
-    ++classes[{std::string(given[n].found.label), atom.radius, std::string(given[n].found.source)}];
+    ++classes[{given[n].found.label, atom.radius, given[n].found.source}];
     if (kept != n) structure.atoms[kept] = std::move(atom);
     ++kept;
   }
   structure.atoms.resize(kept);
   structure.report.used = kept;
   for (const auto& [what, count] : classes) {
-    structure.radius_classes.push_back({std::get<0>(what), std::get<1>(what), std::get<2>(what), count});
+    const auto& [label, radius, source] = what;
+    structure.radius_classes.push_back({std::string(label), radius, std::string(source), count});
   }
   return unknown;
 }

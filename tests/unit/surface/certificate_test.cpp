@@ -11,11 +11,15 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/base/stage_clock.h"
 #include "core/math/geometry.h"
 #include "core/mesh/compare_mesh.h"
 #include "core/mesh/tessellate.h"
+#include "core/mesh/tessellate.h"
+#include "core/surface/blocks.h"
 #include "core/surface/components.h"
 #include "core/surface/compute_surface.h"
+#include "core/surface/convex_planes.h"
 #include "tests/support/molecules.h"
 
 namespace meniscus::testing {
@@ -212,26 +216,31 @@ TEST(Certificate, NamesDisputedFaces) {
   EXPECT_TRUE(holds(lattice_with_cavities(), {{0}, {}}));
 }
 
-// The volume's sign is an independent answer where both are sure.
+// The volume's sign is an independent answer where both are sure. Planes that are found when asked give the same sides.
 TEST(SideOfComponents, AgreesWithTheSignOfTheVolume) {
   std::mt19937 random(3);
   std::size_t cavities = 0;
-  const auto expect_agreement = [&](const Surface& surface) {
-    const std::vector<ComponentKind> sides = side_of_components(surface, listed_planes(surface));
+  const auto expect_agreement = [&](const Balls& balls, double probe_radius) {
+    const Surface surface = compute_surface_cpu(balls, probe_radius);
+    const std::vector<ComponentKind> sides = side_of_components(surface, ListedPlanes(surface));
+    StageClock unused;
+    const Surface unlisted = compute_without_borders(balls, probe_radius, ClipPlanes::left_out, unused);
     ASSERT_EQ(sides.size(), surface.components.size());
+    ASSERT_EQ(sides.size(), unlisted.components.size());
     for (std::size_t c = 0; c < sides.size(); ++c) {
+      EXPECT_EQ(sides[c], unlisted.components[c].kind);
       if (std::abs(surface.components[c].volume) < 1e-6) continue;
       EXPECT_EQ(sides[c] == ComponentKind::cavity, surface.components[c].volume < 0);
       cavities += sides[c] == ComponentKind::cavity;
     }
   };
   for (const NamedBalls& molecule : degenerate_molecules())
-    expect_agreement(compute_surface_cpu(rotated(molecule.balls, random_rotation(random)), molecule.probe_radius));
+    expect_agreement(rotated(molecule.balls, random_rotation(random)), molecule.probe_radius);
   for (std::uint32_t n = 0; n < 200; ++n) {
     const GasCase gas = gas_case(n);
-    expect_agreement(compute_surface_cpu(gas.balls, gas.probe_radius));
+    expect_agreement(gas.balls, gas.probe_radius);
   }
-  for (const double probe : {0.0, 0.4, 1.4}) expect_agreement(compute_surface_cpu(enterotoxin(), probe));
+  for (const double probe : {0.0, 0.4, 1.4}) expect_agreement(enterotoxin(), probe);
   EXPECT_GT(cavities, 50u);
 }
 
