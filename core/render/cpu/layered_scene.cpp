@@ -281,16 +281,16 @@ void LayeredScene::color_caps(const Layer& layer, std::span<Cap> caps) const {
   for (std::size_t n = 0, end = 0; n < caps.size(); n = end) {
     while (end < caps.size() && caps[end].ray / kTileEdge == caps[n].ray / kTileEdge) ++end;
     const std::span<Cap> row = caps.subspan(n, end - n);
-    const auto [middle_of_row, reach_of_row] = middle_of(row);
+    const Middle of_row = middle_of(row);
     near.clear();
     double nearest = std::numeric_limits<double>::infinity();
     for (const std::uint32_t a : around) {
-      near.emplace_back(glm::length(middle_of_row - balls[a].center) - balls[a].radius, a);
+      near.emplace_back(glm::length(of_row.point - balls[a].center) - balls[a].radius, a);
       nearest = std::min(nearest, near.back().first);
     }
-    std::erase_if(near, [&](const NearAtom& atom) { return atom.first > nearest + 2.0 * reach_of_row + kCapRoom; });
+    std::erase_if(near, [&](const NearAtom& atom) { return atom.first > nearest + 2.0 * of_row.reach + kCapRoom; });
     std::ranges::sort(near);
-    color_caps(layer, row, reach_of_row, near);
+    color_caps(layer, row, of_row.reach, near);
   }
 }
 
