@@ -18,6 +18,7 @@ HARMLESS = {
     ("geometry/ray_torus.glsl", "knot"),                    # rays are in single precision on GPUs
     ("geometry/torus_hits.glsl", "t"),
     ("look/occlusion.glsl", "occluder"),                    # what pixels look like is in single precision
+    ("look/occlusion.glsl", "ways"),
 }
 
 
