@@ -9,10 +9,8 @@
 #include <span>
 #include <utility>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include "core/base/error.h"
 #include "core/mesh/half_edges.h"
@@ -20,8 +18,6 @@
 
 namespace meniscus {
 namespace {
-
-using Triangle = std::array<std::uint32_t, 3>;
 
 /// Patch-aligned meshes are a scaffold: their tolerance follows that of the result between these (Å).
 constexpr double kFinest = 1e-4, kCoarsest = 0.4;
@@ -40,72 +36,13 @@ TriangleMesh patches(const Surface& surface, double tolerance) {
   }
 }
 
-/// Of more triangles than these, remeshing waits for memory unless neighbours are near one another there.
-constexpr std::size_t kMany = 200'000;
-/// Å: cells of the curve along which such triangles lie.
-constexpr double kCell = 0.5;
+}  // namespace
 
-/// Every third bit is one of the lowest 21 of x.
-std::uint64_t spread_bits(std::uint64_t x) {
-  x = (x | x << 32) & 0x001f00000000ffff;
-  x = (x | x << 16) & 0x001f0000ff0000ff;
-  x = (x | x << 8) & 0x100f00f00f00f00f;
-  x = (x | x << 4) & 0x10c30c30c30c30c3;
-  return (x | x << 2) & 0x1249249249249249;
-}
-
-/// Numbers triangles along a curve through cells (Morton, "A computer oriented geodetic data base and a new technique
-/// in file sequencing", 1966), and vertices as they first come there.
-BaseMesh along_curve(const BaseMesh& base) {
-  const TriangleMesh& from = base.mesh;
-  const auto middle = [&](std::size_t t) {
-    const auto& [a, b, c] = from.triangles[t];
-    return (from.positions[a] + from.positions[b] + from.positions[c]) / 3.0;
-  };
-  glm::dvec3 low = from.positions[0];
-  for (const glm::dvec3& x : from.positions) low = glm::min(low, x);
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> order(from.triangles.size());
-  tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t t) {
-    const glm::u64vec3 cell = glm::min(glm::u64vec3((middle(t) - low) / kCell), glm::u64vec3(0x1fffff));
-    order[t] = {spread_bits(cell.x) | spread_bits(cell.y) << 1 | spread_bits(cell.z) << 2,
-                static_cast<std::uint32_t>(t)};
-  });
-  tbb::parallel_sort(order.begin(), order.end());
-  BaseMesh to;
-  to.mesh.triangles.reserve(order.size());
-  to.mesh.face.reserve(order.size());
-  to.mesh.positions.reserve(from.positions.size());
-  to.vertex_face.reserve(from.positions.size());
-  std::vector<std::uint32_t> number(from.positions.size(), kNone);
-  for (const auto& [key, t] : order) {
-    Triangle corners = from.triangles[t];
-    for (std::uint32_t& v : corners) {
-      if (number[v] == kNone) {
-        number[v] = static_cast<std::uint32_t>(to.mesh.positions.size());
-        to.mesh.positions.push_back(from.positions[v]);
-        to.vertex_face.push_back(base.vertex_face[v]);
-      }
-      v = number[v];
-    }
-    to.mesh.triangles.push_back(corners);
-    to.mesh.face.push_back(from.face[t]);
-  }
-  return to;
-}
-
-BaseMesh base_as_made(const Surface& surface, const SurfaceWalk& walk, Beginning beginning, double tolerance) {
+BaseMesh base_mesh(const Surface& surface, const SurfaceWalk& walk, Beginning beginning, double tolerance) {
   if (beginning == Beginning::contracted) return contracted_mesh(surface, walk, coarse_mesh(surface, walk, kWideAngle));
   BaseMesh base;
   base.mesh = beginning == Beginning::coarse ? coarse_mesh(surface, walk) : patches(surface, tolerance);
   base.vertex_face = vertex_faces(base.mesh);
-  return base;
-}
-
-}  // namespace
-
-BaseMesh base_mesh(const Surface& surface, const SurfaceWalk& walk, Beginning beginning, double tolerance) {
-  BaseMesh base = base_as_made(surface, walk, beginning, tolerance);
-  if (base.mesh.triangles.size() > kMany) base = along_curve(base);
   return base;
 }
 
@@ -116,6 +53,8 @@ namespace {
 /// Cosine of the angle at a ball's centre between the middle of a contact face and its farthest point: no wider one is
 /// drawn together.
 constexpr double kWidest = -0.2;
+
+using Triangle = std::array<std::uint32_t, 3>;
 
 class Contraction {
  public:

@@ -24,8 +24,7 @@ enum class Beginning : std::uint8_t {
 };
 
 /// Components and their Euler characteristics are those of the surface. walk: nothing barred. tolerance: Å, of patches;
-/// a finer one is taken where there is no such mesh. Of more than 200,000 triangles those near one another in space
-/// have numbers near one another, too. Throws OpenSurfaceError where there is none.
+/// a finer one is taken where there is no such mesh. Throws OpenSurfaceError where there is none.
 BaseMesh base_mesh(const Surface& surface, const SurfaceWalk& walk, Beginning beginning, double tolerance);
 
 /// The fewest triangles that have a surface's topology. Each face is a polygon between its vertices (and samples of

@@ -2,18 +2,13 @@
 // The meshes that even ones begin with, looked at triangle by triangle: where their corners lie, where they face.
 #include "core/mesh/base_mesh.h"
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
 #include <map>
 #include <set>
-#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/mesh/tessellate.h"
 #include "core/surface/compute_surface.h"
 #include "tests/support/molecules.h"
 
@@ -88,44 +83,6 @@ TEST(CoarseMesh, ASaddleWithFourCornersIsTwoTriangles) {
     EXPECT_EQ(triangles[face], 2u) << "face " << face;
   }
   EXPECT_GT(quadrangles, 50u);
-}
-
-/// Where the corners of each triangle are, and its face; ascending.
-std::vector<std::pair<std::array<std::array<double, 3>, 3>, std::uint32_t>> placed(const TriangleMesh& mesh) {
-  std::vector<std::pair<std::array<std::array<double, 3>, 3>, std::uint32_t>> all(mesh.triangles.size());
-  for (std::size_t t = 0; t < all.size(); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      const glm::dvec3& x = mesh.positions[mesh.triangles[t][k]];
-      all[t].first[k] = {x.x, x.y, x.z};
-    }
-    all[t].second = mesh.face[t];
-  }
-  std::ranges::sort(all);
-  return all;
-}
-
-// Of many triangles those that follow one another lie near one another; else all is as it was.
-TEST(BaseMesh, PutsManyTrianglesInOrder) {
-  constexpr double kFine = 0.008;
-  const Surface surface = compute_surface_cpu(ubiquitin(), kWater);
-  const SurfaceWalk walk(surface);
-  const TriangleMesh made = tessellate(surface, {kFine, false});
-  const BaseMesh base = base_mesh(surface, walk, Beginning::patches, kFine);
-  ASSERT_GT(made.triangles.size(), 200'000u);
-  EXPECT_EQ(base.mesh.positions.size(), made.positions.size());
-  EXPECT_TRUE(placed(base.mesh) == placed(made));
-  ASSERT_EQ(base.vertex_face.size(), base.mesh.positions.size());
-  for (std::size_t v = 0; v < base.vertex_face.size(); v += 97) {
-    const auto on = walk.below(base.mesh.positions[v], base.vertex_face[v]);
-    EXPECT_TRUE(on && glm::distance(on->position, base.mesh.positions[v]) < 1e-6) << v;
-  }
-  const auto far_jumps = [](const TriangleMesh& mesh) {
-    std::size_t count = 0;
-    for (std::size_t t = 1; t < mesh.triangles.size(); ++t)
-      count += glm::distance(mesh.positions[mesh.triangles[t][0]], mesh.positions[mesh.triangles[t - 1][0]]) > 4.0;
-    return count;
-  };
-  EXPECT_LT(far_jumps(base.mesh), made.triangles.size() / 100);
 }
 
 }  // namespace
