@@ -36,7 +36,7 @@ CASES = [
     ("even mesh: 1TII within 0.1 Å", ["export", "mesh", TOXIN, "--even", "--tolerance", "0.1", "-o", "made.ply"], 1),
     ("even mesh: 1TII at 0.1 per Å²", ["export", "mesh", TOXIN, "--density", "0.1", "-o", "made.ply"], 1),
     ("even mesh: 1IHM at 0.1 per Å²", ["export", "mesh", "1ihm.pdb", "--assembly", "1", "--density", "0.1", "-o", "made.ply"], 1),
-    ("picture: 1TII", ["render", TOXIN, "-o", "made.png"], 1),
+    ("picture: 1TII, 1280×960", ["render", TOXIN, "-o", "made.png"], 1),
     ("picture: a pocket of 1AKE with caps",
      ["render", "1ake.cif", "--select", "polymer and chain A", "--sticks", "ligand and chain A", "--color", "lightgrey", "--color",
       "ligand=element", "--zoom-to", "within 5 of (ligand and chain A)", "--clip", "depth>0.55", "--background", "white", "-o",

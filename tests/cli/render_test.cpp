@@ -45,7 +45,7 @@ TEST_F(RenderCommand, WritesEveryFormatAndNamesTheDevice) {
 
 TEST_F(RenderCommand, TellsHowFarALongPictureIs) {
   const std::string far_apart = folder_.file("far.xyzr", "0 0 0 1.7\n400 0 0 1.7\n");
-  const std::vector<std::string> many_rays{"--size", "3200x2400", "--samples", "105", "--device", "cpu"};
+  const std::vector<std::string> many_rays{"--size", "2400x1800", "--samples", "105", "--device", "cpu"};
   const auto told = [&](std::vector<std::string> words) {
     words.insert(words.end(), many_rays.begin(), many_rays.end());
     words.insert(words.begin(), {"render", far_apart});
