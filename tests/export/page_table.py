@@ -18,7 +18,7 @@ import tempfile
 
 PROGRAM, CHROMIUM, FREESASA, WHAT, *FILES = sys.argv[1:]
 sys.argv[1:] = [PROGRAM, CHROMIUM, FREESASA]
-ROOT = pathlib.Path(__file__).resolve().parents[1]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/export"))
 
 import numpy
