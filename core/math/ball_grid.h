@@ -43,13 +43,24 @@ class BallGrid {
   /// Calls visit(index) for every ball whose centre is within `reach` of `point`, boundary cases included.
   template <typename Visit>
   void for_each_near(const glm::dvec3& point, double reach, Visit&& visit) const {
+    any_near(point, reach, [&](std::uint32_t ball) {
+      visit(ball);
+      return false;
+    });
+  }
+
+  /// Calls visit(index) for the same balls until it returns true; returns whether it did.
+  template <typename Visit>
+  bool any_near(const glm::dvec3& point, double reach, Visit&& visit) const {
     const double reach_squared = reach * reach * (1.0 + 1e-12);
+    bool found = false;
     for_each_row_near(point, reach, [&](std::uint32_t first, std::uint32_t last) {
-      for (std::uint32_t n = first; n < last; ++n) {
+      for (std::uint32_t n = first; n < last && !found; ++n) {
         const glm::dvec3 d = centers_[n] - point;
-        if (glm::dot(d, d) <= reach_squared) visit(order_[n]);
+        found = glm::dot(d, d) <= reach_squared && visit(order_[n]);
       }
     });
+    return found;
   }
 
   /// Calls visit(first, last) for the rows of cells around a point: among the balls that are in order() from `first`

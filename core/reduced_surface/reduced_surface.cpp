@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
@@ -31,10 +32,15 @@ constexpr double kWay = 0.7;  // Å, that an atom may go; both may come, so that
 // Å, of decision weights.
 double growth(std::size_t index) { return 1e-9 * (1.0 + 0.5 * scattered(index)); }
 
-struct Holder {
-  std::uint32_t held, by;
-  double slack;  // Å between the spheres where they are nearest; negative: the held one sticks out
-};
+constexpr double kNoHolder = -std::numeric_limits<double>::infinity();
+
+/// Å between the spheres of an atom and of one that it could swallow, where they are nearest; negative: the other one
+/// sticks out. kNoHolder if it could not swallow it.
+double slack_in(std::span<const Ball> atoms, std::uint32_t by, std::uint32_t held) {
+  if (by == held || !outranks(atoms, by, held)) return kNoHolder;
+  return atoms[by].radius - atoms[held].radius - glm::distance(atoms[held].center, atoms[by].center);
+}
+bool holds(double slack) { return slack + kSwallowTolerance >= 0; }
 
 /// An atom that holds another has a centre closer than the largest radius difference.
 double farthest_holder(std::span<const Ball> atoms) {
@@ -43,49 +49,12 @@ double farthest_holder(std::span<const Ball> atoms) {
   return largest->radius - smallest->radius + kSwallowTolerance;
 }
 
-/// Calls visit(a, b), a < b, once for each pair of centres within `reach`, on all threads. Cell by cell, for the cache.
+/// visit(a) for all atoms on all threads, cell by cell, for the cache.
 template <typename Visit>
-void for_each_pair_near(std::span<const Ball> atoms, double reach, const Visit& visit) {
-  const BallGrid grid(atoms, std::max(reach, 2.0));
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, atoms.size(), 256), [&](const auto& range) {
-    for (std::size_t n = range.begin(); n != range.end(); ++n) {
-      const std::uint32_t a = grid.order()[n];
-      grid.for_each_near(atoms[a].center, reach, [&](std::uint32_t b) {
-        if (a < b) visit(a, b);
-      });
-    }
+void for_each_atom(const BallGrid& grid, const Visit& visit) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid.order().size(), 256), [&](const auto& range) {
+    for (std::size_t n = range.begin(); n != range.end(); ++n) visit(grid.order()[n]);
   });
-}
-
-/// If the higher of two could swallow the other, but for others who swallow it.
-void add_holder(std::span<const Ball> atoms, std::uint32_t a, std::uint32_t b, std::vector<Holder>& holders) {
-  const std::uint32_t by = outranks(atoms, a, b) ? a : b, held = by == a ? b : a;
-  const double slack = atoms[by].radius - atoms[held].radius - glm::distance(atoms[held].center, atoms[by].center);
-  if (slack + kSwallowTolerance >= 0) holders.push_back({held, by, slack});
-}
-
-std::vector<bool> swallowed_by(std::span<const Ball> atoms,
-                               const tbb::enumerable_thread_specific<std::vector<Holder>>& found,
-                               double* protruding = nullptr) {
-  std::vector<Holder> holders;  // hardly any in a molecule
-  for (const std::vector<Holder>& part : found) holders.insert(holders.end(), part.begin(), part.end());
-  // The highest first: whether one is swallowed has been decided before it can swallow.
-  std::sort(holders.begin(), holders.end(),
-            [&](const Holder& x, const Holder& y) { return x.held != y.held && outranks(atoms, x.held, y.held); });
-  std::vector<bool> swallowed(atoms.size(), false);
-  double most = 0;
-  for (std::size_t n = 0; n < holders.size();) {
-    const std::uint32_t held = holders[n].held;
-    double slack = -kSwallowTolerance;  // in the one that holds it best
-    for (; n < holders.size() && holders[n].held == held; ++n) {
-      if (swallowed[holders[n].by]) continue;
-      swallowed[held] = true;
-      slack = std::max(slack, holders[n].slack);
-    }
-    if (swallowed[held]) most = std::max(most, -slack);
-  }
-  if (protruding) *protruding = most;
-  return swallowed;
 }
 
 }  // namespace
@@ -133,29 +102,58 @@ std::vector<double> decision_weights(std::span<const Ball> atoms, double probe_r
   return weights;
 }
 
+// The highest are decided first: whether one is swallowed is known before it can swallow. Exact containment hands on
+// from ball to ball, nearness does not: hence all who could swallow one count. N atoms in one place have N² / 2 such
+// pairs, so none are listed, and no more are looked at than can tell how far one sticks out at most.
 std::vector<bool> swallowed_atoms(std::span<const Ball> atoms, double* protruding) {
   if (protruding) *protruding = 0;
   if (atoms.empty()) return {};
-  tbb::enumerable_thread_specific<std::vector<Holder>> found;
-  // Exact containment hands on from ball to ball, nearness does not: hence all who could swallow whom.
-  for_each_pair_near(atoms, farthest_holder(atoms),
-                     [&](std::uint32_t a, std::uint32_t b) { add_holder(atoms, a, b, found.local()); });
-  return swallowed_by(atoms, found, protruding);
+  const double reach = farthest_holder(atoms);
+  const BallGrid grid(atoms, std::max(reach, 2.0));
+  std::vector<std::uint8_t> is_candidate(atoms.size(), 0);
+  for_each_atom(grid, [&](std::uint32_t a) {
+    is_candidate[a] =
+        grid.any_near(atoms[a].center, reach, [&](std::uint32_t b) { return holds(slack_in(atoms, b, a)); });
+  });
+  std::vector<std::uint32_t> candidates;  // hardly any in a molecule
+  for (std::uint32_t a = 0; a < atoms.size(); ++a)
+    if (is_candidate[a]) candidates.push_back(a);
+  std::ranges::sort(candidates, [&](std::uint32_t a, std::uint32_t b) { return outranks(atoms, a, b); });
+  std::vector<bool> swallowed(atoms.size(), false);
+  double most = 0;
+  for (const std::uint32_t a : candidates) {
+    double slack = kNoHolder;  // in the one that holds it best
+    grid.any_near(atoms[a].center, reach, [&](std::uint32_t b) {
+      if (!swallowed[b]) slack = std::max(slack, slack_in(atoms, b, a));
+      return slack >= -most;
+    });
+    swallowed[a] = holds(slack);
+    if (swallowed[a]) most = std::max(most, std::min(-slack, kSwallowTolerance));
+  }
+  if (protruding) *protruding = most;
+  return swallowed;
 }
 
 std::vector<bool> SwallowedAtoms::of(std::span<const Ball> atoms) {
-  if (!still_near(atoms)) {  // pairs pay for atoms that stay where they are for some frames
+  const bool near = still_near(atoms);
+  if (near && !has_pairs_) find_pairs(atoms);
+  if (near && !crowded_ && !any_holds(atoms)) return std::vector<bool>(atoms.size(), false);
+  if (!near) {  // pairs pay for atoms that stay where they are for some frames
     found_at_.assign(atoms.begin(), atoms.end());
     has_pairs_ = false;
-    return swallowed_atoms(atoms);
   }
-  if (!has_pairs_) find_pairs(atoms);
-  tbb::enumerable_thread_specific<std::vector<Holder>> found;
+  return swallowed_atoms(atoms);
+}
+
+bool SwallowedAtoms::any_holds(std::span<const Ball> atoms) const {
+  std::atomic<bool> any = false;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pairs_.size(), 4096), [&](const auto& range) {
-    std::vector<Holder>& holders = found.local();
-    for (std::size_t n = range.begin(); n != range.end(); ++n) add_holder(atoms, pairs_[n][0], pairs_[n][1], holders);
+    for (std::size_t n = range.begin(); n != range.end(); ++n) {
+      const auto& [a, b] = pairs_[n];
+      if (holds(std::max(slack_in(atoms, a, b), slack_in(atoms, b, a)))) any.store(true, std::memory_order_relaxed);
+    }
   });
-  return swallowed_by(atoms, found);
+  return any;
 }
 
 bool SwallowedAtoms::still_near(std::span<const Ball> atoms) const {
@@ -174,16 +172,26 @@ bool SwallowedAtoms::still_near(std::span<const Ball> atoms) const {
 }
 
 void SwallowedAtoms::find_pairs(std::span<const Ball> atoms) {
-  constexpr double kRounding = 1e-6;  // Å: more than what differences of coordinates have
+  constexpr double kRounding = 1e-6;      // Å: more than what differences of coordinates have
+  constexpr std::size_t kMostPairs = 64;  // an atom: more are no molecule
   found_at_.assign(atoms.begin(), atoms.end());
   has_pairs_ = true;
   pairs_.clear();
+  crowded_ = false;
   if (atoms.empty()) return;
+  const double reach = farthest_holder(atoms) + 2.0 * (kWay + kRounding);
+  const BallGrid grid(atoms, std::max(reach, 2.0));
   tbb::enumerable_thread_specific<std::vector<std::array<std::uint32_t, 2>>> found;
-  for_each_pair_near(atoms, farthest_holder(atoms) + 2.0 * (kWay + kRounding), [&](std::uint32_t a, std::uint32_t b) {
-    found.local().push_back({a, b});
+  for_each_atom(grid, [&](std::uint32_t a) {
+    auto& mine = found.local();
+    grid.any_near(atoms[a].center, reach, [&](std::uint32_t b) {
+      if (a < b) mine.push_back({a, b});
+      return mine.size() > kMostPairs * atoms.size();
+    });
   });
-  for (const auto& part : found) pairs_.insert(pairs_.end(), part.begin(), part.end());
+  for (const auto& part : found) crowded_ = crowded_ || part.size() > kMostPairs * atoms.size();
+  if (!crowded_)
+    for (const auto& part : found) pairs_.insert(pairs_.end(), part.begin(), part.end());
 }
 
 }  // namespace meniscus

@@ -88,7 +88,7 @@ std::vector<bool> swallowed_atoms(std::span<const Ball> atoms, double* protrudin
 
 /// swallowed_atoms() of one frame after another: the pairs in which one ball could swallow another are found once, with
 /// room for a way that all atoms may go. As long as none has gone farther, and radii are the same, only those pairs are
-/// asked again; where atoms go farther from frame to frame all is found again.
+/// asked again; where one does swallow another, or atoms go farther from frame to frame or crowd, all is found again.
 class SwallowedAtoms {
  public:
   std::vector<bool> of(std::span<const Ball> atoms);
@@ -96,9 +96,11 @@ class SwallowedAtoms {
  private:
   bool still_near(std::span<const Ball> atoms) const;
   void find_pairs(std::span<const Ball> atoms);
+  bool any_holds(std::span<const Ball> atoms) const;
 
   std::vector<Ball> found_at_;  ///< the atoms when pairs_ was found, or was not
   bool has_pairs_ = false;
+  bool crowded_ = false;                             ///< there are too many pairs to list
   std::vector<std::array<std::uint32_t, 2>> pairs_;  ///< the lower index first
 };
 

@@ -11,6 +11,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/reduced_surface/contour/contour.h"
+#include "core/reduced_surface/contour/nested_caps.h"
 #include "core/reduced_surface/contour/sphere_cover.h"
 #include "core/reduced_surface/cpu/neighbor_search.h"
 #include "core/reduced_surface/whole_spheres.h"
@@ -20,6 +21,9 @@ namespace {
 
 // Atoms are named by their places in NeighborSearch, and go through the stages in groups of this size.
 constexpr std::size_t kGroup = 64;
+// From so many open circles on it pays to look for those that lie within the caps of others: on a line of N atoms all
+// N² / 2 are open. Molecules have fewer.
+constexpr std::uint32_t kCrowd = 192;
 
 // What is known of the atoms of one group.
 struct Group {
@@ -48,6 +52,7 @@ struct Worker {
   Blockers nearest_first;  // sorted, of the atom nearest_of
   std::size_t nearest_of = kNone;
   SphereCover cover;
+  NestedCaps caps;
   Contour contour;
   TieWatch ties;
 };
@@ -108,8 +113,7 @@ class Enumeration {
       search_.append_neighbors(place, w.rows, group.neighbors);
       const std::size_t count = group.neighbors.size() - known;
       group.pairs += count;
-      search_.list_blockers(place, std::span(group.neighbors).subspan(known), w.blockers);
-      if (w.cover.look(w.blockers)) {
+      if (look(place, known, group.neighbors, w)) {
         const std::span<const std::uint8_t> uncovered = w.cover.uncovered();
         group.uncovered.insert(group.uncovered.end(), uncovered.begin(), uncovered.end());
       } else {
@@ -121,6 +125,25 @@ class Enumeration {
     }
     group.neighbors.shrink_to_fit();
     group.uncovered.shrink_to_fit();
+  }
+
+  // Looks at the sphere of an atom, whose neighbours are the last ones of the list from `first` on. Where they crowd,
+  // those that cover nothing which others do not cover are removed.
+  bool look(std::size_t place, std::size_t first, std::vector<std::uint32_t>& neighbors, Worker& w) {
+    const std::size_t count = neighbors.size() - first;
+    search_.list_blockers(place, std::span(neighbors).subspan(first), w.blockers);
+    if (!w.cover.look(w.blockers)) return false;
+    if (count < kCrowd) return true;
+    std::uint32_t open = 0;
+    for (std::size_t n = 0; n < count; ++n) open += w.cover.circle_may_be_exposed(n) ? 1 : 0;
+    if (open < kCrowd) return true;
+    const std::vector<std::uint8_t>& nested = w.caps.find(w.blockers);
+    std::size_t kept = first;
+    for (std::size_t n = 0; n < count; ++n)
+      if (!nested[n]) neighbors[kept++] = neighbors[first + n];
+    neighbors.resize(kept);
+    search_.list_blockers(place, std::span(neighbors).subspan(first), w.blockers);
+    return w.cover.look(w.blockers);
   }
 
   // Puts the neighbours first with which there are open circles; returns how many. Each is exchanged with the first of
