@@ -213,7 +213,7 @@ class Classifier {
                  last = atoms_.begin() + static_cast<std::ptrdiff_t>(begins_[r + 1]);
       return std::any_of(first, last, [&](const Atom& other) { return &other != &atom && is(other); });
     };
-    // No bond is as short, so this is no deuterium, which only a hydrogen may be as near to.
+    // No bond is as short as this; deuterium is as near only to the hydrogen that it was exchanged for.
     constexpr double kDrudeReach = 0.5;
     if (name[0] == 'D' && !(hint(n).mass > kLightestAtom))
       return any_other([&](const Atom& other) {

@@ -26,7 +26,7 @@ struct AtomHints {
   float mass = std::numeric_limits<float>::quiet_NaN();  ///< atomic mass units; NaN: the file gives none
 };
 
-/// True for the symbols by which programs mark particles that are no atoms: EP (OpenMM, ParmEd), LP, VS (MDTraj).
+/// True for the symbols by which programs mark particles that are not atoms: EP (OpenMM, ParmEd), LP, VS (MDTraj).
 bool is_site_symbol(std::string_view symbol);
 
 /// True for the residues and ligands common enough to be in gemmi's table.
