@@ -111,17 +111,15 @@ gemmi::Element lone_ion_element(const Atom& atom) {
   return is_ion_element(element) ? element : gemmi::Element(gemmi::El::X);
 }
 
-/// The element of two letters that a name can only mean: of ligands by what the names in the wwPDB's chemical
-/// components mean almost always, of polymer the selenium of MSE and SEC.
+/// The element of two letters that a name means in nearly all of the wwPDB's chemical components but the standard ones.
 gemmi::Element element_of_two_letters(const Atom& atom, bool of_polymer) {
-  if (atom.name == "SE" && bonding_class(atom.residue_name, atom.name).starts_with("SE")) return gemmi::El::Se;
-  const std::size_t letter = atom.name.find_first_not_of("0123456789");
-  if (of_polymer || letter == std::string::npos) return gemmi::El::X;
-  const std::string two = capitals(atom.name.substr(letter, 2));
-  for (const char* symbol : {"CL", "BR", "FE", "ZN", "MG", "MN", "SI", "SE"}) {
-    if (two == symbol) return gemmi::Element(two);
-  }
-  return gemmi::El::X;
+  constexpr std::string_view kHalogens = " CL BR ",
+                             kOthers = " FE ZN MG MN SI SE CU PT IR RU RH RE AU AS AL TE ";  // not of polymer
+  const std::size_t letter = std::min(atom.name.find_first_not_of("0123456789"), atom.name.size());
+  const std::string two = capitals(atom.name.substr(letter, 2)), word = " " + two + " ";
+  const bool known = two.size() == 2 && (kHalogens.find(word) != std::string_view::npos ||
+                                         (!of_polymer && kOthers.find(word) != std::string_view::npos));
+  return known ? gemmi::Element(two) : gemmi::Element(gemmi::El::X);
 }
 
 /// The first letter of a name. Other letters are more often dummies and beads (D, M, W) than deuterium and tungsten.
@@ -136,13 +134,16 @@ gemmi::Element element_by_letter(const Atom& atom) {
 /// of_polymer: the residue has the atoms of an amino acid or nucleotide, in a chain or alone.
 gemmi::Element element_of(gemmi::Element stated, gemmi::Element hint, const Atom& atom, bool of_polymer) {
   if (is_of_organic_residues(stated)) return stated;
-  const gemmi::Element two =
-      stated == gemmi::El::X ? element_of_two_letters(atom, of_polymer) : gemmi::Element(gemmi::El::X);
-  if (two != gemmi::El::X) return two;
   const gemmi::Element given = stated == gemmi::El::X ? hint : stated;
   const gemmi::ResidueInfo residue = gemmi::find_tabulated_residue(atom.residue_name);
   const bool standard = residue.found() && residue.is_standard() && atom.residue_name != "UNK" &&
                         (residue.is_amino_acid() || residue.is_nucleic_acid());
+  if (stated == gemmi::El::X && atom.name == "SE" && bonding_class(atom.residue_name, atom.name).starts_with("SE"))
+    return gemmi::El::Se;
+  if (stated == gemmi::El::X && !standard) {
+    const gemmi::Element two = element_of_two_letters(atom, of_polymer);
+    if (two != gemmi::El::X) return two;
+  }
   const bool variant = stated == gemmi::El::X && !residue.found() && of_polymer && is_amino_acid_atom_name(atom.name);
   const bool doubtful = (standard || variant) && !is_of_organic_residues(given);
   return doubtful || given == gemmi::El::X ? element_by_letter(atom) : given;
@@ -174,7 +175,10 @@ class Classifier {
 
   std::vector<bool> run(std::vector<Warning>& warnings) {
     for (std::size_t r = 0; r + 1 < begins_.size(); ++r) {
-      for (std::size_t n = begins_[r]; n < begins_[r + 1]; ++n) sites_[n] = is_site(r, n);
+      for (std::size_t n = begins_[r]; n < begins_[r + 1]; ++n) {
+        sites_[n] = is_site(r, n);
+        if (sites_[n]) atoms_[n].element = 0;
+      }
     }
     const bool of_beads = holds_beads();
     for (std::size_t r = 0; r + 1 < begins_.size(); ++r) {
@@ -308,10 +312,7 @@ class Classifier {
   /// `ion`: what the lone atom is, unless X.
   void set_element(std::size_t n, gemmi::Element ion, bool of_polymer) {
     Atom& atom = atoms_[n];
-    if (sites_[n]) {
-      atom.element = 0;
-      return;
-    }
+    if (sites_[n]) return;
     gemmi::Element element = ion != gemmi::El::X ? ion
                                                  : element_of(gemmi::Element(int{atom.element}),
                                                               gemmi::Element(int{hint(n).element}), atom, of_polymer);
@@ -378,7 +379,7 @@ std::uint8_t element_of_mass(const std::string& name, float mass) {
 }  // namespace
 
 void set_elements_by_mass(std::vector<Atom>& atoms, std::span<AtomHints> hints) {
-  const bool weighed = std::ranges::any_of(hints, [](const AtomHints& hint) { return hint.mass > 0.0F; });
+  const bool weighed = std::ranges::any_of(hints, [](const AtomHints& hint) { return hint.mass > kLightestAtom; });
   for (std::size_t n = 0; n < hints.size(); ++n) {
     AtomHints& hint = hints[n];
     if (!weighed) hint.mass = std::numeric_limits<float>::quiet_NaN();

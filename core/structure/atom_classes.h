@@ -54,7 +54,7 @@ bool is_tabulated_residue(const std::string& residue_name);
 /// Sets `element`, where it is 0, by the masses in the hints (within 0.1), which tell calcium from carbon, unless the
 /// name says another element of organic residues: where mass was moved from carbon and nitrogen to their hydrogens, NH
 /// weighs as much as C. Marks particles lighter than any atom as sites, and gives the mass of a Drude particle back to
-/// the atom before it. Masses count only if there are any.
+/// the atom before it. Masses of which none is that of an atom do not count.
 void set_elements_by_mass(std::vector<Atom>& atoms, std::span<AtomHints> hints);
 
 }  // namespace meniscus

@@ -41,9 +41,7 @@ gemmi::Element element_by_place(std::string_view name) {
   const char letters[3] = {name[0], name[1], '\0'};
   const char first[2] = {name[0], '\0'};
   const char shifted[3] = {name[1], name[2], '\0'};
-  if (name[0] == ' ' && std::isupper(static_cast<unsigned char>(name[1])) &&
-      std::islower(static_cast<unsigned char>(name[2])))
-    return gemmi::Element(shifted);
+  if (name[0] == ' ' && name[1] <= 'Z' && name[2] >= 'a' && name[2] <= 'z') return gemmi::Element(shifted);
   if ((name[0] == 'H' || name[0] == 'h') && name[3] != ' ') return gemmi::El::H;
   return is_digit(name[1]) ? gemmi::Element(first) : gemmi::Element(letters);
 }
@@ -210,10 +208,13 @@ class PdbReader {
     }
   }
 
-  /// Counts names of one letter ("C1") by their columns, for some programs begin all names in column 13.
+  /// Counts names that begin in column 14, and short ones of elements of one letter that do not (C1, OAB, CAB), for
+  /// some programs begin all names in column 13.
   void count_place(std::string_view name) {
-    if (is_letter(name[0]) && !is_letter(name[1]) && name[3] == ' ') ++left_;
-    if (name[0] == ' ' && is_letter(name[1]) && !is_letter(name[2])) ++right_;
+    if (name[0] == ' ' && is_letter(name[1])) ++right_;
+    if (!is_letter(name[0]) || name[3] != ' ') return;
+    const bool of_one = !is_letter(name[1]) || element_by_place(name) == gemmi::El::X;
+    if (of_one || (name.starts_with("CA") && name[2] != ' ')) ++left_;
   }
 
   /// Two serial numbers: a bond that turns in docking.

@@ -72,11 +72,6 @@ std::uint8_t element_of(std::string_view word) {
   return static_cast<std::uint8_t>(symbol.size() > 2 ? 0 : gemmi::Element(symbol).atomic_number());
 }
 
-/// "Atoms. Timestep: 100", and of old only "Atoms".
-bool is_comment_of_lammps(std::string_view comment) {
-  return comment.starts_with("Atoms. Timestep:") || trimmed(comment) == "Atoms";
-}
-
 bool is_atom_line(std::string_view line, const Columns& columns) {
   const std::vector<std::string_view> fields = fields_of(line, columns.count());
   if (fields.size() < columns.count()) return false;
@@ -125,7 +120,7 @@ class XyzReader {
     ++contents_.models;
     std::string_view line;
     const Columns columns = lines_.next(line) ? columns_of(line) : Columns{};
-    of_lammps_ = is_comment_of_lammps(line);
+    of_lammps_ = line.starts_with("Atoms. Timestep:") || trimmed(line) == "Atoms";  // the latter of old
     const bool wanted = choice_.takes(static_cast<std::int32_t>(contents_.models));
     for (std::size_t n = 0; n < count; ++n) {
       if (!lines_.next(line)) refuse_short_frame(file_, count_line, count, n);
@@ -176,12 +171,9 @@ class XyzReader {
     const std::size_t last = numbers_.count();
     if (symbols_ || last < 2 || numbers_ != (~std::bitset<128>() >> (127 - last)).reset(0)) return;
     contents_.warnings.emplace_back(
-        fmt::format("the elements are numbers from 1 to {}, and count as H, He{}; if these are types of a simulation, "
-                    "put symbols in their place",
-                    last,
-                    last == 2   ? ""
-                    : last == 3 ? ", Li"
-                                : ", Li, Be, ..."));
+        fmt::format("the elements are numbers from 1 to {}, and count as H, He and so on; if these are types of a "
+                    "simulation, put symbols in their place",
+                    last));
   }
 
   const TextFile& file_;

@@ -221,8 +221,8 @@ TEST(Xyz, NumbersThatRunFromOneMayBeTypes) {
   const std::vector<Warning> four = warnings("1 0 0 0\n2 3 0 0\n3 6 0 0\n4 9 0 0\n1 12 0 0\n");
   ASSERT_FALSE(four.empty());
   EXPECT_EQ(four[0].text,
-            "the elements are numbers from 1 to 4, and count as H, He, Li, Be, ...; if these are types of a "
-            "simulation, put symbols in their place");
+            "the elements are numbers from 1 to 4, and count as H, He and so on; if these are types of a simulation, "
+            "put symbols in their place");
   EXPECT_EQ(warnings("1 0 0 0\n2 3 0 0\n").size(), 1u);
   for (const char* good :
        {"1 0 0 0\n1 3 0 0\n", "1 0 0 0\n6 3 0 0\n8 6 0 0\n", "1 0 0 0\n2 3 0 0\nC 6 0 0\n", "2 0 0 0\n3 3 0 0\n"})
