@@ -281,10 +281,12 @@ TEST(Masses, OfDrudesForceFieldAreThoseWithTheirParticles) {
                                         {"MEOH", "C1", "CD33A", 11.611},
                                         {"MEOH", "DC1", "DRUD", 0.4},
                                         {"MEOH", "LP1A", "LPDO1", 0.0},
-                                        {"MEOH", "Q7", "9", 0.0}});
+                                        {"MEOH", "Q7", "9", 0.0},
+                                        {"MEOH", "A2", "ZND", 64.98},
+                                        {"MEOH", "DA2", "DRUD", 0.4}});
   EXPECT_EQ(elements_and_classes(structure),
-            "OH2 8 water, H1 1 water, SOD 11 ion, POT 19 ion, CLA 17 ion, C1 6 ligand");
-  EXPECT_EQ(structure.report.excluded.at(kExcludedVirtual), 8u);
+            "OH2 8 water, H1 1 water, SOD 11 ion, POT 19 ion, CLA 17 ion, C1 6 ligand, A2 30 ligand");
+  EXPECT_EQ(structure.report.excluded.at(kExcludedVirtual), 9u);
 }
 
 TEST(Masses, DecideAgainstTheFirstLetter) {
