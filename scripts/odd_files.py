@@ -94,6 +94,8 @@ FILES = [
     ("SDF bonds too many", "l3.sdf", SDF.format(counts=COUNTS.replace("  1 ", "  7 "))),
     ("MOL2 count too large", "l4.mol2", MOL2.format(counts="3 0", type="C.3")),
     ("MOL2 type of AMBER", "l5.mol2", MOL2.format(counts="1 0", type="CT")),
+    ("MOL2 type of OPLS", "l9.mol2", MOL2.format(counts="1 0", type="opls_135")),
+    ("XYZ of LAMMPS", "x4.xyz", "2\nAtoms. Timestep: 0\n1 0 0 0\n2 3 0 0\n"),
     ("PDBQT charge not a number", "l6.pdbqt", PDBQT.format(charge="0.1") + PDBQT.format(charge="0.x")),
     ("BinaryCIF cut short", "l7.bcif", b"\x83\xa7encoder\xa4test\xa7version\xa50.3.0\xaadataBlocks\x91"),
     ("text named .bcif", "l8.bcif", "This is not a molecule.\n"),

@@ -76,8 +76,9 @@ Structure read_and_tell(const SceneCommand& command) {
 void tell_run(const SceneCommand& command, const FrameRun& frames) {
   tell_structure(command, frames.structure());
   const Trajectory& trajectory = frames.trajectory();
-  say(command, fmt::format("{}: {}, {} frames; this run has {}{}", trajectory.path(), trajectory.format(),
-                           with_thousands(trajectory.frame_count()), with_thousands(frames.numbers().size()),
+  say(command, fmt::format("{}: {}, {} {}; this run has {}{}", trajectory.path(), trajectory.format(),
+                           with_thousands(trajectory.frame_count()), trajectory.frame_count() == 1 ? "frame" : "frames",
+                           with_thousands(frames.numbers().size()),
                            frames.chunk().size() < frames.numbers().size()
                                ? fmt::format(", of which {} are made here", frames.chunk().size())
                                : ""));

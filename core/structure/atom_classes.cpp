@@ -15,6 +15,7 @@
 #include <gemmi/elem.hpp>
 #include <gemmi/metadata.hpp>
 #include <gemmi/resinfo.hpp>
+#include <glm/geometric.hpp>
 
 #include "core/structure/martini.h"
 #include "core/structure/plausibility.h"
@@ -110,17 +111,21 @@ gemmi::Element lone_ion_element(const Atom& atom) {
   return is_ion_element(element) ? element : gemmi::Element(gemmi::El::X);
 }
 
-/// The first letter of a name; two where only one element can be meant. Other letters are more often dummies and beads
-/// (D, M, W) than deuterium and tungsten.
-gemmi::Element element_by_letters(const Atom& atom, bool of_polymer) {
+/// The element of two letters that a name means in nearly all of the wwPDB's chemical components but the standard ones.
+gemmi::Element element_of_two_letters(const Atom& atom, bool of_polymer) {
+  constexpr std::string_view kHalogens = " CL BR ",
+                             kOthers = " FE ZN MG MN SI SE CU PT IR RU RH RE AU AS AL TE ";  // not of polymer
+  const std::size_t letter = std::min(atom.name.find_first_not_of("0123456789"), atom.name.size());
+  const std::string two = capitals(atom.name.substr(letter, 2)), word = " " + two + " ";
+  const bool known = two.size() == 2 && (kHalogens.find(word) != std::string_view::npos ||
+                                         (!of_polymer && kOthers.find(word) != std::string_view::npos));
+  return known ? gemmi::Element(two) : gemmi::Element(gemmi::El::X);
+}
+
+/// The first letter of a name. Other letters are more often dummies and beads (D, M, W) than deuterium and tungsten.
+gemmi::Element element_by_letter(const Atom& atom) {
   const std::size_t letter = atom.name.find_first_not_of("0123456789");
   if (letter == std::string::npos) return gemmi::El::X;
-  if (!of_polymer) {
-    const std::string two = capitals(atom.name.substr(letter, 2));
-    for (const char* symbol : {"CL", "BR", "FE", "ZN", "MG", "MN", "SI", "SE"}) {
-      if (two == symbol) return gemmi::Element(two);
-    }
-  }
   const char first = static_cast<char>(std::toupper(static_cast<unsigned char>(atom.name[letter])));
   return std::string_view("HCNOPSFIB").find(first) == std::string_view::npos ? gemmi::Element(gemmi::El::X)
                                                                              : gemmi::Element(std::string(1, first));
@@ -133,15 +138,34 @@ gemmi::Element element_of(gemmi::Element stated, gemmi::Element hint, const Atom
   const gemmi::ResidueInfo residue = gemmi::find_tabulated_residue(atom.residue_name);
   const bool standard = residue.found() && residue.is_standard() && atom.residue_name != "UNK" &&
                         (residue.is_amino_acid() || residue.is_nucleic_acid());
+  if (stated == gemmi::El::X && atom.name == "SE" && bonding_class(atom.residue_name, atom.name).starts_with("SE"))
+    return gemmi::El::Se;
+  if (stated == gemmi::El::X && !standard) {
+    const gemmi::Element two = element_of_two_letters(atom, of_polymer);
+    if (two != gemmi::El::X) return two;
+  }
   const bool variant = stated == gemmi::El::X && !residue.found() && of_polymer && is_amino_acid_atom_name(atom.name);
   const bool doubtful = (standard || variant) && !is_of_organic_residues(given);
-  return doubtful || given == gemmi::El::X ? element_by_letters(atom, of_polymer) : given;
+  return doubtful || given == gemmi::El::X ? element_by_letter(atom) : given;
+}
+
+constexpr float kLightestAtom = 0.9F;  // hydrogen weighs 1.008, Drude particles 0.4
+
+/// Whether an element may weigh this: mass is moved between an atom and the hydrogens that it may bear, of which united
+/// atoms have the mass, too. Masses that say nothing are 0 or NaN.
+bool may_weigh(gemmi::Element element, float mass) {
+  if (!(mass > 0.0F)) return true;
+  if (element.is_hydrogen()) return mass < 4.5F;
+  constexpr double kMostMoved = 3.1;  // of a hydrogen
+  const std::size_t hydrogens = std::string_view(" SONC").find(element.name());
+  const double borne = hydrogens == std::string_view::npos ? 0.0 : static_cast<double>(hydrogens);
+  return std::abs(static_cast<double>(mass) - element.weight()) < 0.5 + kMostMoved * borne;
 }
 
 class Classifier {
  public:
   Classifier(std::vector<Atom>& atoms, std::span<const AtomHints> hints, std::span<const Bond> bonds)
-      : atoms_(atoms), hints_(hints), bonds_(bonds) {
+      : atoms_(atoms), hints_(hints), bonds_(bonds), sites_(atoms.size()) {
     for (std::size_t n = 0; n < atoms.size(); ++n) {
       if (n == 0 || atoms[n].residue != atoms[n - 1].residue || atoms[n].residue_name != atoms[n - 1].residue_name)
         begins_.push_back(n);
@@ -149,7 +173,13 @@ class Classifier {
     begins_.push_back(atoms.size());
   }
 
-  void run(std::vector<Warning>& warnings) {
+  std::vector<bool> run(std::vector<Warning>& warnings) {
+    for (std::size_t r = 0; r + 1 < begins_.size(); ++r) {
+      for (std::size_t n = begins_[r]; n < begins_[r + 1]; ++n) {
+        sites_[n] = is_site(r, n);
+        if (sites_[n]) atoms_[n].element = 0;
+      }
+    }
     const bool of_beads = holds_beads();
     for (std::size_t r = 0; r + 1 < begins_.size(); ++r) {
       const Names names = names_of(r);
@@ -159,6 +189,7 @@ class Classifier {
         classify(r, names);
     }
     impossible_.warn(warnings, "an element that its residue cannot have; the atom's name was used instead");
+    return std::move(sites_);
   }
 
  private:
@@ -166,10 +197,42 @@ class Classifier {
 
   AtomHints hint(std::size_t atom) const { return hints_.empty() ? AtomHints{} : hints_[atom]; }
 
+  /// Names of the atoms of a residue, without sites.
   Names names_of(std::size_t r) const {
     Names names;
-    for (std::size_t n = begins_[r]; n < begins_[r + 1]; ++n) names.insert(atoms_[n].name);
+    for (std::size_t n = begins_[r]; n < begins_[r + 1]; ++n)
+      if (!sites_[n]) names.insert(atoms_[n].name);
     return names;
+  }
+
+  /// By its hint, or, in residues of a usual size, by its name and what lies beside it.
+  bool is_site(std::size_t r, std::size_t n) const {
+    constexpr std::size_t kLargestResidue = 1'000;
+    const Atom& atom = atoms_[n];
+    const std::string& name = atom.name;
+    if (hint(n).site || atom.element > 1 || name.size() < 2 || begins_[r + 1] - begins_[r] > kLargestResidue)
+      return hint(n).site;
+    const auto any_other = [&](auto&& is) {
+      const auto first = atoms_.begin() + static_cast<std::ptrdiff_t>(begins_[r]),
+                 last = atoms_.begin() + static_cast<std::ptrdiff_t>(begins_[r + 1]);
+      return std::any_of(first, last, [&](const Atom& other) { return &other != &atom && is(other); });
+    };
+    // No bond is as short as this; deuterium is as near only to the hydrogen that it was exchanged for.
+    constexpr double kDrudeReach = 0.5;
+    if (name[0] == 'D' && !(hint(n).mass > kLightestAtom))
+      return any_other([&](const Atom& other) {
+        return other.name[0] != 'D' && other.name[0] != 'H' && other.altloc == atom.altloc &&
+               glm::distance(other.position, atom.position) < kDrudeReach;
+      });
+    if (atom.element != 0) return false;
+    if (name == "OM" && is_water_name(atom.residue_name))
+      return any_other([](const Atom& other) { return other.name[0] == 'O'; });
+    // M, the first two letters of the carbon or nitrogen of XH3, and a number.
+    const std::string_view heavy = std::string_view(name).substr(1, name.size() - 2);
+    if (name[0] != 'M' || heavy.empty() || heavy.size() > 2 || (name.back() != '1' && name.back() != '2')) return false;
+    return (is_polymer_name(atom.residue_name) || is_chain_cap_name(atom.residue_name)) &&
+           (heavy[0] == 'C' || heavy[0] == 'N') &&
+           any_other([&](const Atom& other) { return other.name.starts_with(heavy); });
   }
 
   bool consists_of_atoms(std::size_t r, const Names& names) const {
@@ -249,18 +312,21 @@ class Classifier {
   /// `ion`: what the lone atom is, unless X.
   void set_element(std::size_t n, gemmi::Element ion, bool of_polymer) {
     Atom& atom = atoms_[n];
-    const gemmi::Element element =
-        ion != gemmi::El::X
-            ? ion
-            : element_of(gemmi::Element(int{atom.element}), gemmi::Element(int{hint(n).element}), atom, of_polymer);
+    if (sites_[n]) return;
+    gemmi::Element element = ion != gemmi::El::X ? ion
+                                                 : element_of(gemmi::Element(int{atom.element}),
+                                                              gemmi::Element(int{hint(n).element}), atom, of_polymer);
     if (atom.element != 0 && atom.element != element.atomic_number())
       impossible_.add(fmt::format("{}: {}", label_of(atom), gemmi::Element(int{atom.element}).name()));
+    if (atom.element == 0 && !may_weigh(element, hint(n).mass)) element = gemmi::El::X;
+    sites_[n] = element == gemmi::El::X && hint(n).mass == 0.0F;
     atom.element = static_cast<std::uint8_t>(element.atomic_number());
   }
 
   std::vector<Atom>& atoms_;
   std::span<const AtomHints> hints_;
   std::span<const Bond> bonds_;
+  std::vector<bool> sites_;                  ///< virtual sites and Drude particles
   std::vector<std::size_t> begins_;          ///< of the residues in atoms_, and the end
   std::optional<std::vector<bool>> linked_;  ///< made when first asked for
   WarningCollector impossible_;
@@ -272,9 +338,14 @@ bool is_tabulated_residue(const std::string& residue_name) {
   return gemmi::find_tabulated_residue(residue_name).found();
 }
 
-void classify_atoms(std::vector<Atom>& atoms, std::vector<Warning>& warnings, std::span<const AtomHints> hints,
-                    std::span<const Bond> bonds) {
-  Classifier(atoms, hints, bonds).run(warnings);
+bool is_site_symbol(std::string_view symbol) {
+  const std::string letters = capitals(symbol);
+  return letters == "EP" || letters == "LP" || letters == "VS";
+}
+
+std::vector<bool> classify_atoms(std::vector<Atom>& atoms, std::vector<Warning>& warnings,
+                                 std::span<const AtomHints> hints, std::span<const Bond> bonds) {
+  return Classifier(atoms, hints, bonds).run(warnings);
 }
 
 namespace {
@@ -295,19 +366,28 @@ int nearest_weight(double mass) {
   return best;
 }
 
+/// 0: the mass does not decide. Where mass was moved, carbon may weigh as much as beryllium, hydrogen as helium.
+std::uint8_t element_of_mass(const std::string& name, float mass) {
+  const gemmi::Element by_mass(nearest_weight(static_cast<double>(mass)));
+  const std::string letters = capitals(name.substr(std::min(name.find_first_not_of("0123456789"), name.size())));
+  const bool named_organic = !letters.empty() && kOrganic.find(letters[0]) != std::string_view::npos;
+  const bool moved_mass = named_organic && may_weigh(gemmi::Element(letters.substr(0, 1)), mass) &&
+                          (by_mass == gemmi::El::He || !letters.starts_with(by_mass.uname()));
+  return static_cast<std::uint8_t>(moved_mass ? 0 : by_mass.atomic_number());
+}
+
 }  // namespace
 
-std::uint8_t element_of_mass(const std::string& name, double mass) {
-  const int by_mass = nearest_weight(mass);
-  const std::size_t letter = std::min(name.find_first_not_of("0123456789"), name.size());
-  const char first =
-      letter < name.size() ? static_cast<char>(std::toupper(static_cast<unsigned char>(name[letter]))) : ' ';
-  const bool named_organic = kOrganic.find(first) != std::string_view::npos;
-  const gemmi::Element heavy_or_light(by_mass);
-  const bool moved_mass = named_organic &&
-                          (by_mass == 2 || kOrganic.find(heavy_or_light.name()) != std::string_view::npos) &&
-                          heavy_or_light.name()[0] != first;
-  return static_cast<std::uint8_t>(moved_mass ? 0 : by_mass);
+void set_elements_by_mass(std::vector<Atom>& atoms, std::span<AtomHints> hints) {
+  const bool weighed = std::ranges::any_of(hints, [](const AtomHints& hint) { return hint.mass > kLightestAtom; });
+  for (std::size_t n = 0; n < hints.size(); ++n) {
+    AtomHints& hint = hints[n];
+    if (!weighed) hint.mass = std::numeric_limits<float>::quiet_NaN();
+    hint.site = hint.site || (hint.mass > 0.0F && hint.mass < kLightestAtom);
+    if (hint.site && n > 0 && !hints[n - 1].site && hint.mass < kLightestAtom) hints[n - 1].mass += hint.mass;
+  }
+  for (std::size_t n = 0; n < hints.size(); ++n)
+    if (atoms[n].element == 0 && !hints[n].site) atoms[n].element = element_of_mass(atoms[n].name, hints[n].mass);
 }
 
 }  // namespace meniscus

@@ -79,8 +79,11 @@ bool is_nearer(const Sample& sample, const glm::dvec3& point, double* squares) {
   return nearer != 0;
 }
 
-// From each of at most 64 atoms, evenly spread, to the nearest one of its model and alternate location.
-std::vector<double> nearest_distances(const std::vector<Atom>& atoms) {
+enum class Neighbors { of_the_same_model, of_other_models };
+
+// The median of the distances from at most 64 atoms, evenly spread, each to the nearest one of its model and alternate
+// location or of another model.
+double median_nearest(const std::vector<Atom>& atoms, Neighbors neighbors) {
   const std::size_t step = (atoms.size() + kSample - 1) / kSample, count = (atoms.size() + step - 1) / step;
   Sample sample{};  // those beyond the count have nothing nearer than 0
   for (std::size_t s = 0; s < count; ++s) {
@@ -95,13 +98,16 @@ std::vector<double> nearest_distances(const std::vector<Atom>& atoms) {
     if (!is_nearer(sample, other.position, squares.data())) continue;
     for (std::size_t s = 0; s < count; ++s) {
       const Atom& atom = atoms[s * step];
-      if (&atom != &other && atom.model == other.model && atom.altloc == other.altloc)
-        sample.nearest[s] = std::min(sample.nearest[s], squares[s]);
+      const bool is_neighbor = neighbors == Neighbors::of_other_models
+                                   ? atom.model != other.model
+                                   : &atom != &other && atom.model == other.model && atom.altloc == other.altloc;
+      if (is_neighbor) sample.nearest[s] = std::min(sample.nearest[s], squares[s]);
     }
   }
   std::vector<double> distances(sample.nearest.begin(), sample.nearest.begin() + static_cast<std::ptrdiff_t>(count));
-  for (double& distance : distances) distance = std::sqrt(distance);
-  return distances;
+  const auto median = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), median, distances.end());
+  return std::sqrt(*median);
 }
 
 }  // namespace
@@ -126,12 +132,20 @@ void warn_of_wrong_unit(Structure& structure) {
   constexpr double kShortestUsual = 0.5;
   const std::vector<Atom>& atoms = structure.atoms;
   if (atoms.size() < kFewest) return;
-  std::vector<double> distances = nearest_distances(atoms);
-  const auto median = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), median, distances.end());
-  if (*median >= kShortestUsual) return;
+  const double median = median_nearest(atoms, Neighbors::of_the_same_model);
+  if (median >= kShortestUsual) return;
   structure.report.warnings.emplace_back(fmt::format(
-      "atoms lie {:.2f} Å from their nearest neighbour (median); are the coordinates in nanometres?", *median));
+      "atoms lie {:.2f} Å from their nearest neighbour (median); are the coordinates in nanometres?", median));
+}
+
+void warn_of_overlaid_models(Structure& structure) {
+  constexpr double kShortestContact = 1.5;  // of atoms that are not bonded
+  if (structure.atoms.empty() || median_nearest(structure.atoms, Neighbors::of_other_models) >= kShortestContact)
+    return;
+  structure.report.warnings.emplace_back(
+      fmt::format("{} models lie on one another, as states of one molecule do; the surface is that of all of them "
+                  "together; {} 1 takes one",
+                  with_thousands(structure.report.models), option_name("model")));
 }
 
 void WarningCollector::add(std::size_t line, std::string_view text) {

@@ -20,6 +20,10 @@ void warn_of_coincident_atoms(Structure& structure);
 /// ångström, as in a file in nanometres. The median is that of at most 64 atoms, evenly spread.
 void warn_of_wrong_unit(Structure& structure);
 
+/// Warns where atoms lie on those of other models (median distance to the nearest below 1.5 Å), as in the ensembles of
+/// NMR; the parts of an assembly that are models do not.
+void warn_of_overlaid_models(Structure& structure);
+
 class WarningCollector {
  public:
   /// One more case: an atom in this line of the file and the text that is odd about it, or words for the two.

@@ -29,9 +29,9 @@ bool is_nucleotide_name(const std::string& residue_name) {
 }
 
 bool is_water_name(const std::string& residue_name) {
-  static const std::set<std::string> kWaters{"HOH", "DOD",  "WAT",  "H2O",  "OH2",  "SOL",   "TIP",
-                                             "TP3", "TIP2", "TIP3", "TIP4", "TIP5", "T3P",   "T4P",
-                                             "T5P", "SPC",  "SPCE", "HHO",  "OHH",  "TIP3P", "TIP4P"};
+  static const std::set<std::string> kWaters{"HOH",  "DOD",  "WAT",  "H2O",   "OH2",   "SOL",  "TIP", "TP3",
+                                             "TIP2", "TIP3", "TIP4", "TIP5",  "T3P",   "T4P",  "T5P", "SPC",
+                                             "SPCE", "HHO",  "OHH",  "TIP3P", "TIP4P", "SWM4", "SWM6"};
   return kWaters.contains(residue_name);
 }
 

@@ -81,6 +81,8 @@ AddedFiles::AddedFiles(const std::string& path, std::span<const std::string> fil
     for (const Bond& bond : more.bonds) contents.bonds.push_back({bond[0] + ends.atoms, bond[1] + ends.atoms});
     for (const std::int32_t model : more.fully_bonded) contents.fully_bonded.push_back(model + ends.models);
     part.file = {file.path, more.atoms.empty() ? ends.models + 1 : more.atoms.front().model, more.atoms.size(), {}};
+    contents.sites.resize(ends.atoms);
+    contents.sites.insert(contents.sites.end(), more.sites.begin(), more.sites.end());
     contents.atoms.insert(contents.atoms.end(), std::make_move_iterator(more.atoms.begin()),
                           std::make_move_iterator(more.atoms.end()));
     contents.other_model_atoms += more.other_model_atoms;

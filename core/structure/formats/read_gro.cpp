@@ -57,7 +57,7 @@ class GroReader {
   FileContents run() {
     while (!lines_.only_blanks_left()) read_frame();
     if (contents_.atoms.empty() && contents_.other_model_atoms == 0) throw InputError(file_.path, 0, "holds no atoms");
-    classify_atoms(contents_.atoms, contents_.warnings);
+    contents_.sites = classify_atoms(contents_.atoms, contents_.warnings);
     return std::move(contents_);
   }
 

@@ -280,7 +280,7 @@ class AtomRows {
     contents_.models = models_.count();
     without_symbol_.warn(contents_.warnings, "no element symbol; elements were guessed from the names");
     add_confidences(confidences_of(document));
-    classify_atoms(contents_.atoms, contents_.warnings, hints(entities_of(document)));
+    contents_.sites = classify_atoms(contents_.atoms, contents_.warnings, hints(entities_of(document)));
     mark_secondary_structure(contents_.atoms, secondary_ranges(document));
     return std::move(contents_);
   }
@@ -289,7 +289,7 @@ class AtomRows {
   /// What an atom is called in other tables.
   struct Names {
     std::uint32_t entity, residue;
-    bool heteroatom;
+    bool heteroatom, site;
   };
 
   void take(const cif::Table& table, std::size_t number, const cif::Table::Row& row) {
@@ -301,10 +301,11 @@ class AtomRows {
     Atom atom = read_row(file_, table, number, row);
     atom.model = model;
     residues_.number(atom);
-    if (atom.element == 0) without_symbol_.add(label_of(atom));
+    const bool site = row.has2(kSymbol) && is_site_symbol(cif::as_string(row[kSymbol]));
+    if (atom.element == 0 && !site) without_symbol_.add(label_of(atom));
     names_.push_back({texts_.number(row.has2(kEntityId) ? cif::as_string(row[kEntityId]) : std::string()),
                       labels_.number(row.has(kLabelSeq) ? row.str(kLabelSeq) : std::string()),
-                      row.has2(kGroup) && row[kGroup] == "HETATM"});
+                      row.has2(kGroup) && row[kGroup] == "HETATM", site});
     contents_.atoms.push_back(std::move(atom));
   }
 
@@ -324,7 +325,8 @@ class AtomRows {
     for (const Names& names : names_) {
       const auto statement = entities.find(texts_.text(names.entity));
       hints.push_back({.residue = statement == entities.end() ? ResidueStatement::none : statement->second,
-                       .heteroatom = names.heteroatom});
+                       .heteroatom = names.heteroatom,
+                       .site = names.site});
     }
     return hints;
   }

@@ -29,21 +29,39 @@ namespace {
 constexpr std::string_view kMolecule = "@<TRIPOS>MOLECULE", kAtoms = "@<TRIPOS>ATOM", kBonds = "@<TRIPOS>BOND",
                            kSubstructures = "@<TRIPOS>SUBSTRUCTURE";
 
-bool is_upper(char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; }
 bool is_lower(char c) { return std::islower(static_cast<unsigned char>(c)) != 0; }
 
-/// SYBYL's types begin with the symbol: C.ar, N.am, Cl, Zn, Co.oh. Those of GAFF begin with a small letter: ca, hc, os,
-/// cl. 0: dummies (Du, LP, Any, Hal, Het, Hev), and other types of force fields (CT, HW, CA), which do not say.
-std::uint8_t element_of_type(std::string_view type) {
+/// Types of GAFF 1.81 and 2.2.20 and of Lipid21, whose first letter is the element but for cl and br, between blanks
+/// (docs/reference/input.md).
+constexpr std::string_view kSmallTypes =
+    " c c1 c2 c3 c5 c6 ca cc cd ce cf cg ch cp cq cs cu cv cx cy cz h1 h2 h3 h4 h5 ha hc hn ho hp hs hw hx f cl br i n "
+    "n+ n1 n2 n3 n4 n5 n6 n7 n8 n9 na nb nc nd ne nf nh ni nj nk nl nm nn no np nq ns nt nu nv nx ny nz o oh op oq os "
+    "ow p2 p3 p4 p5 pb pc pd pe pf px py s s2 s4 s6 sh sp sq ss sx sy cA cB cC cD hA hB hE hL hN hO hX nA nN oC oH oO "
+    "oP oS oT pA ";
+/// Types of GLYCAM06 that look like symbols of other elements, of which the first letter is theirs.
+constexpr std::string_view kGlycamTypes = " Ck Cj Cp Cy Ha Hc Ho Hp Ng Oh Os Oy Sm ", kGlycamCarbon = "Cg";
+
+bool is_in(std::string_view types, std::string_view type) {
+  return types.find(fmt::format(" {} ", type)) != std::string_view::npos;
+}
+
+/// SYBYL's types are the symbol, or begin with it: C.ar, N.am, Cl, Zn, Co.oh. 0: dummies (Du, LP, Any, Hal, Het, Hev),
+/// and types of other force fields (CT, HW, CA, opls_135), which do not say. glycam: the molecule has types of GLYCAM.
+std::uint8_t element_of_type(std::string_view type, bool glycam) {
+  if (type == "cl" || type == "br") return element_of_symbol(type);
+  if (is_in(kSmallTypes, type) || (glycam && (is_in(kGlycamTypes, type) || type == kGlycamCarbon)))
+    return element_of_symbol(type.substr(0, 1));
   const std::string_view stem = type.substr(0, type.find('.'));
-  if (stem.empty() || stem == "Du" || stem == "LP") return 0;
-  if (is_lower(stem[0])) {
-    if (stem == "cl" || stem == "br") return element_of_symbol(stem);
-    return std::string_view("hcnopsfi").find(stem[0]) == std::string_view::npos ? std::uint8_t{0}
-                                                                                : element_of_symbol(stem.substr(0, 1));
-  }
+  if (stem.empty() || stem == "Du" || (is_lower(stem[0]) && stem == type)) return 0;
   return stem.size() == 1 || (stem.size() == 2 && is_lower(stem[1])) ? element_of_symbol(stem) : std::uint8_t{0};
 }
+
+/// What is used of an atom when its molecule is complete.
+struct Row {
+  std::size_t line = 0;
+  std::int64_t substructure = 1;
+  std::string substructure_name, type;
+};
 
 struct Substructure {
   std::string kind, chain;  ///< sub_type ("ALA") and chain
@@ -94,21 +112,16 @@ class Mol2Reader {
     finish_molecule();
     if (contents_.atoms.empty() && contents_.other_model_atoms == 0)
       throw InputError(file_.path, 0, "has no atoms after @<TRIPOS>ATOM");
-    classify_atoms(contents_.atoms, contents_.warnings, hints_of_atoms());
+    contents_.sites = classify_atoms(contents_.atoms, contents_.warnings, hints_);
     force_field_.warn(contents_.warnings, "a type that names no element; elements were guessed from the names");
+    columns_.warn(contents_.warnings,
+                  "a number where the name of the substructure or status bits should be; do charges have columns of "
+                  "their own?");
     contents_.of_molecules = true;
     return std::move(contents_);
   }
 
  private:
-  /// UNK is a molecule that nobody named, more often than an amino acid.
-  std::vector<AtomHints> hints_of_atoms() const {
-    std::vector<AtomHints> hints(contents_.atoms.size());
-    for (std::size_t n = 0; n < hints.size(); ++n)
-      if (contents_.atoms[n].residue_name == "UNK") hints[n].residue = ResidueStatement::other;
-    return hints;
-  }
-
   /// The fields of the next line of this section; false at its end. Comments and blank lines are passed over.
   bool next(std::vector<std::string_view>& fields) {
     const LineReader before = lines_;
@@ -187,15 +200,15 @@ class Mol2Reader {
     for (int axis = 0; axis < 3; ++axis)
       atom.position[axis] =
           parse_coordinate(file_, lines_.number(), "xyz"[axis], fields[2 + static_cast<std::size_t>(axis)]);
-    atom.element = element_of_type(fields[5]);
-    if (atom.element == 0 && fields[5].size() > 1 && is_upper(fields[5][0]) && !is_lower(fields[5][1]) &&
-        fields[5] != "LP")
-      force_field_.add(lines_.number(), fields[5]);
+    double ignored = 0.0;
+    if ((fields.size() == 8 && fields[7].find('.') != std::string_view::npos && parse_number(fields[7], ignored)) ||
+        (fields.size() > 9 && parse_number(fields[9], ignored)))
+      columns_.add(lines_.number(), line_);
     if (fields.size() > 8 && !parse_single(fields[8], atom.charge))
       throw InputError(file_.path, lines_.number(),
                        fmt::format("charge is {}, not a finite number", in_quotes(fields[8])));
     contents_.atoms.push_back(std::move(atom));
-    substructures_of_atoms_.emplace_back(substructure, text_of(fields, 7));
+    rows_.push_back({lines_.number(), substructure, text_of(fields, 7), std::string(fields[5])});
   }
 
   /// id from to kind; "nc": not connected.
@@ -242,10 +255,16 @@ class Mol2Reader {
     contents_.atoms.resize(first_);
     residues_.end_piece();
     const bool uncharged = no_charges_ && std::ranges::all_of(atoms, [](const Atom& a) { return !(a.charge != 0.0F); });
+    const bool glycam = std::ranges::any_of(rows_, [](const Row& row) { return row.type == kGlycamCarbon; });
     for (std::size_t n = 0; n < atoms.size(); ++n) {
-      const auto& [id, name] = substructures_of_atoms_[n];
+      const auto& [line, id, name, type] = rows_[n];
       const Substructure& substructure = substructures_[id];
       name_residue(atoms[n], name, id, substructure.kind);
+      atoms[n].element = element_of_type(type, glycam);
+      if (atoms[n].element == 0 && type != "LP") force_field_.add(line, type);
+      // UNK is a molecule that nobody named, more often than an amino acid.
+      const bool unnamed = atoms[n].residue_name == "UNK";
+      hints_.push_back({.residue = unnamed ? ResidueStatement::other : ResidueStatement::none, .site = type == "LP"});
       atoms[n].chain = atoms[n].subchain = substructure.chain;
       if (uncharged) atoms[n].charge = std::numeric_limits<float>::quiet_NaN();
       residues_.number(atoms[n]);
@@ -253,7 +272,7 @@ class Mol2Reader {
     }
     if (!contents_.bonds.empty() && contents_.bonds.back()[0] >= first_)
       contents_.fully_bonded.push_back(static_cast<std::int32_t>(contents_.models));
-    substructures_of_atoms_.clear();
+    rows_.clear();
     substructures_.clear();
   }
 
@@ -269,8 +288,9 @@ class Mol2Reader {
   std::int64_t counted_ = 0, counted_bonds_ = -1;  ///< what it says; -1: nothing
   std::unordered_map<std::int64_t, std::uint32_t> places_;  ///< of its ids, in the contents
   std::map<std::int64_t, Substructure> substructures_;
-  std::vector<std::pair<std::int64_t, std::string>> substructures_of_atoms_;
-  WarningCollector force_field_;
+  std::vector<Row> rows_;  ///< of the atoms of this molecule
+  std::vector<AtomHints> hints_;
+  WarningCollector force_field_, columns_;
 };
 
 bool recognizes(std::string_view text) {
@@ -284,8 +304,8 @@ FileContents read(const TextFile& file, const ModelChoice& models) { return Mol2
 
 const Reader kMol2Reader{{"MOL2", ".mol2", "molecules with bonds and partial charges, of Tripos (SYBYL)",
                           "Tripos Mol2 File Format, SYBYL 7.1 (2005)",
-                          "MOLECULE, ATOM, BOND, SUBSTRUCTURE: positions, charges, elements by the types of SYBYL and "
-                          "GAFF, else by the names; "
+                          "MOLECULE, ATOM, BOND, SUBSTRUCTURE: positions, charges, elements by the types of SYBYL, "
+                          "GAFF, Lipid21 and GLYCAM, else by the names; "
                           "substructures are residues, with their chains; each molecule is a model"},
                          recognizes,
                          read};

@@ -36,10 +36,12 @@ bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
 /// What the place of the name in its columns 13 to 16 suggests: elements of one letter begin in column 14 (gemmi skips
-/// the blank), but hydrogens of long names (HG11, 1HB) in 13.
+/// the blank), but hydrogens of long names (HG11, 1HB) in 13. A small letter ("Cl1") is the second of the symbol.
 gemmi::Element element_by_place(std::string_view name) {
   const char letters[3] = {name[0], name[1], '\0'};
   const char first[2] = {name[0], '\0'};
+  const char shifted[3] = {name[1], name[2], '\0'};
+  if (name[0] == ' ' && name[1] <= 'Z' && name[2] >= 'a' && name[2] <= 'z') return gemmi::Element(shifted);
   if ((name[0] == 'H' || name[0] == 'h') && name[3] != ' ') return gemmi::El::H;
   return is_digit(name[1]) ? gemmi::Element(first) : gemmi::Element(letters);
 }
@@ -55,7 +57,9 @@ class PdbReader {
     if (contents_.atoms.empty() && contents_.other_model_atoms == 0)
       throw InputError(file_.path, 0, "has no ATOM or HETATM records: no atoms");
     std::vector<Warning>& warnings = contents_.warnings;
-    classify_atoms(contents_.atoms, warnings, hints_);
+    if (left_ > right_)
+      for (AtomHints& hint : hints_) hint.element = 0;
+    contents_.sites = classify_atoms(contents_.atoms, warnings, hints_);
     contents_.bonds = bonds_.bonds();
     mark_secondary_structure(contents_.atoms, secondary_);
     number_.warn(warnings, "no readable residue number; counted on from the residue before");
@@ -186,17 +190,31 @@ class PdbReader {
     if (hints.heteroatom && !atom.chain.empty() && ended_chains_.contains(atom.chain))
       hints.residue = ResidueStatement::other;
     if (behind_) {
-      if (!behind_(file_, number, line, atom)) symbol_.add(number, line.substr(kBehind));
+      if (!behind_(file_, number, line, atom))
+        symbol_.add(number, line.substr(kBehind));
+      else
+        hints.site = atom.element == 0;
       return;
     }
     const std::string symbol(line.substr(std::min<std::size_t>(line.size(), 76), 2));
     if (std::any_of(symbol.begin(), symbol.end(), is_letter)) {
       atom.element = static_cast<std::uint8_t>(gemmi::Element(symbol).atomic_number());
-      if (atom.element == 0) symbol_.add(number, symbol);
+      hints.site = is_site_symbol(trimmed(symbol));
+      if (atom.element == 0 && !hints.site) symbol_.add(number, symbol);
     } else {
       element_.add(number, line.substr(12, 14));
       hints.element = static_cast<std::uint8_t>(element_by_place(line.substr(12, 4)).atomic_number());
+      count_place(line.substr(12, 4));
     }
+  }
+
+  /// Counts names that begin in column 14, and short ones of elements of one letter that do not (C1, OAB, CAB), for
+  /// some programs begin all names in column 13.
+  void count_place(std::string_view name) {
+    if (name[0] == ' ' && is_letter(name[1])) ++right_;
+    if (!is_letter(name[0]) || name[3] != ' ') return;
+    const bool of_one = !is_letter(name[1]) || element_by_place(name) == gemmi::El::X;
+    if (of_one || (name.starts_with("CA") && name[2] != ' ')) ++left_;
   }
 
   /// Two serial numbers: a bond that turns in docking.
@@ -217,7 +235,7 @@ class PdbReader {
   PdbResidueNumbers residue_numbers_;
   std::set<std::string> ended_chains_;
   bool open_ = false, ended_ = false, in_model_record_ = false;
-  std::size_t unmarked_models_ = 0;
+  std::size_t unmarked_models_ = 0, left_ = 0, right_ = 0;
   WarningCollector number_, occupancy_, b_factor_, element_, symbol_;
 };
 

@@ -139,7 +139,7 @@ class PqrReader {
     for (std::string_view line; lines.next(line);) take(line, lines.number());
     if (contents_.atoms.empty() && contents_.other_model_atoms == 0)
       throw InputError(file_.path, 0, "has no ATOM or HETATM records: no atoms");
-    classify_atoms(contents_.atoms, contents_.warnings, hints_);
+    contents_.sites = classify_atoms(contents_.atoms, contents_.warnings, hints_);
     warn_of_doubtful_radii();
     return std::move(contents_);
   }

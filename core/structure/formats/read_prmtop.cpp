@@ -203,7 +203,7 @@ class PrmtopReader {
     number_residues(count_of(pointers[kResidues], "NRES"));
     read_bonds("BONDS_INC_HYDROGEN", count_of(pointers[kBondsWithHydrogen], "NBONH"));
     read_bonds("BONDS_WITHOUT_HYDROGEN", count_of(pointers[kBondsWithoutHydrogen], "NBONA"));
-    classify_atoms(contents_.atoms, contents_.warnings, {}, contents_.bonds);
+    contents_.sites = classify_atoms(contents_.atoms, contents_.warnings, hints_, contents_.bonds);
     contents_.without_positions = true;
     contents_.models = 1;
     return std::move(contents_);
@@ -222,18 +222,21 @@ class PrmtopReader {
   void read_atoms() {
     const std::vector<std::string> names = sections_.texts("ATOM_NAME", atoms_);
     const std::vector<double> charges = sections_.numbers("CHARGE", atoms_), masses = sections_.numbers("MASS", atoms_);
-    // Amber 12 and later; -1: no element, such as a lone pair.
+    // Amber 12 and later; -1: no element, such as a lone pair, or one that LEaP does not know.
     std::vector<std::int64_t> elements;
+    std::vector<std::string> types(atoms_);
+    if (sections_.has("AMBER_ATOM_TYPE")) types = sections_.texts("AMBER_ATOM_TYPE", atoms_);
     if (sections_.has("ATOMIC_NUMBER")) elements = sections_.whole_numbers("ATOMIC_NUMBER", atoms_, -1, 118);
     for (std::size_t n = 0; n < atoms_; ++n) {
       Atom& atom = contents_.atoms[n];
       atom.name = names[n];
-      atom.element = elements.empty() ? element_of_mass(names[n], masses[n])
-                                      : static_cast<std::uint8_t>(std::max<std::int64_t>(0, elements[n]));
+      if (!elements.empty()) atom.element = static_cast<std::uint8_t>(std::max<std::int64_t>(0, elements[n]));
+      hints_.push_back({.site = is_site_symbol(types[n]), .mass = static_cast<float>(std::clamp(masses[n], 0.0, 1e6))});
       if (std::abs(charges[n]) > std::numeric_limits<float>::max())
         throw InputError(file_.path, 0, fmt::format("CHARGE of atom {} is {}", n + 1, charges[n]));
       atom.charge = static_cast<float>(charges[n] / kChargeUnit);
     }
+    set_elements_by_mass(contents_.atoms, hints_);
   }
 
   void read_radii() {
@@ -304,6 +307,7 @@ class PrmtopReader {
   const TextFile& file_;
   PrmtopSections sections_;
   FileContents contents_;
+  std::vector<AtomHints> hints_;
   std::size_t atoms_ = 0;
 };
 

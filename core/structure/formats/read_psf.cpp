@@ -27,7 +27,8 @@ class PsfReader {
     extended_ = line.find("EXT") != std::string_view::npos;
     read_atoms(find_section("!NATOM"));
     read_bonds(find_section("!NBOND"));
-    classify_atoms(contents_.atoms, contents_.warnings, {}, contents_.bonds);
+    set_elements_by_mass(contents_.atoms, hints_);
+    contents_.sites = classify_atoms(contents_.atoms, contents_.warnings, hints_, contents_.bonds);
     contents_.without_positions = true;
     contents_.models = 1;
     return std::move(contents_);
@@ -95,13 +96,14 @@ class PsfReader {
     atom.residue_name = residue_name;
     atom.name = name;
     read_residue_number(residue, atom);
-    double weight = 0.0;
-    if (!parse_single(charge, atom.charge) || !parse_number(mass, weight)) {
+    AtomHints hint;
+    if (!parse_single(charge, atom.charge) || !parse_single(mass, hint.mass)) {
       throw InputError(file_.path, lines_.number(),
                        fmt::format("charge {} and mass {} are not both numbers; columns may have run together",
                                    in_quotes(charge), in_quotes(mass)));
     }
-    atom.element = element_of_mass(atom.name, weight);
+    hint.site = type == "DRUD" || type.starts_with("LP");
+    hints_.push_back(hint);
     residues_.number(atom);
     contents_.atoms.push_back(std::move(atom));
   }
@@ -159,6 +161,7 @@ class PsfReader {
   const TextFile& file_;
   LineReader lines_;
   FileContents contents_;
+  std::vector<AtomHints> hints_;
   ResidueCounter residues_{contents_.atoms};
   bool extended_ = false;
 };
@@ -174,8 +177,8 @@ FileContents read(const TextFile& file, const ModelChoice&) { return PsfReader(f
 const Reader kPsfReader{
     {"PSF", ".psf", "topology of CHARMM, NAMD and X-PLOR, without coordinates: add --trajectory",
      "CHARMM documentation, struct.info; NAMD tutorial, PSF files",
-     "atoms with segments (they are the chains), residues, names, charges; elements by mass and name; bonds; standard, "
-     "EXT, XPLOR and NAMD forms"},
+     "atoms with segments (they are the chains), residues, names, charges; elements by mass and name; Drude particles "
+     "and lone pairs by type and mass; bonds; standard, EXT, XPLOR and NAMD forms"},
     recognizes,
     read};
 

@@ -23,16 +23,16 @@
 namespace meniscus {
 namespace {
 
-/// Lone pairs, the mass-less sites of water models (LP, EP, M, MW, with digits) and of AutoDock (G in opened rings, TZ
-/// at zinc), and the dummy atoms with which the OPM database draws membranes.
+/// Lone pairs (LP and what follows), the mass-less sites of water models (EP, M, MW, with digits) and of AutoDock (G in
+/// opened rings, TZ at zinc), and the dummy atoms with which the OPM database draws membranes.
 bool is_virtual_site(const Atom& atom) {
   if (atom.residue_name == "DUM") return true;
   if (atom.element != 0) return false;
   const std::string letters = atom.name.substr(0, atom.name.find_first_of("0123456789"));
-  for (const char* name : {"LP", "EP", "M", "MW", "EPW", "VS", "G", "TZ", "CA"}) {
+  for (const char* name : {"EP", "M", "MW", "EPW", "VS", "G", "TZ", "CA"}) {
     if (letters == name) return true;
   }
-  return false;
+  return letters.starts_with("LP") || letters.starts_with("Lp");
 }
 
 bool is_hydrogen(const Atom& atom) { return atom.element == 1; }
@@ -141,13 +141,15 @@ void mark_shown(std::vector<Atom>& atoms, std::span<const ShownAtoms> shown, con
 }
 
 /// What each atom is left out for, in the order of the reasons in structure.h.
-void choose_atoms(std::vector<Atom>& atoms, std::vector<Atom>& beside, const ReadOptions& options,
-                  const RadiiChoice& radii, ReadReport& report, const std::string& path, Meaning meaning) {
+void choose_atoms(std::vector<Atom>& atoms, const std::vector<bool>& sites, std::vector<Atom>& beside,
+                  const ReadOptions& options, const RadiiChoice& radii, ReadReport& report, const std::string& path,
+                  Meaning meaning) {
   const std::vector<char> altlocs = kept_altlocs(atoms, options.altloc);
   const bool all_altlocs = options.altloc.rule == AltlocChoice::Rule::all;
   leave_out(atoms, beside, report, [&](std::size_t n) -> const char* {
     if (atoms[n].altloc != ' ' && atoms[n].altloc != altlocs[atoms[n].residue] && !all_altlocs) return kExcludedAltloc;
-    return !radii.from_molecule_file() && is_virtual_site(atoms[n]) ? kExcludedVirtual : nullptr;
+    const bool is_site = (n < sites.size() && sites[n]) || is_virtual_site(atoms[n]);
+    return !radii.from_molecule_file() && is_site ? kExcludedVirtual : nullptr;
   });
   if (options.secondary_structure) assign_secondary_structure(atoms);
   std::vector<bool> selected(atoms.size(), true), named(atoms.size());
@@ -212,7 +214,9 @@ void refuse_no_atoms(const Structure& structure) {
                                structure.report.sentence(), option_name("keep-water"), option_name("keep-ions")));
 }
 
-void halt_on_unknown_elements(const Structure& structure, const std::vector<std::string>& unknown) {
+/// why: FileContents::unknown_elements.
+void halt_on_unknown_elements(const Structure& structure, const std::vector<std::string>& unknown,
+                              const std::string& why) {
   if (unknown.empty()) return;
   const std::set<std::string> names(unknown.begin(), unknown.end());
   std::string examples;
@@ -230,11 +234,11 @@ void halt_on_unknown_elements(const Structure& structure, const std::vector<std:
                     "{} guess",
                     with_thousands(unknown.size()), unknown.size() == 1 ? "bead" : "beads", examples,
                     unknown.size() == 1 ? "its" : "their", option_name("radius"), option_name("unknown-element")));
+  const std::string advice =
+      fmt::format("correct the element column, or choose {} guess or skip", option_name("unknown-element"));
   throw InputError(structure.file, 0,
-                   fmt::format("the element of {} {} is unknown: {}; correct the element column, or choose {} guess "
-                               "or skip",
-                               with_thousands(unknown.size()), unknown.size() == 1 ? "atom" : "atoms", examples,
-                               option_name("unknown-element")));
+                   fmt::format("the element of {} {} is unknown: {}; {}", with_thousands(unknown.size()),
+                               unknown.size() == 1 ? "atom" : "atoms", examples, why.empty() ? advice : why));
 }
 
 void require_model(const std::string& path, const ModelChoice& choice, std::size_t models) {
@@ -271,6 +275,10 @@ void keep_trajectory_atoms(FileContents& contents, const Selection& selection, c
     refuse(fmt::format("selects none of {} atoms; {}", with_thousands(contents.atoms.size()),
                        selection.why_none(contents.atoms)));
   if (kept < contents.atoms.size()) report.excluded[kExcludedTrajectory] = contents.atoms.size() - kept;
+  std::vector<bool> sites;
+  for (std::size_t n = 0; n < contents.sites.size(); ++n)
+    if (is_kept[n]) sites.push_back(contents.sites[n]);
+  contents.sites = std::move(sites);
   std::erase_if(contents.atoms, [&](const Atom& atom) { return place[atom.index] == kGone; });
   for (Atom& atom : contents.atoms) atom.index = place[atom.index];
   std::erase_if(contents.bonds, [&](const Bond& bond) { return place[bond[0]] == kGone || place[bond[1]] == kGone; });
@@ -397,7 +405,7 @@ struct StructureFile::Parts {
     structure.topology = topology;
     if (added) structure.added = added->place(atoms);
     warn_of_missing_altloc(structure, atoms, options.altloc);
-    choose_atoms(atoms, structure.beside, options, *radii, structure.report, file.path, meaning);
+    choose_atoms(atoms, contents.sites, structure.beside, options, *radii, structure.report, file.path, meaning);
     structure.atoms = std::move(atoms);
     structure.report.used = structure.atoms.size();
     refuse_no_atoms(structure);
@@ -405,9 +413,10 @@ struct StructureFile::Parts {
     const std::vector<std::string> beside = assign_beside(structure, *radii);
     unknown.insert(unknown.end(), beside.begin(), beside.end());
     if (options.unknown_element == UnknownElement::halt && meaning != Meaning::anywhere)
-      halt_on_unknown_elements(structure, unknown);
+      halt_on_unknown_elements(structure, unknown, contents.unknown_elements);
     refuse_no_atoms(structure);
     warn_of_coincident_atoms(structure);
+    if (options.model.all && contents.models > 1 && !added) warn_of_overlaid_models(structure);
     if (contents.radii != FileRadii::usual) warn_of_wrong_unit(structure);
     use_assemblies(structure, file, reader, options);
     return structure;

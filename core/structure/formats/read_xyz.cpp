@@ -2,6 +2,7 @@
 // Reads XYZ: frames of a count, a comment and a line for each atom.
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <charconv>
 #include <cctype>
 #include <optional>
@@ -90,6 +91,7 @@ class XyzReader {
       read_frame(count_of(line));
     }
     if (contents_.atoms.empty() && contents_.other_model_atoms == 0) throw InputError(file_.path, 0, "holds no atoms");
+    tell_types();
     return std::move(contents_);
   }
 
@@ -118,6 +120,7 @@ class XyzReader {
     ++contents_.models;
     std::string_view line;
     const Columns columns = lines_.next(line) ? columns_of(line) : Columns{};
+    of_lammps_ = line.starts_with("Atoms. Timestep:") || trimmed(line) == "Atoms";  // the latter of old
     const bool wanted = choice_.takes(static_cast<std::int32_t>(contents_.models));
     for (std::size_t n = 0; n < count; ++n) {
       if (!lines_.next(line)) refuse_short_frame(file_, count_line, count, n);
@@ -142,7 +145,13 @@ class XyzReader {
     atom.index = static_cast<std::uint32_t>(contents_.atoms.size());
     atom.residue = choice_.all ? static_cast<std::uint32_t>(contents_.models - 1) : 0;
     atom.name = fields[columns.element];
-    atom.element = element_of(fields[columns.element]);
+    std::int64_t ignored = 0;
+    const bool is_number = parse_whole_number(atom.name, ignored);
+    const bool is_type = is_number && of_lammps_;
+    if (!is_type) atom.element = element_of(atom.name);
+    if (is_number) numbers_.set(atom.element);
+    symbols_ = symbols_ || !is_number;
+    types_ = types_ || is_type;
     for (int axis = 0; axis < 3; ++axis) {
       const std::string_view field = fields[columns.position + static_cast<std::size_t>(axis)];
       double number = 0.0;
@@ -153,10 +162,26 @@ class XyzReader {
     contents_.atoms.push_back(std::move(atom));
   }
 
+  /// Types count from 1, but few molecules hold helium.
+  void tell_types() {
+    if (types_)
+      contents_.unknown_elements =
+          "the numbers are LAMMPS' types of atoms; write the file again after 'dump_modify ID element C H O ...', one "
+          "symbol a type, or put symbols in their place";
+    const std::size_t last = numbers_.count();
+    if (symbols_ || last < 2 || numbers_ != (~std::bitset<128>() >> (127 - last)).reset(0)) return;
+    contents_.warnings.emplace_back(
+        fmt::format("the elements are numbers from 1 to {}, and count as H, He and so on; if these are types of a "
+                    "simulation, put symbols in their place",
+                    last));
+  }
+
   const TextFile& file_;
   const ModelChoice& choice_;
   LineReader lines_;
   FileContents contents_;
+  std::bitset<128> numbers_;  ///< elements that are given as such
+  bool symbols_ = false, types_ = false, of_lammps_ = false;
 };
 
 bool recognizes(std::string_view text) {

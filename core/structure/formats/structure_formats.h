@@ -36,6 +36,8 @@ struct FileContents {
   std::vector<Atom> atoms;                 ///< Atom::model says of which model
   std::vector<Bond> bonds;                 ///< those the file lists, of the first of these models or of all
   std::vector<std::int32_t> fully_bonded;  ///< models whose bonds are all listed by the file
+  std::vector<bool> sites;                 ///< which atoms are virtual sites or Drude particles; empty: none is known
+  std::string unknown_elements;            ///< why it names no elements, and what to do; empty: it names them
   bool without_positions = false;          ///< a topology (PSF, prmtop): all positions are the origin
   std::size_t models = 0;                  ///< in the whole file
   bool of_molecules = false;               ///< the models are molecules or poses, not states of one molecule

@@ -69,14 +69,25 @@ RadiiChoice::RadiiChoice(const RadiiOptions& options, const std::string& molecul
           fmt::format("{} is not a set of radii; choose one of {}", in_quotes(options.set), radii_set_names()));
     }
   }
+  if (from_file_) return;
   const MartiniVersion martini = martini_version(atoms);
-  if (martini.number == 0 || from_file_) return;
-  if (options.set.empty()) set_ = martini.number == 2 ? &kMartini2Set : &kMartini3Set;
-  if (set_ != &kMartini2Set && set_ != &kMartini3Set)
+  if (martini.number != 0 && options.set.empty()) set_ = martini.number == 2 ? &kMartini2Set : &kMartini3Set;
+  if (martini.number != 0 && set_ != &kMartini2Set && set_ != &kMartini3Set)
     throw InputError(molecule_file, 0,
                      fmt::format("holds beads of Martini, for which {} has no radii; choose "
                                  "martini2 or martini3, or leave {} out",
                                  set_->name, option_name("radii")));
+  refuse_covering_none(molecule_file, atoms);
+}
+
+/// Radii given one by one may be all that is wanted.
+void RadiiChoice::refuse_covering_none(const std::string& molecule_file, std::span<const Atom> atoms) const {
+  const auto is_covered = [this](const Atom& atom) { return radius_for(atom, true).covered; };
+  if (atoms.empty() || options_.may_cover_none || !options_.overrides.empty() || std::ranges::any_of(atoms, is_covered))
+    return;
+  throw InputError(molecule_file, 0,
+                   fmt::format("{} has a radius for none of its {} {}; choose other radii by {}", name(),
+                               with_thousands(atoms.size()), atoms_word(atoms.size()), option_name("radii")));
 }
 
 bool RadiiChoice::united(bool any_hydrogens) const {
@@ -94,7 +105,7 @@ RadiiChoice::Given RadiiChoice::radius_for(const Atom& atom, bool hydrogens_used
   if (const auto found = set_->radius_of(atom)) return {*found, tables_.empty() || set_ != &kBondiSet};
   if (atom.element == 0 && (set_ == &kMartini2Set || set_ == &kMartini3Set))
     return {{kRadiusWithoutSource, "unknown", source_name(RadiusSource::none)}};
-  return {*kBondiSet.radius_of(atom), set_ == &kMartini2Set || set_ == &kMartini3Set};
+  return {*kBondiSet.radius_of(atom), false};
 }
 
 std::vector<RadiiChoice::Given> RadiiChoice::radii_for(const Structure& structure, bool hydrogens_used) const {

@@ -26,6 +26,7 @@ struct RadiiOptions {
   std::string set{};                        ///< "bondi", "united", "protor" or "file"; empty: file if it has usual ones
   std::vector<std::string> files{};         ///< read_radii_files; the last that covers an atom counts, then the set
   std::vector<RadiusOverride> overrides{};  ///< the last that selects an atom counts
+  bool may_cover_none = false;              ///< no error where neither set nor files have a radius for any atom
 };
 
 /// Reads "EXPR=R", cut at the last "=". Throws SelectionError.
@@ -36,7 +37,7 @@ class RadiiChoice {
  public:
   /// atoms: all of the file; beads of Martini among them get the radii of their version if no set is asked for. Throws
   /// InputError: an unknown set, one that is not for beads where there are some, "file" for a molecule file without
-  /// radii, or what read_radii_files throws.
+  /// radii, a set or files that cover none of the atoms, or what read_radii_files throws.
   RadiiChoice(const RadiiOptions& options, const std::string& molecule_file, FileRadii file_radii,
               std::span<const Atom> atoms = {});
 
@@ -56,6 +57,7 @@ class RadiiChoice {
     FoundRadius found;
     bool covered = true;  // by what the user chose, not by the element as a last resort
   };
+  void refuse_covering_none(const std::string& molecule_file, std::span<const Atom> atoms) const;
   Given radius_for(const Atom& atom, bool hydrogens_used) const;
   std::vector<Given> radii_for(const Structure& structure, bool hydrogens_used) const;
   void override_radii(Structure& structure, std::vector<Given>& given) const;

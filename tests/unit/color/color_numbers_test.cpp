@@ -122,7 +122,7 @@ TEST(Colors, NumbersOfFramesHaveOneScale) {
   }
   const std::tuple<const char*, std::optional<std::uint64_t>, const char*> faults[] = {
       {"frame,index,x\n0,0,1\n2,0,2\n", 1, "holds numbers of 2 frames, 0 to 2, but none of frame 1"},
-      {"frame,index,x\n0,0,1\n", {}, "holds numbers of 1 frames, 0 to 0; add --frames, or leave out its column frame"},
+      {"frame,index,x\n0,0,1\n", {}, "holds numbers of 1 frame, 0 to 0; add --frames, or leave out its column frame"},
       {"frame,index,x\n-1,0,1\n", 0, "n:2: '-1' is not a frame number; frames count from 0"},
       {"frame,index,x\n1.5,0,1\n", 0, "n:2: '1.5' is not a frame number"},
       {"frame,index,x\n3,0,1\n3,0,2\n", 0, "n:3: gives atom 0 a second number"},

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/base/error.h"
 #include "core/structure/formats/read_structure.h"
 #include "tests/support/run_program.h"
 
@@ -236,6 +237,71 @@ TEST(ClassesByBonds, PqrKnowsHetatmAndGroNamesOnly) {
       "    2ATP     PA    3   0.900   0.100   0.100\n    2ATP    C4'    4   1.040   0.100   0.100\n"
       "    2ATP    O3'    5   1.180   0.100   0.100\n   5.0 5.0 5.0\n";
   EXPECT_EQ(classes(read("a.gro", gro)), (Kinds{P, P, L, L, L}));
+}
+
+struct PsfAtom {
+  const char *residue, *name, *type;
+  double mass;
+};
+
+/// One residue for each run of one name; all kept, far from each other.
+Structure read_psf(const std::vector<PsfAtom>& atoms) {
+  std::string text = fmt::format("PSF\n\n       1 !NTITLE\n REMARKS\n\n{:8} !NATOM\n", atoms.size());
+  ReadOptions options;
+  options.keep_water = options.keep_ions = true;
+  int serial = 0, residue = 0;
+  for (const PsfAtom& atom : atoms) {
+    residue += serial == 0 || std::string_view(atoms[static_cast<std::size_t>(serial) - 1].residue) != atom.residue;
+    text += fmt::format("{:8} A    {:<4} {:4} {:5} {:6} 0.0 {:.4f} 0\n", ++serial, residue, atom.residue, atom.name,
+                        atom.type, atom.mass);
+    options.positions.emplace_back(5.0 * serial, 0.0, 0.0);
+  }
+  const TemporaryFolder folder;
+  return read_structure(folder.file("a.psf", text + "\n       0 !NBOND: bonds\n\n"), options);
+}
+
+std::string elements_and_classes(const Structure& structure) {
+  std::string text;
+  for (const Atom& atom : structure.atoms)
+    text += fmt::format("{}{} {} {}", text.empty() ? "" : ", ", atom.name, int{atom.element}, class_name(atom.kind));
+  return text;
+}
+
+TEST(Masses, OfDrudesForceFieldAreThoseWithTheirParticles) {
+  const Structure structure = read_psf({{"SWM4", "OH2", "ODW", 15.5994},
+                                        {"SWM4", "DOH2", "DRUD", 0.4},
+                                        {"SWM4", "OM", "LPDW", 0.0},
+                                        {"SWM4", "H1", "HDW", 1.008},
+                                        {"SOD", "SOD", "SODD", 22.58977},
+                                        {"SOD", "DSOD", "DRUD", 0.4},
+                                        {"POT", "POT", "POTD", 38.6983},
+                                        {"POT", "DPOT", "152", 0.4},
+                                        {"CLA", "CLA", "CLAD", 35.05},
+                                        {"CLA", "DCLA", "DRUD", 0.4},
+                                        {"MEOH", "C1", "CD33A", 11.611},
+                                        {"MEOH", "DC1", "DRUD", 0.4},
+                                        {"MEOH", "LP1A", "LPDO1", 0.0},
+                                        {"MEOH", "Q7", "9", 0.0},
+                                        {"MEOH", "A2", "ZND", 64.98},
+                                        {"MEOH", "DA2", "DRUD", 0.4}});
+  EXPECT_EQ(elements_and_classes(structure),
+            "OH2 8 water, H1 1 water, SOD 11 ion, POT 19 ion, CLA 17 ion, C1 6 ligand, A2 30 ligand");
+  EXPECT_EQ(structure.report.excluded.at(kExcludedVirtual), 9u);
+}
+
+TEST(Masses, DecideAgainstTheFirstLetter) {
+  // Mass moved to hydrogens of 4: carbon weighs as much as beryllium, hydrogen as helium.
+  EXPECT_EQ(
+      elements_and_classes(read_psf({{"LIG", "C1", "CT", 9.019}, {"LIG", "HE1", "H", 4.0}, {"LIG", "N1", "N", 5.03}})),
+      "C1 6 ligand, HE1 1 ligand, N1 7 ligand");
+  EXPECT_EQ(elements_and_classes(read_psf({{"LIG", "CH3", "CH3E", 15.035}, {"LIG", "CA", "CAL", 40.08}})),
+            "CH3 6 ligand, CA 20 ligand");
+  for (const PsfAtom& odd :
+       {PsfAtom{"LIG", "P1", "X", 38.7}, PsfAtom{"LIG", "S1", "X", 22.6}, PsfAtom{"GLY", "CA", "BB", 57.0}})
+    EXPECT_THROW(read_psf({odd}), InputError) << odd.name;
+  // Without masses names decide.
+  EXPECT_EQ(elements_and_classes(read_psf({{"LIG", "C1", "CT", 0.0}, {"LIG", "O1", "OH", 0.0}})),
+            "C1 6 ligand, O1 8 ligand");
 }
 
 TEST(ClassesByBonds, OfTopologiesAreThoseOfTheListedBonds) {

@@ -3,6 +3,7 @@
 // bonded.
 #include "core/structure/martini.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -108,6 +109,16 @@ TEST(Martini, RadiiOfAtomsAndUnknownBeadsAreRefused) {
   EXPECT_NE(message(with(kLipid, {{2, "DRUG", "X7"}}), "").find("the type of 1 bead is unknown: 'X7'"),
             std::string::npos)
       << message(with(kLipid, {{2, "DRUG", "X7"}}), "");
+}
+
+TEST(Martini, AtomsBesideBeadsAreCounted) {
+  const Structure mixed =
+      read(with(kLipid, {{2, "GLY", "N"}, {2, "GLY", "CA"}, {2, "GLY", "C"}, {2, "GLY", "O"}}), "martini2");
+  const auto said = std::ranges::find_if(mixed.report.warnings, [](const Warning& warning) {
+    return warning.text.find("martini2 gives no radius to 4 atoms; Bondi's of the element is used") !=
+           std::string::npos;
+  });
+  EXPECT_NE(said, mixed.report.warnings.end());
 }
 
 TEST(Martini, BondsFollowTheTopologyOfALipid) {

@@ -54,6 +54,29 @@ TEST(CoincidentAtoms, AreNamedWithTheFirstOneOfTheirPlace) {
       "3 atoms lie at exactly the position of another; the surface treats them as one (first: " + at(40, 30) + ")");
 }
 
+TEST(OverlaidModels, AreToldFromModelsBesideEachOther) {
+  const auto warnings = [](double apart) {
+    Structure structure = scattered_atoms(400, 15);
+    const std::vector<Atom> first = structure.atoms;
+    for (Atom atom : first) {
+      atom.model = 2;
+      atom.position += glm::dvec3(apart, 0.0, 0.0);
+      structure.atoms.push_back(atom);
+    }
+    structure.report.models = 2;
+    warn_of_overlaid_models(structure);
+    return structure.report.warnings;
+  };
+  ASSERT_EQ(warnings(0.7).size(), 1u);
+  EXPECT_EQ(warnings(0.7)[0].text,
+            "2 models lie on one another, as states of one molecule do; the surface is that of all of them together; "
+            "--model 1 takes one");
+  EXPECT_TRUE(warnings(16.0).empty());
+  Structure one = scattered_atoms(400, 15);
+  warn_of_overlaid_models(one);
+  EXPECT_TRUE(one.report.warnings.empty());
+}
+
 TEST(CoincidentAtoms, MayBeThoseOfSuperposedFiles) {
   Structure structure = scattered_atoms(30, 5);
   structure.atoms[20].position = structure.atoms[10].position;

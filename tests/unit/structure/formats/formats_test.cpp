@@ -2,6 +2,7 @@
 // The formats beside PDB and mmCIF: what is read from good and odd files of each, and how they are distinguished.
 #include "core/structure/formats/read_structure.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -193,6 +194,48 @@ TEST(Xyz, DummiesHaveNoElement) {
   options.unknown_element = UnknownElement::skip;
   EXPECT_EQ(read_text("a.xyz", "3\n\nC 0 0 0\nX 1 0 0\n0 2 0 0\n", options).report.sentence(),
             "3 atoms read; 2 of unknown element left out; 1 used");
+}
+
+TEST(Xyz, TypesOfLammpsAreNoElements) {
+  for (const char* comment : {"Atoms. Timestep: 0", "Atoms. Timestep: 100 Time: 0.5", "Atoms"}) {
+    try {
+      read_text("a.xyz", fmt::format("3\n{}\n1 0 0 0\n2 3 0 0\n6 6 0 0\n", comment));
+      ADD_FAILURE() << comment;
+    } catch (const InputError& error) {
+      const std::string message = error.what();
+      EXPECT_NE(message.find("the element of 3 atoms is unknown: '1' (atom 1)"), std::string::npos) << message;
+      EXPECT_NE(message.find("the numbers are LAMMPS' types of atoms"), std::string::npos) << message;
+    }
+    const Structure symbols = read_text("a.xyz", fmt::format("2\n{}\nC 0 0 0\nO 3 0 0\n", comment));
+    EXPECT_EQ(symbols.atoms.at(1).element, 8);
+    EXPECT_TRUE(symbols.report.warnings.empty());
+  }
+}
+
+TEST(Xyz, NumbersThatRunFromOneMayBeTypes) {
+  const auto warnings = [](const char* atoms) {
+    const std::string text(atoms);
+    return read_text("a.xyz", fmt::format("{}\n\n{}", std::count(text.begin(), text.end(), '\n'), text))
+        .report.warnings;
+  };
+  const std::vector<Warning> four = warnings("1 0 0 0\n2 3 0 0\n3 6 0 0\n4 9 0 0\n1 12 0 0\n");
+  ASSERT_FALSE(four.empty());
+  EXPECT_EQ(four[0].text,
+            "the elements are numbers from 1 to 4, and count as H, He and so on; if these are types of a simulation, "
+            "put symbols in their place");
+  EXPECT_EQ(warnings("1 0 0 0\n2 3 0 0\n").size(), 1u);
+  for (const char* good :
+       {"1 0 0 0\n1 3 0 0\n", "1 0 0 0\n6 3 0 0\n8 6 0 0\n", "1 0 0 0\n2 3 0 0\nC 6 0 0\n", "2 0 0 0\n3 3 0 0\n"})
+    EXPECT_TRUE(warnings(good).empty()) << good;
+}
+
+TEST(Gro, LonePairsOfAnyLetterAreLeftOut) {
+  const std::string gro =
+      "chlorobenzene\n2\n    1LIG    CL1    1   0.100   0.100   0.100\n    1LIG    LPA    2   0.264   0.100   0.100\n"
+      " 1 1 1\n";
+  const Structure structure = read_text("a.gro", gro);
+  EXPECT_EQ(structure.report.sentence(), "2 atoms read; 1 virtual site left out; 1 used");
+  EXPECT_EQ(structure.atoms.at(0).element, 17);
 }
 
 TEST(Format, ContentIsToldWithoutAName) {

@@ -199,6 +199,48 @@ TEST(Elements, NamesAreReadInTheirResidueWhenTheColumnIsMissing) {
   EXPECT_EQ(element(" P  ", " DA"), 15);
 }
 
+TEST(Elements, OfTwoLettersAreToldByTheNameOfALigand) {
+  const std::string ring = PdbLine{.name = " C1 ", .residue = "LIG", .x = "  90.000", .element = "  "}.text();
+  const auto element = [&](const char* name, const char* residue, const char* record = "HETATM") {
+    const PdbLine line{.record = record, .name = name, .residue = residue, .number = 2, .element = "  "};
+    ReadOptions options;
+    options.keep_ions = true;
+    return static_cast<int>(read_text("a.pdb", ring + line.text(), options).atoms.at(1).element);
+  };
+  EXPECT_EQ(element("CL1 ", "LIG"), 17);
+  EXPECT_EQ(element(" CL1", "LIG"), 17);
+  EXPECT_EQ(element(" Cl1", "LIG"), 17);
+  EXPECT_EQ(element(" Br1", "LIG"), 35);
+  EXPECT_EQ(element(" Na ", "LIG"), 11);
+  EXPECT_EQ(element(" BR ", "LIG"), 35);
+  EXPECT_EQ(element(" SI1", "LIG"), 14);
+  EXPECT_EQ(element(" FE ", "HEM"), 26);
+  EXPECT_EQ(element(" NA ", "HEM"), 7);
+  EXPECT_EQ(element(" CD1", "LIG"), 6);
+  EXPECT_EQ(element("CD  ", "LIG"), 48);
+  EXPECT_EQ(element("HO2'", "LIG"), 1);
+  EXPECT_EQ(element(" SE ", "MSE"), 34);
+  EXPECT_EQ(element(" CL1", "ALA", "ATOM"), 6) << "amino acids hold no chlorine";
+}
+
+TEST(Elements, LeftAlignedNamesSayNothingByTheirColumns) {
+  const auto elements = [](std::vector<const char*> names) {
+    std::string text;
+    for (const char* name : names)
+      text += PdbLine{.record = "HETATM",
+                      .name = name,
+                      .residue = "LIG",
+                      .x = fmt::format("{:8.3f}", 3.0 * static_cast<double>(text.size() % 977)),
+                      .element = "  "}
+                  .text();
+    std::vector<int> result;
+    for (const Atom& atom : read_text("a.pdb", text).atoms) result.push_back(atom.element);
+    return result;
+  };
+  EXPECT_EQ(elements({"C1  ", "O2  ", "CA  ", "HO2 ", "CL1 ", "NB  "}), (std::vector<int>{6, 8, 6, 1, 17, 7}));
+  EXPECT_EQ(elements({" C1 ", " O2 ", "CA  ", "CL1 ", "NB  "}), (std::vector<int>{6, 8, 20, 17, 41}));
+}
+
 TEST(Elements, UnknownOnesHaltUnlessToldOtherwise) {
   const std::string text =
       PdbLine{}.text() + PdbLine{.name = " X1 ", .residue = "UNL", .number = 2, .element = " X"}.text();
@@ -236,6 +278,53 @@ TEST(Elements, VirtualSitesAreLeftOut) {
   const std::string text =
       PdbLine{}.text() + PdbLine{.name = " EP1", .residue = "LIG", .number = 2, .element = "  "}.text();
   EXPECT_EQ(read_text("a.pdb", text).report.sentence(), "2 atoms read; 1 virtual site left out; 1 used");
+}
+
+TEST(Elements, SymbolsOfNoAtomAreVirtualSites) {
+  // A molecule of OpenMM's swm4ndp.pdb, and the symbols of other programs.
+  const auto site = [](const char* name, const char* symbol, const char* x) {
+    return PdbLine{.record = "HETATM", .name = name, .residue = "HOH", .number = 2, .x = x, .element = symbol}.text();
+  };
+  const std::string water = site(" O  ", " O", "   9.000") + site(" H1 ", " H", "   9.960");
+  ReadOptions options;
+  options.keep_water = true;
+  for (const char* symbol : {"EP", "LP", "VS"}) {
+    const Structure structure = read_text(
+        "a.pdb", PdbLine{}.text() + water + site("DOH2", symbol, "   9.010") + site(" OM ", symbol, "   9.200"),
+        options);
+    EXPECT_EQ(structure.report.sentence(), "5 atoms read; 2 virtual sites left out; 3 used") << symbol;
+    EXPECT_TRUE(structure.report.warnings.empty());
+  }
+  const Structure bare = read_text(
+      "a.pdb", PdbLine{}.text() + water + site("DOH2", "  ", "   9.010") + site(" OM ", "  ", "   9.200"), options);
+  EXPECT_EQ(bare.report.sentence(), "5 atoms read; 2 virtual sites left out; 3 used");
+}
+
+TEST(Elements, DeuteriumIsNoDrudeParticle) {
+  const auto atom = [](const char* name, const char* x, const char* symbol = "  ") {
+    return PdbLine{.name = name, .residue = "SER", .x = x, .element = symbol}.text();
+  };
+  const Structure structure = read_text("a.pdb", atom(" OG ", "   0.000") + atom(" DG ", "   0.970") +
+                                                     atom(" DOG", "   0.040") + atom(" DB2", "   5.000", " D"));
+  // Hydrogen and deuterium that were exchanged share a place.
+  const Structure exchanged =
+      read_text("a.pdb", atom(" N  ", "   0.000") +
+                             PdbLine{.name = " H  ", .altloc = 'A', .x = "   1.000", .element = " H"}.text() +
+                             PdbLine{.name = " D1 ", .altloc = 'B', .x = "   1.010", .element = " D"}.text());
+  EXPECT_FALSE(exchanged.report.excluded.contains(kExcludedVirtual));
+  ASSERT_EQ(structure.atoms.size(), 3u);
+  EXPECT_EQ(structure.atoms[1].name, "DG");
+  EXPECT_EQ(structure.atoms[1].element, 1);
+  EXPECT_EQ(structure.report.excluded.at(kExcludedVirtual), 1u);
+}
+
+TEST(Elements, DummyMassesOfGromacsAreVirtualSites) {
+  const Structure structure = read_text(
+      "a.gro",
+      "vsite\n    6\n    1ALA      N    1   0.100   0.100   0.100\n    1ALA     CA    2   0.240   0.100   0.100\n"
+      "    1ALA   MCB1    3   0.310   0.200   0.100\n    1ALA   MCB2    4   0.340   0.200   0.120\n"
+      "    1ALA     CB    5   0.330   0.210   0.110\n    1ALA      C    6   0.300   0.000   0.100\n   5.0 5.0 5.0\n");
+  EXPECT_EQ(structure.report.sentence(), "6 atoms read; 2 virtual sites left out; 4 used");
 }
 
 TEST(Elements, MembraneDummiesAreLeftOut) {

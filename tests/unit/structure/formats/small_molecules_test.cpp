@@ -135,6 +135,11 @@ TEST(Sdf, MoleculesAreModels) {
   EXPECT_TRUE(all.warnings.empty());
 }
 
+TEST(Sdf, LonePairsAreLeftOut) {
+  const Structure structure = read_text("a.mol", with(kAcetate, "0.5000 O ", "0.5000 Lp"));
+  EXPECT_EQ(structure.report.sentence(), "4 atoms read; 1 virtual site left out; 3 used");
+}
+
 TEST(Sdf, DrawingsAreWarnedAbout) {
   std::string flat = with(with(kAcetate, "0.5000 C", "0.0000 C"), "0.5000 O", "0.0000 O");
   flat = with(flat, "0.7000 O", "0.0000 O");
@@ -243,6 +248,69 @@ TEST(Mol2, ElementsOfEveryKindOfType) {
   ASSERT_EQ(amber.warnings.size(), 1u);
   EXPECT_EQ(amber.warnings[0].text,
             "2 atoms have a type that names no element; elements were guessed from the names (first: line 7, 'CA')");
+}
+
+std::string mol2_of(const std::vector<std::pair<std::string, std::string>>& names_and_types) {
+  std::string text = fmt::format("@<TRIPOS>MOLECULE\nm\n{}\nSMALL\nX\n@<TRIPOS>ATOM\n", names_and_types.size());
+  int id = 0;
+  for (const auto& [name, type] : names_and_types) {
+    ++id;
+    text += fmt::format("{} {} {} 0 0 {} 1 LIG 0.1\n", id, name, 2 * id, type);
+  }
+  return text;
+}
+
+std::vector<int> elements_of(const FileContents& contents) {
+  std::vector<int> elements;
+  for (const Atom& atom : contents.atoms) elements.push_back(atom.element);
+  return elements;
+}
+
+TEST(Mol2, TypesOfNoTableAreNotBelieved) {
+  const FileContents opls = contents_of("a.mol2", mol2_of({{"N", "opls_"},
+                                                           {"HA", "opls_135"},
+                                                           {"CB", "no_type"},
+                                                           {"CL1", "c9"},
+                                                           {"O", "sO"},
+                                                           {"S1", "fe"},
+                                                           {"C1", "c3"},
+                                                           {"C2", "c.3"},
+                                                           {"H1", "hL"}}));
+  EXPECT_EQ(elements_of(opls), (std::vector<int>{7, 1, 6, 17, 8, 16, 6, 6, 1}));
+  ASSERT_EQ(opls.warnings.size(), 1u);
+  EXPECT_EQ(opls.warnings[0].text,
+            "6 atoms have a type that names no element; elements were guessed from the names (first: line 7, "
+            "'opls_')");
+}
+
+TEST(Mol2, TypesOfGlycamAreNoMetalsBesideItsCarbon) {
+  const FileContents sugar = contents_of(
+      "a.mol2", mol2_of({{"C1", "Cg"}, {"H1O", "Ho"}, {"O5", "Os"}, {"S1", "Sm"}, {"H1", "H2"}, {"O2", "Oh"}}));
+  EXPECT_EQ(elements_of(sugar), (std::vector<int>{6, 1, 8, 16, 1, 8}));
+  EXPECT_EQ(elements_of(contents_of("a.mol2", mol2_of({{"OS1", "Os"}, {"N1", "N.3"}}))), (std::vector<int>{76, 7}));
+}
+
+TEST(Mol2, LonePairsAreSites) {
+  const FileContents contents = contents_of("a.mol2", mol2_of({{"N1", "N.3"}, {"C9", "LP"}}));
+  EXPECT_EQ(contents.sites, (std::vector<bool>{false, true}));
+  EXPECT_EQ(contents.atoms[1].element, 0);
+}
+
+TEST(Mol2, FieldsOfTheWrongKindAreNoticed) {
+  const auto warnings = [](const std::string& fields) {
+    return contents_of("a.mol2", "@<TRIPOS>MOLECULE\nm\n1\nSMALL\nX\n@<TRIPOS>ATOM\n1 C1 0 0 0 C.3 " + fields + "\n")
+        .warnings;
+  };
+  for (const char* good :
+       {"", "1", "1 LIG", "1 4NZ", "1 LIG 0.5", "1 LIG 1", "1 LIG 0.5 BACKBONE|DICT", "1 LIG 0.5 ****"})
+    EXPECT_TRUE(warnings(good).empty()) << good;
+  for (const char* bad : {"1 0.5", "1 LIG 1 -0.5", "1 LIG 0.0 0"}) {
+    ASSERT_EQ(warnings(bad).size(), 1u) << bad;
+    EXPECT_NE(warnings(bad)[0].text.find("1 atom has a number where the name of the substructure or status bits"),
+              std::string::npos);
+  }
+  expect_refused("a.mol2", "@<TRIPOS>MOLECULE\nm\n1\nSMALL\nX\n@<TRIPOS>ATOM\n1 C 1 0.0 1.0 2.0 C.3 1 LIG 0.5\n",
+                 ":7: substructure 'C.3' is not a number; columns may have run together");
 }
 
 TEST(Mol2, NamesOfSubstructures) {

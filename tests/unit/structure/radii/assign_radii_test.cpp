@@ -283,6 +283,29 @@ TEST(RadiiTables, UncoveredAtomsFallBackAndAreCounted) {
   EXPECT_THROW(read_with(kUbiquitin, {.set = "alvarez"}), InputError);
 }
 
+TEST(RadiiSets, WhichCoverNothingAreRefused) {
+  const TemporaryFolder folder;
+  const std::string ligand = folder.file("a.xyz", "2\n\nC 0 0 0\nO 1.4 0 0\n"),
+                    others = folder.file("list.txt", "ZZZ CA 2.5\n");
+  const auto message = [](const std::string& file, const RadiiOptions& radii) -> std::string {
+    try {
+      read_with(file.c_str(), radii);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  for (const char* set : {"martini2", "martini3"})
+    EXPECT_NE(message(kUbiquitin, {.set = set}).find(std::string(set) + " has a radius for none of its 660 atoms"),
+              std::string::npos)
+        << message(kUbiquitin, {.set = set});
+  for (const char* set : {"united", "protor"})
+    EXPECT_NE(message(ligand, {.set = set}).find("has a radius for none of its 2 atoms"), std::string::npos) << set;
+  EXPECT_NE(message(kUbiquitin, {.files = {others}}).find("list.txt has a radius for none"), std::string::npos);
+  EXPECT_EQ(message(ligand, {.set = "united", .may_cover_none = true}), "");
+  EXPECT_EQ(message(ligand, {.set = "united", .overrides = {parse_radius_override("all=2")}}), "");
+}
+
 TEST(RadiiTables, OfAtomTypesFollowTheHydrogens) {
   const TemporaryFolder folder;
   const std::string types = folder.file("types", "radius 1 0.7 1.5 1.8\nradius 15 0.37 1.2\n* H.* 15\n* .* 1\n");
