@@ -25,8 +25,8 @@ bool is_water_name(const std::string& residue_name);
 std::string canonical_residue(const std::string& residue_name);
 
 /// "O1P" -> "OP1", "C5*" -> "C5'", "HN" -> "H", "OT2" -> "OXT"; of ILE also "CD" -> "CD1"; of amino acids "O1",
-/// "OC1" -> "O" and "O2", "OC2" -> "OXT", the ends of chains by GROMACS; others as they are. The residue is given by its
-/// canonical name.
+/// "OC1" -> "O" and "O2", "OC2" -> "OXT", the ends of chains by GROMACS; others as they are. The residue is given by
+/// its canonical name.
 std::string canonical_atom(std::string_view residue, const std::string& atom_name);
 
 /// The class of an atom of an amino acid, nucleotide or water, in the notation of J. Tsai et al., J. Mol. Biol. 290,
