@@ -64,6 +64,7 @@ void check_view_options(const MoleculeRequest& request) {
   if (request.division.instances != InstanceMode::none) refuse("--instances");
   if (request.color.by == ColorScheme::By::component) refuse("--color component");
   if (request.color.by == ColorScheme::By::buried || request.interface) refuse("--color buried");
+  if (request.color.by == ColorScheme::By::accessibility) refuse("--color relative-accessibility");
   if (request.color.by == ColorScheme::By::volume) refuse("--color-map-file");
   if (request.color.by == ColorScheme::By::lipophilicity) refuse("--color lipophilicity");
   if (request.patches && request.least_patch > 0.0)

@@ -119,7 +119,8 @@ class Summary {
                              command.residue_csv.empty() ? "" : " residues"),
                  summary_header()),
         atoms_(command.atom_csv, "", "file," + atom_csv_header(columns_of({}))),
-        residues_(command.residue_csv, "", "file," + residue_csv_header(columns_of({}))) {
+        residues_(command.residue_csv, "",
+                  "file," + residue_csv_header(columns_of({}), command.scene.molecule.surface.probe_radius)) {
     command_.scene.molecule.surface.cpu = true;  // a context for each file would cost more than most of them
   }
 
@@ -227,7 +228,8 @@ class Summary {
       file.row += fmt::format(",{:.{}f}", value.value, *value.unit ? 6 : 0);
     file.row += fmt::format(",{},yes,\n", change_of_radii(molecule.objects).exact_within);
     if (atoms_.is_wanted()) file.atoms = atom_csv_rows(molecule.structure, columns, name);
-    if (residues_.is_wanted()) file.residues = residue_csv_rows(molecule.structure, columns, name);
+    if (residues_.is_wanted())
+      file.residues = residue_csv_rows(molecule.structure, columns, request.surface.probe_radius, name);
   }
 
   void fail(SummarizedFile& file, const std::exception& error) const {

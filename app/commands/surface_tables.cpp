@@ -108,8 +108,8 @@ class SurfaceTables {
     if (series_.is_wanted() || plot_) numbers.values = series_values(molecule, columns);
     const std::string prefix = prefix_of(note), more_columns = note ? std::string(kFrameColumns) + "," : std::string();
     if (residues_.is_wanted()) {
-      numbers.residue_header = more_columns + residue_csv_header(columns);
-      numbers.residues = residue_csv_rows(molecule.structure, columns, prefix);
+      numbers.residue_header = more_columns + residue_csv_header(columns, request.surface.probe_radius);
+      numbers.residues = residue_csv_rows(molecule.structure, columns, request.surface.probe_radius, prefix);
     }
     if (patches_.is_wanted()) numbers.patches = patch_csv_rows(*patches, molecule.structure, prefix);
     if (atoms_.is_wanted()) {

@@ -198,11 +198,6 @@ but normal, PLY, maps. Other keys change nothing; unknown ones are named on stan
 Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 bad input, 5 too large, 6 output not written, 7 not closed.
 )";
 
-MsmsFaceKind kind_of(PatchKind kind) {
-  if (kind == PatchKind::convex) return MsmsFaceKind::contact;
-  return kind == PatchKind::concave ? MsmsFaceKind::reentrant : MsmsFaceKind::toric;
-}
-
 /// Cavities that are to be filled have no triangles.
 std::vector<bool> components_that_stay(const Surface& surface, const ShaperSettings& settings) {
   std::vector<bool> stays;
@@ -228,8 +223,7 @@ MsmsMesh rows_of(const FineMesh& even, const std::vector<bool>& stays) {
       }
       triangle.corner[c] = row[vertex];
     }
-    triangle.kind = kind_of(even.mesh.kind[t]);
-    triangle.face = even.mesh.face[t] + 1;
+    triangle.face = 1;  // and contact: NanoShaper tells neither apart
     rows.triangles.push_back(triangle);
   }
   weld_for_files(rows);
@@ -263,7 +257,7 @@ ExitCode run(std::span<const char* const> words) {
   EvenMeshOptions fineness;
   fineness.density = shaper_density(settings.grid_scale);
   const MsmsMesh mesh = rows_of(even_mesh(surface, fineness), components_that_stay(surface, settings));
-  const MsmsHeader header{true, fineness.density, settings.probe_radius};
+  const MsmsHeader header{true, fineness.density, settings.probe_radius, true};
   if (settings.msms_files) {
     files.write(vert, vert_text(mesh, spheres.rows, header));
     files.write(face, face_text(mesh, spheres.rows, header));

@@ -22,6 +22,7 @@ std::string who_shows(ColorScheme::By scheme, bool has_numbers) {
   if (scheme == By::volume) return "volume maps are for render and export mesh";
   if (scheme == By::lipophilicity) return "potentials at points of the surface are for render and export";
   if (scheme == By::buried) return "areas that are buried between groups are measured by meniscus render and export";
+  if (scheme == By::accessibility) return "accessible areas of residues are measured by meniscus render and export";
   if (scheme == By::rmsf && !has_numbers)
     return "fluctuations are measured once, over all frames; begin the preview with --color rmsf and --trajectory or "
            "--frames";

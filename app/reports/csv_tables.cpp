@@ -3,6 +3,7 @@
 #include "app/reports/csv_tables.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/structure/element_tables.h"
+#include "core/structure/residues.h"
 #include "core/surface/primitives.h"
 
 namespace meniscus {
@@ -30,6 +32,15 @@ constexpr const char* kAtomColumns = "index,model,chain,residue,number,icode,nam
 std::string place(const Atom& atom) {
   return fmt::format("{},{},{},{},{}", atom.model, csv_cell(atom.chain), csv_cell(atom.residue_name),
                      atom.residue_number, letter(atom.insertion_code));
+}
+
+// Accessible areas by the probe of the greatest ones have a relative one behind them.
+std::vector<AreaColumn> with_relatives(const Structure& structure, std::vector<AreaColumn> columns,
+                                       double probe_radius) {
+  for (std::size_t n = 0, count = columns.size(); n < count; ++n)
+    if (columns[n].name.starts_with("sas_area") && probe_radius == kAccessibilityProbe)
+      columns.push_back({"relative_" + columns[n].name, relative_accessibility(structure, columns[n].values), 0.0});
+  return columns;
 }
 
 // What kAtomColumns names.
@@ -79,17 +90,22 @@ std::string gradient_csv_rows(const Structure& structure, const std::vector<Grad
   return text;
 }
 
-std::string residue_csv_header(const std::vector<AreaColumn>& columns) {
-  return header("model,chain,residue,number,icode,class,atoms", columns);
+std::string residue_csv_header(const std::vector<AreaColumn>& columns, double probe_radius) {
+  return header("model,chain,residue,number,icode,class,atoms", with_relatives({}, columns, probe_radius));
 }
 
-std::string residue_csv_rows(const Structure& structure, const std::vector<AreaColumn>& columns,
+std::string residue_csv_rows(const Structure& structure, const std::vector<AreaColumn>& columns, double probe_radius,
                              const std::string& prefix) {
+  const std::vector<AreaColumn> all = with_relatives(structure, columns, probe_radius);
   std::string text;
   for (const AtomGroup& group : group_atoms(structure, Grouping::residue)) {
-    const Atom& atom = structure.atoms[group.atoms.front()];
+    const std::uint32_t first = group.atoms.front();
+    const Atom& atom = structure.atoms[first];
     text += fmt::format("{}{},{},{}", prefix, place(atom), class_name(atom.kind), group.atoms.size());
-    for (const AreaColumn& column : columns) text += fmt::format(",{:.6f}", column.total_of(group));
+    for (std::size_t n = 0; n < all.size(); ++n) {
+      const double number = n < columns.size() ? all[n].total_of(group) : all[n].values[first];
+      text += std::isnan(number) ? "," : fmt::format(",{:.6f}", number);
+    }
     text += "\n";
   }
   return text;

@@ -31,9 +31,11 @@ std::string atom_csv_header(const std::vector<AreaColumn>& columns);
 std::string atom_csv_rows(const Structure& structure, const std::vector<AreaColumn>& columns,
                           const std::string& prefix = "");
 
-/// A row for each residue: model,chain,residue,number,icode,class,atoms and the columns, added up.
-std::string residue_csv_header(const std::vector<AreaColumn>& columns);
-std::string residue_csv_rows(const Structure& structure, const std::vector<AreaColumn>& columns,
+/// A row for each residue: model,chain,residue,number,icode,class,atoms and the columns, added up; behind them, for
+/// accessible areas by a probe of kAccessibilityProbe, these over the greatest, empty where relative_accessibility()
+/// has none: relative_sas_area, ...
+std::string residue_csv_header(const std::vector<AreaColumn>& columns, double probe_radius);
+std::string residue_csv_rows(const Structure& structure, const std::vector<AreaColumn>& columns, double probe_radius,
                              const std::string& prefix = "");
 
 /// A row for each atom as above, with three columns for each gradient: area_dx,area_dy,area_dz.

@@ -65,6 +65,9 @@ constexpr ColorSchemeMetadata kSchemes[] = {
      "potential of a protein at each point: log P of its atoms times exp(-distance); blue-white-red, -0.3 to 0.3",
      "S. A. Wildman and G. M. Crippen, J. Chem. Inf. Comput. Sci. 39, 868 (1999); J.-L. Fauchère et al., J. Mol. "
      "Graph. 6, 203 (1988)"},
+    {"relative-accessibility", By::accessibility,
+     "accessible area of each residue over the greatest that it can have; viridis, 0 to 1",
+     "M. Z. Tien et al., PLoS ONE 8, e80635 (2013)"},
     {"rmsf", By::rmsf, "root mean square fluctuation in Å over the frames of a run; ylorrd, from 0", ""},
     {"file", By::file, "numbers of --color-by-file; viridis, smallest to largest", ""},
     {"conservation", By::conservation, "grades of --color-by-file, 1 (variable) to 9 (conserved); consurf",
@@ -103,7 +106,8 @@ bool ColorScheme::uses_frames() const {
 }
 
 bool ColorScheme::changes_with_frames() const {
-  return uses_frames() || by == By::buried || by == By::lipophilicity || uses(By::radial) || uses(By::secondary);
+  return uses_frames() || by == By::buried || by == By::accessibility || by == By::lipophilicity || uses(By::radial) ||
+         uses(By::secondary);
 }
 
 void ColorScheme::set_numbers(const NumberFile& numbers) {
@@ -162,7 +166,7 @@ ColorRule parse_color_rule(std::string_view text) {
   std::optional<ColorScheme> paint = parse_color_scheme(word);
   if (equals == std::string_view::npos || !paint)
     throw RequestError(fmt::format("{} is not one of {}", in_quotes(word), color_scheme_words()));
-  if (paint->by == By::kind || paint->by == By::component || paint->of_points())
+  if (paint->by == By::kind || paint->by == By::component || paint->by == By::accessibility || paint->of_points())
     throw RequestError(
         fmt::format("{} cannot colour some of the atoms; it colours the whole surface", in_quotes(word)));
   return {parse_selection(text.substr(0, equals)), *std::move(paint)};

@@ -57,6 +57,7 @@ struct ColorScheme {
     radial,          ///< distance from the middle of all atoms
     buried,          ///< accessible area that is buried between groups of atoms; numbers come with the surface
     rmsf,            ///< fluctuation over the frames of a run, likewise
+    accessibility,   ///< relative, of residues, likewise
     file,            ///< numbers of a file of the user's own
     conservation,    ///< grades 1 to 9 of such a file
     volume,          ///< a volume map, at each point of the surface
@@ -72,7 +73,7 @@ struct ColorScheme {
   /// automatic range.
   std::optional<std::array<double, 2>> frames_range;
   std::optional<glm::vec3> missing;           ///< of atoms without a number; nothing: default_missing_color
-  NumberFile file;                            ///< for takes_file(); for buried and rmsf the numbers of the atoms
+  NumberFile file;                            ///< for takes_file(); for is_measured() the numbers of the atoms
   std::shared_ptr<const VolumePaint> volume;  ///< for of_points(); of lipophilicity it comes with the surface
   std::string title, unit;                    ///< of the scale; empty: its own
   std::vector<ColorRule> rules;               ///< over all this; of several that speak of an atom the last counts
@@ -86,6 +87,8 @@ struct ColorScheme {
   bool uses_scale() const;
   /// True for schemes that colour by the numbers of a file.
   bool takes_file() const { return by == By::file || by == By::conservation; }
+  /// True for schemes whose numbers come from surfaces or runs, not from atoms.
+  bool is_measured() const { return by == By::buried || by == By::rmsf || by == By::accessibility; }
   /// Whether this or a rule is of this kind.
   bool uses(By kind) const;
   /// The same of those that colour by the numbers of a file.

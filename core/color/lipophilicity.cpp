@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -16,6 +19,8 @@
 #include "core/color/color_maps.h"
 #include "core/color/color_schemes.h"
 #include "core/math/box.h"
+#include "core/structure/bonds.h"
+#include "core/structure/residue_names.h"
 #include "core/structure/structure.h"
 
 namespace meniscus {
@@ -35,6 +40,9 @@ struct AtomType {
 };
 
 constexpr AtomType kTypes[] = {
+    // Charge states whose other atoms are those of the residue; of imidazolium -0.1097 and -0.9048, in halves.
+    {-0.50725, " HIP:ND1 HIP:NE2 HSP:ND1 HSP:NE2 "},
+    {-0.0024, " CYM:SG "},
     {-0.3187, " PRO:N "},
     {-0.4954, " :N "},
     {0.0425, " GLY:CA "},
@@ -43,7 +51,7 @@ constexpr AtomType kTypes[] = {
     {-0.1526, " :O "},
     {0.0087, " :OXT ASH:OD2 GLH:OE2 "},
     // CH3, CH2 and CH of alkanes; CH2 and CH beside N, O or S; CH3 beside S; CH2 beside a ring.
-    {0.5131, " ALA:CB VAL:CG1 VAL:CG2 LEU:CD1 LEU:CD2 ILE:CG2 ILE:CD1 ILE:CD THR:CG2 "},
+    {0.5131, " ALA:CB VAL:CG1 VAL:CG2 LEU:CD1 LEU:CD2 ILE:CG2 ILE:CD1 THR:CG2 "},
     {0.3901,
      " ARG:CB ARG:CG ASN:CB ASP:CB ASH:CB GLN:CB GLN:CG GLU:CB GLU:CG GLH:CB GLH:CG LEU:CB LYS:CB LYS:CG LYS:CD LYN:CB "
      "LYN:CG LYN:CD MET:CB PRO:CB PRO:CG ILE:CG1 "},
@@ -81,7 +89,29 @@ constexpr Residue kResidues[] = {
     {"ALA", "ALA"}, {"ARG", "ARG"}, {"ASN", "ASN"}, {"ASP", "ASP"}, {"CYS", "CYS"}, {"GLN", "GLN"}, {"GLU", "GLU"},
     {"GLY", "GLY"}, {"HIS", "HIS"}, {"ILE", "ILE"}, {"LEU", "LEU"}, {"LYS", "LYS"}, {"MET", "MET"}, {"PHE", "PHE"},
     {"PRO", "PRO"}, {"SER", "SER"}, {"THR", "THR"}, {"TRP", "TRP"}, {"TYR", "TYR"}, {"VAL", "VAL"}, {"ASH", "ASH"},
-    {"GLH", "GLH"}, {"LYN", "LYN"}, {"CYX", "CYS"}, {"HID", "HIS"}, {"HIE", "HIS"}, {"HSD", "HIS"}, {"HSE", "HIS"}};
+    {"GLH", "GLH"}, {"LYN", "LYN"}, {"CYX", "CYS"}, {"HID", "HIS"}, {"HIE", "HIS"}, {"HSD", "HIS"}, {"HSE", "HIS"},
+    {"HIP", "HIS"}, {"HSP", "HIS"}, {"CYM", "CYS"}};
+
+constexpr double kAmmonium = -1.3074, kAmmoniumOfProline = -1.5216, kCarboxylateOxygen = -0.7393,
+                 kSulphurWithoutHydrogen = 0.6482;
+
+/// How many atoms an atom is bonded to.
+struct Neighbours {
+  std::uint8_t heavy = 0, hydrogens = 0, oxygens = 0;  ///< oxygens: that have no other neighbour
+  bool of_other_residue = false;                       ///< at least one
+};
+
+/// bonds: in both directions.
+std::vector<Neighbours> neighbours_of(const std::vector<Atom>& atoms, const std::vector<Bond>& bonds) {
+  std::vector<Neighbours> all(atoms.size());
+  for (const auto& [own, other] : bonds) {
+    ++(atoms[other].element == 1 ? all[own].hydrogens : all[own].heavy);
+    if (atoms[own].residue != atoms[other].residue) all[own].of_other_residue = true;
+  }
+  for (const auto& [own, other] : bonds)
+    if (atoms[other].element == 8 && all[other].heavy == 1 && all[other].hydrogens == 0) ++all[own].oxygens;
+  return all;
+}
 
 bool is_hydrogen(std::string_view name) {
   const std::size_t letter = name.find_first_not_of("0123456789");
@@ -161,12 +191,38 @@ void add_plane(const VolumeFrame& frame, std::size_t i, const std::vector<Source
 double lipophilicity(std::string_view residue_name, std::string_view atom_name) {
   const auto residue = std::ranges::find(kResidues, residue_name, &Residue::name);
   if (residue == std::end(kResidues)) return kNoValue;
-  const std::string own = " " + std::string(residue->as) + ":" + std::string(atom_name) + " ",
-                    any = " :" + std::string(atom_name) + " ";
+  const std::string given(residue_name),
+      atom = ":" + canonical_atom(canonical_residue(given), std::string(atom_name)) + " ", state = " " + given + atom,
+      own = " " + std::string(residue->as) + atom, any = " " + atom;
   for (const AtomType& type : kTypes)
-    if (type.atoms.find(own) != std::string_view::npos || type.atoms.find(any) != std::string_view::npos)
-      return type.value;
+    for (const std::string& name : {state, own, any})
+      if (type.atoms.find(name) != std::string_view::npos) return type.value;
   return is_hydrogen(atom_name) ? 0.0 : kNoValue;
+}
+
+std::vector<double> lipophilicities(const Structure& structure) {
+  const std::vector<Atom>& atoms = structure.atoms;
+  std::vector<Bond> bonds = molecule_bonds(
+      atoms, structure.topology ? std::span<const Bond>(structure.topology->bonds) : std::span<const Bond>());
+  for (std::size_t n = bonds.size(); n-- > 0;) bonds.push_back({bonds[n][1], bonds[n][0]});
+  const std::vector<Neighbours> near = neighbours_of(atoms, bonds);
+  std::map<std::tuple<std::int32_t, std::uint32_t, std::string_view>, std::uint32_t> first;  // residue of each chain
+  std::vector<double> values;
+  for (std::size_t a = 0; a < atoms.size(); ++a) {
+    const Atom& atom = atoms[a];
+    double& value = values.emplace_back(lipophilicity(atom.residue_name, atom.name));
+    if (std::isnan(value)) continue;
+    const std::uint32_t begin = first.try_emplace({atom.model, atom.copy, atom.chain}, atom.residue).first->second;
+    if (atom.name == "SG" && near[a].heavy > 1) value = kSulphurWithoutHydrogen;
+    const bool is_ammonium = near[a].hydrogens ? near[a].heavy + near[a].hydrogens == 4 : atom.residue == begin;
+    if (atom.name == "N" && is_ammonium && !near[a].of_other_residue)
+      value = atom.residue_name == "PRO" ? kAmmoniumOfProline : kAmmonium;
+  }
+  for (const auto& [own, other] : bonds) {
+    const bool is_carboxylate = atoms[own].name == "C" && near[own].oxygens == 2 && near[own].heavy == 3;
+    if (is_carboxylate && atoms[other].element == 8 && !std::isnan(values[other])) values[other] = kCarboxylateOxygen;
+  }
+  return values;
 }
 
 ColorScale lipophilicity_scale(const ColorScheme& scheme) {
@@ -182,9 +238,9 @@ ColorScale lipophilicity_scale(const ColorScheme& scheme) {
 
 std::shared_ptr<const VolumePaint> lipophilicity_paint(const Structure& structure, const ColorScheme& scheme) {
   std::vector<Source> sources;
-  for (const Atom& atom : structure.atoms)
-    if (const double value = lipophilicity(atom.residue_name, atom.name); !std::isnan(value) && value != 0.0)
-      sources.push_back({atom.position, value});
+  const std::vector<double> of_atoms = lipophilicities(structure);
+  for (std::size_t a = 0; a < of_atoms.size(); ++a)
+    if (of_atoms[a] != 0.0 && !std::isnan(of_atoms[a])) sources.push_back({structure.atoms[a].position, of_atoms[a]});
   if (sources.empty())
     throw InputError(structure.file, 0,
                      "has no amino acids, so there is no lipophilicity potential; choose another --color");

@@ -6,6 +6,7 @@
 #include <array>
 #include <memory>
 #include <string_view>
+#include <vector>
 
 namespace meniscus {
 
@@ -19,6 +20,12 @@ struct VolumePaint;
 /// as they are at pH 7. Equal atoms of a charged group share what it has. 0 for hydrogens, which count with the atom
 /// that has them; NaN for all others.
 double lipophilicity(std::string_view residue_name, std::string_view atom_name);
+
+/// The same of each atom by its bonds and its place, too. At the end of a chain C has a carboxylate: two oxygens
+/// without hydrogens. N is an ammonium where its hydrogens say so or, if it has none, where it is the first of its
+/// chain; and where no other residue is bonded to it. A sulphur of cysteine with a second heavy neighbour has no
+/// hydrogen.
+std::vector<double> lipophilicities(const Structure& structure);
 
 /// Of the potential; its default range is symmetric about 0 and the same for all molecules.
 ColorScale lipophilicity_scale(const ColorScheme& scheme);

@@ -50,6 +50,13 @@ double tube_radius(const Surface& surface, const Face& face) {
   return face.kind == PatchKind::convex ? surface.atoms[surface.convex[face.patch].atom].radius : surface.probe_radius;
 }
 
+double tolerance_of(const EdgeRule& rule, const Surface& surface, const Face& face) {
+  const double radius = tube_radius(surface, face);
+  if (face.kind != PatchKind::toroidal || !rule.is_strip(radius)) return rule.tolerance(radius);
+  const auto& [a, b] = surface.toroidal[face.patch].atom;
+  return rule.tolerance(std::max(surface.atoms[a].radius, surface.atoms[b].radius));
+}
+
 BorderSamples::BorderSamples(const Surface& surface, const EdgeRule& rule, bool split_colors)
     : surface_(surface), parameters_(surface.borders.size()) {
   join_ends_of_tiny_borders();
@@ -94,7 +101,10 @@ void BorderSamples::sample(std::uint32_t index, const EdgeRule& rule, bool split
   std::vector<double> stops;
   for (std::uint32_t f : border.face) {
     const Face& face = surface_.faces[f];
-    if (tube_radius(surface_, face) > 0.0) step = std::min(step, rule.edge(tube_radius(surface_, face)));
+    const double tube = tube_radius(surface_, face);
+    const bool along_strip =
+        face.kind == PatchKind::toroidal && border.kind == BorderKind::contact && rule.is_strip(tube);
+    if (tube > 0.0 && !along_strip) step = std::min(step, rule.edge(tube));
     if (face.kind == PatchKind::toroidal) {
       // Both contact circles of a saddle get equal steps: without a probe they are one circle, and must stay one.
       for (const std::uint32_t atom : surface_.toroidal[face.patch].atom) {

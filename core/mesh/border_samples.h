@@ -17,7 +17,9 @@ namespace meniscus {
 /// MeshOptions say.
 class EdgeRule {
  public:
-  explicit EdgeRule(const MeshOptions& options) : tolerance_(options.tolerance), edge_(options.edge) {}
+  /// long_strips: where a length is asked for, see is_strip().
+  explicit EdgeRule(const MeshOptions& options, bool long_strips = true)
+      : tolerance_(options.tolerance), edge_(options.edge), long_strips_(long_strips && edge_ > 0.0) {}
   /// As many as that only where arcs span more than this, radian.
   EdgeRule with_angle(double angle) const {
     EdgeRule rule = *this;
@@ -30,6 +32,11 @@ class EdgeRule {
   double edge(double radius) const;
   /// The same of a chord of a circle.
   double chord(double radius) const;
+  /// Is a saddle with this tube so thin that edges along it are as long as those of its atoms? Else there would be as
+  /// many as the tube is round, whatever the length.
+  bool is_strip(double tube_radius) const {
+    return long_strips_ && tube_radius > 0.0 && edge(tube_radius) < kStrip * edge_;
+  }
   /// No step of an arc spans more, radian.
   double largest_angle() const;
   /// Into how many parts an arc of so many steps is cut: by tolerance none is longer than a step, by length each is as
@@ -38,12 +45,18 @@ class EdgeRule {
   double tolerance(double radius) const;
 
  private:
+  static constexpr double kStrip = 0.25;
+
   double tolerance_, edge_;
+  bool long_strips_;
   double angle_ = 0.9;  ///< radian: where a length is asked for, few long edges are wanted
 };
 
 /// The radius of the sphere or of the torus tube that a face lies on.
 double tube_radius(const Surface& surface, const Face& face);
+
+/// How far triangles of a face may be from it: of a strip as far as those of the larger atom.
+double tolerance_of(const EdgeRule& rule, const Surface& surface, const Face& face);
 
 /// Names a mesh vertex before vertices are numbered: a vertex of the surface, or a sample inside a border.
 struct BorderPoint {

@@ -38,7 +38,7 @@ class CoarseMeshing {
   CoarseMeshing(const Surface& surface, const SurfaceWalk& walk, double angle)
       : surface_(surface),
         walk_(walk),
-        rule_(MeshOptions{0.4, false, kAnyEdge}),
+        rule_(MeshOptions{0.4, false, kAnyEdge}, false),
         samples_(surface, rule_.with_angle(angle), false),
         filling_(surface, rule_, samples_),
         parts_(surface.faces.size()),

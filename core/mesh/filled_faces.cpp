@@ -41,7 +41,7 @@ FaceMesh FaceFilling::filled(std::uint32_t f) const {
   if (face.loop_count == 0) return whole_sphere(surface_, face, lattices_.at(frequency(face)));
   FaceOutline rim = outline(f);
   if (rim.edges.size() < 3) return {};  // shrunk to a point or to one line
-  FaceMesh mesh = fill_outline(std::move(rim), rule_.tolerance(tube_radius(surface_, face)));
+  FaceMesh mesh = fill_outline(std::move(rim), tolerance_of(rule_, surface_, face));
   give_back_room(mesh);
   return mesh;
 }

@@ -77,7 +77,7 @@ class Tessellation {
  private:
   double largest_tolerance() const {
     double largest = 0;
-    for (const Face& face : surface_.faces) largest = std::max(largest, rule_.tolerance(tube_radius(surface_, face)));
+    for (const Face& face : surface_.faces) largest = std::max(largest, tolerance_of(rule_, surface_, face));
     return largest;
   }
   void fill_faces() {

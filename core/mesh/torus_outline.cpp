@@ -242,7 +242,8 @@ class TorusRim {
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       const double share = rows_[i], tube = low_ + (high_ - low_) * share;
       const double distance = domain_->axis_distance(tube);
-      const double across = std::min(edge, rule_.edge(distance / std::max(std::cos(tube), 1e-3)));
+      const double along = rule_.edge(distance / std::max(std::cos(tube), 1e-3));
+      const double across = rule_.is_strip(p) ? along : std::min(edge, along);
       const double start = seam_[0].x + (seam_[1].x - seam_[0].x) * share;
       const int columns = whole_parts(std::max(patch_.sweep * distance / across, patch_.sweep / rule_.largest_angle()));
       if (columns < 2) continue;

@@ -17,7 +17,8 @@ constexpr auto kTable = std::to_array<Property>({
     flag("report.open_sky", "--open-sky",
          "Add the share of the sky that each atom sees to --csv, 0 to 1. It is what ambient occlusion leaves")
         .in(kOutput),
-    new_file("report.csv_residues", "--csv-residues", "FILE", "Write areas, one row per residue. -: to standard output")
+    new_file("report.csv_residues", "--csv-residues", "FILE",
+             "Write areas, one row per residue, with its relative accessibility. -: to standard output")
         .in(kOutput)
         .in_short_help(),
     new_file("report.csv_series", "--csv-series", "FILE",

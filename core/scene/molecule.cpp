@@ -17,9 +17,12 @@
 #include "core/math/box.h"
 #include "core/queries/atom_patches.h"
 #include "core/queries/copies.h"
+#include "core/scene/area_columns.h"
 #include "core/scene/hidden_atoms.h"
 #include "core/scene/map_reach.h"
 #include "core/scene/surface_objects.h"
+#include "core/structure/element_tables.h"
+#include "core/structure/residues.h"
 #include "core/trajectory/formats/trajectory_formats.h"
 #include "core/volume/read_volume.h"
 
@@ -87,6 +90,18 @@ double checked_share_beyond(const VolumePaint& map, const std::string& path, con
                    fmt::format("covers {} Å, where no part of the surface lies: {} has its atoms at {} Å; move the "
                                "molecule back or compute the map again",
                                extent_text(map.grid.frame().extent()), molecule.structure.file, extent_text(atoms)));
+}
+
+/// Numbers for By::accessibility, by the surface of all atoms together.
+NumberFile measured_accessibility(const Structure& structure, const SurfaceRequest& surface,
+                                  SurfaceComputer& computer) {
+  if (surface.kind == SurfaceKind::vdw || surface.probe_radius != kAccessibilityProbe)
+    throw RequestError(
+        fmt::format("{} relative-accessibility needs accessible areas by a probe of {} Å, as the greatest areas of "
+                    "residues are; leave out {} and {} vdw",
+                    option_name("color"), kAccessibilityProbe, option_name("probe"), option_name("surface")));
+  const auto areas = area_columns(structure, surface_objects(structure, {}, computer), surface.kind);
+  return {.path = structure.file, .numbers = relative_accessibility(structure, areas.back().values)};
 }
 
 }  // namespace
@@ -170,6 +185,8 @@ Molecule MoleculeBuilder::build(Structure structure) {
         "--color lipophilicity sums over the atoms of all models, but --by model gives each a surface of "
         "its own; select one model");
   if (request_.interface || color_.by == ColorScheme::By::buried) measure_burial(molecule);
+  if (color_.by == ColorScheme::By::accessibility)
+    molecule.color.file = measured_accessibility(molecule.structure, request_.surface, computer_);
   if (color_.by == ColorScheme::By::lipophilicity)
     molecule.color.volume = lipophilicity_paint(molecule.structure, molecule.color);
   // What the request ask for that the molecule has not is said before the surfaces are computed.

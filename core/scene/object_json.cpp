@@ -99,8 +99,8 @@ std::optional<ColorScheme> color_of(const Scene& own) {
   ColorScheme color = own.molecule.color;
   if ((color.map || color.range || color.missing) && !color.uses_scale())
     throw RequestError("object: \"map\", \"color_range\" and \"missing_color\" are for a \"color\" by a number");
-  if (color.of_points())
-    throw RequestError("object: \"color\" cannot be lipophilicity, which is a potential of all atoms");
+  if (color.of_points() || color.by == ColorScheme::By::accessibility)
+    throw RequestError(fmt::format("object: \"color\" cannot be {}, which is of all atoms", scheme_word(color)));
   if (!own.molecule.color_named && color.rules.empty()) return {};
   color.opacities.clear();
   color.share_scale();

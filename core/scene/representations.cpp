@@ -95,7 +95,7 @@ ColorScheme with_scale_of(const Structure& structure, std::size_t shown, ColorSc
         "--map categorical: atoms beside the surface may have numbers that it has no colour for; choose another --map");
   scheme.range = scale.range;
   std::vector<double>& numbers = scheme.file.numbers;  // either of each atom of the file, or of each of the surface
-  const bool of_atoms = scheme.takes_file() || scheme.by == By::buried || scheme.by == By::rmsf;
+  const bool of_atoms = scheme.takes_file() || scheme.is_measured();
   if (of_atoms && numbers.size() == structure.atoms.size())
     numbers.resize(shown, std::numeric_limits<double>::quiet_NaN());
   return scheme;

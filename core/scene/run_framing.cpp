@@ -36,18 +36,16 @@ std::optional<std::array<double, 2>> radial_range(ShownFrames& frames) {
 void share_colors(ColorScheme& color, const FrameRun& frames) {
   if (color.by == ColorScheme::By::chain && frames.chooses_anew()) color.chains = chains_of(frames.reach());
   const bool is_categorical = color.map == ColorMap::categorical && !color.own_map;
-  if (color.by == ColorScheme::By::buried && is_categorical)
+  if ((color.by == ColorScheme::By::buried || color.by == ColorScheme::By::accessibility) && is_categorical)
     throw RequestError(
-        "--map categorical gives each number of a picture its own colour, but buried areas change from frame to frame; "
-        "choose another --map");
+        "--map categorical gives each number of a picture its own colour, but areas change from frame to frame; choose "
+        "another --map");
   if (!frames.atoms_change() || !color.has_scale() || color.of_points()) return;
   if (is_categorical)
     throw RequestError(
         "--map categorical gives each number of a picture its own colour, but --select chooses other atoms in each "
         "frame; choose another --map, or add --select-once");
-  if (color.range || color.by == ColorScheme::By::radial || color.by == ColorScheme::By::rmsf ||
-      color.by == ColorScheme::By::buried)
-    return;
+  if (color.range || color.by == ColorScheme::By::radial || color.is_measured()) return;
   if (color.takes_file())
     throw RequestError(
         "--color-by-file needs --color-range LO:HI or --select-once where --select chooses other atoms in each frame");
@@ -75,10 +73,11 @@ RunFraming run_framing(const ViewRequest& view, const CameraMotionRequest& motio
 void measure_colors(ColorScheme& color, ShownFrames& frames) {
   measure_scheme(color, frames);
   for (ColorRule& rule : color.rules) measure_scheme(rule.paint, frames);
-  if (color.by != ColorScheme::By::buried) return;
+  if (color.by != ColorScheme::By::buried && color.by != ColorScheme::By::accessibility) return;
   // The numbers come with each frame.
   const Structure& reach = frames.run().reach();
   color.file = {.path = reach.file, .numbers = std::vector<double>(reach.atoms.size(), 0.0)};
+  if (color.by == ColorScheme::By::accessibility) return;
   if (!color.range) color.frames_range = std::array{0.0, frames.most_buried()};
 }
 

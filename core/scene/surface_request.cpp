@@ -22,10 +22,9 @@ const char* kind_word(SurfaceKind kind) {
 }
 
 std::string probe_fault(double radius) {
-  if (radius < 0.0) return fmt::format("{} Å is negative; 0 gives the van der Waals surface", radius);
-  if (radius > 0.0 && radius < kSmallestProbe) {
-    return fmt::format("{} Å is too small; use 0 (van der Waals surface) or at least {} Å", radius, kSmallestProbe);
-  }
+  if (radius != 0.0 && radius < kSmallestProbe)
+    return fmt::format("{} Å is {}; use at least {} Å", radius, radius < 0.0 ? "negative" : "too small",
+                       kSmallestProbe);
   if (radius > kLargestProbe) return fmt::format("{} Å is too large; use at most {} Å", radius, kLargestProbe);
   return {};
 }

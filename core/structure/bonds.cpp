@@ -25,8 +25,7 @@
 namespace meniscus {
 namespace {
 
-constexpr std::string_view kBackboneBonds =
-    "N-CA-C-O C-OXT C-O1 C-O2 C-OC1 C-OC2";  // the last four: ends of chains by GROMACS
+constexpr std::string_view kBackboneBonds = "N-CA-C-O C-OXT";
 constexpr std::string_view kSugarBonds = "OP1-P-OP2 P-OP3 P-O5'-C5'-C4'-C3'-C2'-C1'-O4'-C4' C3'-O3' C2'-O2'";
 
 /// Heavy atoms of a residue beyond its backbone or sugar: paths of bonded atoms, names of wwPDB's components.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Holds the radii of Bondi 1964 and Mantina et al. 2009, laid out like the periodic table, and the hydropathy of Kyte
-// and Doolittle.
+// Holds the radii of Bondi 1964 and Mantina et al. 2009, laid out like the periodic table, the hydropathy of Kyte and
+// Doolittle, and the greatest areas of Tien et al. 2013.
 #include "core/structure/element_tables.h"
 
 #include <algorithm>
@@ -82,31 +82,35 @@ namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
-struct Hydropathy {
-  double value;
+struct AminoAcid {
   std::string_view names;
+  double hydropathy, greatest_area;
 };
 
-constexpr Hydropathy kKyteDoolittle[] = {{4.5, " ILE "},         {4.2, " VAL "},
-                                         {3.8, " LEU "},         {2.8, " PHE "},
-                                         {2.5, " CYS CYX CYM "}, {1.9, " MET MSE "},
-                                         {1.8, " ALA "},         {-0.4, " GLY "},
-                                         {-0.7, " THR "},        {-0.8, " SER "},
-                                         {-0.9, " TRP "},        {-1.3, " TYR "},
-                                         {-1.6, " PRO "},        {-3.2, " HIS HID HIE HIP HSD HSE HSP "},
-                                         {-3.5, " GLU GLH "},    {-3.5, " GLN "},
-                                         {-3.5, " ASP ASH "},    {-3.5, " ASN "},
-                                         {-3.9, " LYS LYN "},    {-4.5, " ARG "}};
+constexpr AminoAcid kAminoAcids[] = {{" ILE ", 4.5, 197},         {" VAL ", 4.2, 174},
+                                     {" LEU ", 3.8, 201},         {" PHE ", 2.8, 240},
+                                     {" CYS CYX CYM ", 2.5, 167}, {" MET MSE ", 1.9, 224},
+                                     {" ALA ", 1.8, 129},         {" GLY ", -0.4, 104},
+                                     {" THR ", -0.7, 172},        {" SER ", -0.8, 155},
+                                     {" TRP ", -0.9, 285},        {" TYR ", -1.3, 263},
+                                     {" PRO ", -1.6, 159},        {" HIS HID HIE HIP HSD HSE HSP ", -3.2, 224},
+                                     {" GLU GLH ", -3.5, 223},    {" GLN ", -3.5, 225},
+                                     {" ASP ASH ", -3.5, 193},    {" ASN ", -3.5, 195},
+                                     {" LYS LYN ", -3.9, 236},    {" ARG ", -4.5, 274}};
+
+double number_of(std::string_view residue_name, double AminoAcid::*number) {
+  const std::string word = std::string(" ").append(residue_name).append(" ");
+  for (const AminoAcid& entry : kAminoAcids)
+    if (!residue_name.empty() && entry.names.find(word) != std::string_view::npos) return entry.*number;
+  return kMissing;
+}
 
 }  // namespace
 
-double hydropathy(std::string_view residue_name) {
-  if (residue_name.empty()) return kMissing;
-  const std::string word = std::string(" ").append(residue_name).append(" ");
-  for (const Hydropathy& entry : kKyteDoolittle) {
-    if (entry.names.find(word) != std::string_view::npos) return entry.value;
-  }
-  return kMissing;
+double hydropathy(std::string_view residue_name) { return number_of(residue_name, &AminoAcid::hydropathy); }
+
+double greatest_accessible_area(std::string_view residue_name) {
+  return number_of(residue_name, &AminoAcid::greatest_area);
 }
 
 }  // namespace meniscus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Van der Waals radii by element and hydropathy by residue, each with its source.
+// Van der Waals radii by element, hydropathy and greatest accessible area by residue, each with its source.
 #pragma once
 
 #include <cstdint>
@@ -39,5 +39,12 @@ std::uint8_t element_of_symbol(std::string_view symbol);
 /// 105 (1982), table 2. Force-field names of charge states and selenomethionine go with their parent; NaN for all
 /// others.
 double hydropathy(std::string_view residue_name);
+
+/// Å²: the greatest solvent-accessible area of such a residue X in Gly-X-Gly, in any conformation: M. Z. Tien et al.,
+/// PLoS ONE 8, e80635 (2013), table 1, column "Theoretical". Names as above; NaN for all others.
+double greatest_accessible_area(std::string_view residue_name);
+
+/// Å, of the probe of these areas.
+inline constexpr double kAccessibilityProbe = 1.4;
 
 }  // namespace meniscus

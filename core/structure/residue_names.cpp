@@ -61,15 +61,6 @@ std::string canonical_residue(const std::string& residue_name) {
   return found == kResidues.end() ? residue_name : std::string(found->second);
 }
 
-std::string canonical_atom(std::string_view residue, const std::string& atom_name) {
-  if (residue == "ILE" && atom_name == "CD") return "CD1";
-  if (residue == "HOH" && (atom_name == "OW" || atom_name == "OH2" || atom_name == "OH")) return "O";
-  const auto found = kAtoms.find(atom_name);
-  std::string name = found == kAtoms.end() ? atom_name : std::string(found->second);
-  std::replace(name.begin(), name.end(), '*', '\'');
-  return name;
-}
-
 namespace {
 
 using Row = std::pair<const char*, const char*>;  // residue, "atom class atom class ..."
@@ -148,15 +139,34 @@ std::map<std::string, Atoms, std::less<>> all_residues() {
   return residues;
 }
 
+/// The atoms of a residue by its canonical name; none: not known.
+const Atoms& atoms_of(const std::string& canonical) {
+  static const std::map<std::string, Atoms, std::less<>> kTables = all_residues();
+  static const Atoms kNone;
+  const auto residue = kTables.find(canonical);
+  return residue == kTables.end() ? kNone : residue->second;
+}
+
 }  // namespace
 
-std::string_view bonding_class(const std::string& residue_name, const std::string& atom_name) {
-  static const std::map<std::string, Atoms, std::less<>> kResidues = all_residues();
-  const std::string canonical = canonical_residue(residue_name);
-  const auto residue = kResidues.find(canonical);
-  if (residue == kResidues.end()) return {};
-  const auto atom = residue->second.find(canonical_atom(canonical, atom_name));
-  return atom == residue->second.end() ? std::string_view() : atom->second;
+std::string canonical_atom(std::string_view residue, const std::string& atom_name) {
+  if (residue == "ILE" && atom_name == "CD") return "CD1";
+  const bool is_end = atom_name == "O1" || atom_name == "O2" || atom_name == "OC1" || atom_name == "OC2";
+  if (is_end && atoms_of(std::string(residue)).contains("OXT")) return atom_name.back() == '1' ? "O" : "OXT";
+  if (residue == "HOH" && (atom_name == "OW" || atom_name == "OH2" || atom_name == "OH")) return "O";
+  const auto found = kAtoms.find(atom_name);
+  std::string name = found == kAtoms.end() ? atom_name : std::string(found->second);
+  std::replace(name.begin(), name.end(), '*', '\'');
+  return name;
 }
+
+std::string_view bonding_class(const std::string& residue_name, const std::string& atom_name) {
+  const std::string canonical = canonical_residue(residue_name);
+  const Atoms& atoms = atoms_of(canonical);
+  const auto atom = atoms.find(canonical_atom(canonical, atom_name));
+  return atom == atoms.end() ? std::string_view() : atom->second;
+}
+
+std::size_t heavy_atoms_of(const std::string& residue_name) { return atoms_of(canonical_residue(residue_name)).size(); }
 
 }  // namespace meniscus

@@ -3,6 +3,7 @@
 // atoms.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -23,8 +24,9 @@ bool is_water_name(const std::string& residue_name);
 /// "HSD", "HIE" -> "HIS"; "CYX" -> "CYS"; "ADE", "RA5" -> "A"; "DA3" -> "DA"; any water -> "HOH"; others as they are.
 std::string canonical_residue(const std::string& residue_name);
 
-/// "O1P" -> "OP1", "C5*" -> "C5'", "HN" -> "H", "OT2" -> "OXT"; of ILE also "CD" -> "CD1"; others as they are. The
-/// residue is given by its canonical name.
+/// "O1P" -> "OP1", "C5*" -> "C5'", "HN" -> "H", "OT2" -> "OXT"; of ILE also "CD" -> "CD1"; of amino acids "O1",
+/// "OC1" -> "O" and "O2", "OC2" -> "OXT", the ends of chains by GROMACS; others as they are. The residue is given by
+/// its canonical name.
 std::string canonical_atom(std::string_view residue, const std::string& atom_name);
 
 /// The class of an atom of an amino acid, nucleotide or water, in the notation of J. Tsai et al., J. Mol. Biol. 290,
@@ -32,5 +34,8 @@ std::string canonical_atom(std::string_view residue, const std::string& atom_nam
 /// states are those of the wwPDB's chemical components (acids are protonated). Empty: not known. Other names of the
 /// same residues and atoms are understood.
 std::string_view bonding_class(const std::string& residue_name, const std::string& atom_name);
+
+/// How many atoms of the residue have a class, OXT included; 0: the residue is not known.
+std::size_t heavy_atoms_of(const std::string& residue_name);
 
 }  // namespace meniscus

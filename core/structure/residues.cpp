@@ -6,13 +6,16 @@
 #include <cctype>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
+#include <set>
 #include <tuple>
 #include <unordered_map>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "core/structure/element_tables.h"
 #include "core/structure/residue_names.h"
 #include "core/structure/structure.h"
 
@@ -215,6 +218,23 @@ std::vector<bool> linked_residues(std::span<const Atom> atoms, std::span<const B
   finder.join_by(bonds);
   finder.join_by_distance();
   return std::move(finder).linked();
+}
+
+std::vector<double> relative_accessibility(const Structure& structure, std::span<const double> areas) {
+  std::vector<double> numbers(structure.atoms.size(), std::numeric_limits<double>::quiet_NaN());
+  for (const AtomGroup& residue : group_atoms(structure, Grouping::residue)) {
+    const std::string name = canonical_residue(structure.atoms[residue.atoms.front()].residue_name);
+    std::set<std::string> heavy{"OXT"};  // which may be missing
+    double area = 0.0;
+    for (const std::uint32_t a : residue.atoms) {
+      area += areas[a];
+      if (const std::string& atom = structure.atoms[a].name; !bonding_class(name, atom).empty())
+        heavy.insert(canonical_atom(name, atom));
+    }
+    if (heavy.size() != heavy_atoms_of(name)) continue;
+    for (const std::uint32_t a : residue.atoms) numbers[a] = area / greatest_accessible_area(name);
+  }
+  return numbers;
 }
 
 }  // namespace meniscus

@@ -69,4 +69,9 @@ std::vector<char> kept_altlocs(const std::vector<Atom>& atoms, const AltlocChoic
 /// coordinates; atoms at the origin count as such. O(n) for molecules.
 std::vector<bool> linked_residues(std::span<const Atom> atoms, std::span<const Bond> bonds);
 
+/// For each atom the accessible area of its residue over greatest_accessible_area(). areas: Å², the accessible area of
+/// each atom by a probe of kAccessibilityProbe. NaN: no greatest area is known, or a heavy atom of the residue is
+/// missing, so that its area would be that of a part.
+std::vector<double> relative_accessibility(const Structure& structure, std::span<const double> areas);
+
 }  // namespace meniscus

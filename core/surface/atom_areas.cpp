@@ -25,6 +25,7 @@ namespace meniscus {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kMisfit = 1e-9;       // of a loop, beyond which its turning is not trusted
 constexpr double kShort = 3;           // radian: of arcs that are told without trigonometry
 constexpr double kClear = 1e-9;        // of the probe radius: rounding is a millionth of it
 constexpr double kLargestRest = 1e-4;  // Å², of a patch: what shares are known to be off by at corners that are blurred
@@ -54,11 +55,17 @@ struct DividerScratch {
   std::vector<std::array<std::uint32_t, 2>> bisected_by;  // contacts that have a line of their bisector
 };
 
-/// Where the probe's centre is seen from the atom's centre, there it touches: the patch and the accessible part of the
-/// grown sphere fill the same solid angle.
-double accessible_area_over(const Surface& surface, const ConvexPatch& patch, const Face& face) {
-  const double r = surface.atoms[patch.atom].radius, extended = r + surface.probe_radius;
-  return face.area * (extended / r) * (extended / r);
+/// The way of the probe's centre while it touches a border of a contact patch. At the rim of a part there is no saddle
+/// that has it: then the border seen from the atom's centre, `ratio` times as large.
+Border way_of_probe(const Surface& surface, Border border, const glm::dvec3& center, double ratio) {
+  border.center = center + (border.center - center) * ratio;
+  border.radius *= ratio;
+  for (const std::uint32_t f : border.face) {
+    if (f == kNone || surface.faces[f].kind != PatchKind::toroidal) continue;
+    border.center = surface.toroidal[surface.faces[f].patch].center;
+    border.radius = surface.toroidal[surface.faces[f].patch].radius;
+  }
+  return border;
 }
 
 class AreaDivider {
@@ -148,7 +155,7 @@ class AreaDivider {
   void add(const ConvexPatch& patch) {
     for (std::uint32_t f = patch.first_face; f < patch.first_face + patch.face_count; ++f) {
       areas_of(f).surface[patch.atom] += s_.faces[f].area;
-      areas_of(f).accessible[patch.atom] += accessible_area_over(s_, patch, s_.faces[f]);
+      areas_of(f).accessible[patch.atom] += accessible_area(s_, s_.faces[f]);
     }
   }
 
@@ -441,9 +448,32 @@ std::vector<AtomAreas> atom_areas(const Surface& surface, std::span<const std::u
 double accessible_area(const Surface& surface) {
   if (surface.sums) return surface.sums->accessible;
   double area = 0.0;
-  for (const ConvexPatch& patch : surface.convex)
-    for (const Face& face : faces_of(surface, patch)) area += accessible_area_over(surface, patch, face);
+  for (const ConvexPatch& patch : surface.convex) {
+    double of_atom = 0.0;  // in the order in which blocks add it up
+    for (const Face& face : faces_of(surface, patch)) of_atom += accessible_area(surface, face);
+    area += of_atom;
+  }
   return area;
+}
+
+// Where the probe's centre is seen from the atom's centre, there it touches: face and accessible part fill the same
+// solid angle. It is measured on the grown sphere, for on one that is tiny beside its coordinates rounding moves
+// borders; but that of the face counts where ties have left loops open.
+double accessible_area(const Surface& surface, const Face& face) {
+  const Ball& atom = surface.atoms[surface.convex[face.patch].atom];
+  const double grown = atom.radius + surface.probe_radius, ratio = grown / atom.radius;
+  double angle = 2 * kTurn;
+  std::vector<SphereArc> walk;
+  for (const Loop& loop : loops_of(surface, face)) {
+    walk.clear();
+    for (const HalfBorder half : half_borders_of(surface, loop)) {
+      const Border way = way_of_probe(surface, surface.borders[border_of(half)], atom.center, ratio);
+      walk.push_back(sphere_arc(way, is_backwards(half), atom.center, grown));
+    }
+    if (misfit_of(walk) > kMisfit) return face.area * ratio * ratio;
+    angle += area_left_of(walk) - 2 * kTurn;
+  }
+  return std::clamp(angle, 0.0, 2 * kTurn) * grown * grown;
 }
 
 double divided_area(const Surface& surface, const ConcavePatch& patch) {

@@ -10,6 +10,7 @@
 namespace meniscus {
 
 struct ConcavePatch;
+struct Face;
 struct Surface;
 
 /// Å², one per Surface::atoms; 0 for buried atoms.
@@ -53,6 +54,9 @@ AtomShares atom_shares(const Surface& surface);
 
 /// Å²: the sum of AtomAreas::accessible alone, which takes next to no time.
 double accessible_area(const Surface& surface);
+
+/// Å²: what the probe's centre reaches of the atom's grown sphere while the probe touches this face of a contact patch.
+double accessible_area(const Surface& surface, const Face& face);
 
 /// Å²: the sum of what the atoms that a re-entrant patch touches get of it. It comes from integrals along the patch's
 /// planes as well as its borders, so it is the area of the patch's faces only if both describe one figure.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 #include "core/math/union_find.h"
@@ -18,8 +19,7 @@ class BlockSum {
  public:
   BlockSum(std::span<const Ball> atoms, double probe_radius, std::span<const std::vector<std::uint32_t>> blocks,
            std::span<const std::uint32_t> block_of, std::span<const BlockPart> parts)
-      : atoms_(atoms),
-        p_(probe_radius),
+      : p_(probe_radius),
         block_of_(block_of),
         parts_(parts),
         first_piece_(first_pieces(parts)),
@@ -34,6 +34,7 @@ class BlockSum {
     surface.probe_radius = p_;
     join_borders();
     add_faces(surface.components);
+    sums_.accessible = std::accumulate(sums_.atom_accessible.begin(), sums_.atom_accessible.end(), 0.0);
     finish(surface.components);
     for (const Component& component : surface.components) {
       surface.area += component.area;
@@ -99,7 +100,7 @@ class BlockSum {
     return joined_.find(first_piece_[block] + piece);
   }
 
-  // Calls visit(face, representative of its piece, kind) kind after kind, atom after atom.
+  // Calls visit(face, representative of its piece) kind after kind, atom after atom.
   template <typename Visit>
   void for_each_face(const Visit& visit) const {
     for (std::size_t kind = 0; kind < 3; ++kind) {
@@ -108,14 +109,14 @@ class BlockSum {
         const std::uint32_t b = block_of_[a];
         const std::vector<FaceSum>& faces = parts_[b].faces[kind];
         for (std::size_t& n = next[b]; n < faces.size() && faces[n].atom == a; ++n)
-          visit(faces[n], root_of(b, faces[n].piece), kind);
+          visit(faces[n], root_of(b, faces[n].piece));
       }
     }
   }
 
   void add_faces(std::vector<Component>& components) {
     component_of_.assign(first_piece_.back(), kNone);
-    for_each_face([&](const FaceSum& face, std::uint32_t root, std::size_t kind) {
+    for_each_face([&](const FaceSum& face, std::uint32_t root) {
       std::uint32_t& component = component_of_[root];
       if (component == kNone) {
         component = static_cast<std::uint32_t>(components.size());
@@ -123,9 +124,6 @@ class BlockSum {
       }
       components[component].area += face.area;
       components[component].volume += face.flux / 3;
-      if (kind != place_of(PatchKind::convex)) return;
-      const double r = atoms_[face.atom].radius, extended = r + p_;
-      sums_.accessible += face.area * (extended / r) * (extended / r);
     });
   }
 
@@ -147,12 +145,11 @@ class BlockSum {
       bad[c] = !is_sound(components[c], p_);
     }
     if (std::ranges::find(bad, 1) == bad.end()) return;
-    for_each_face([&](const FaceSum& face, std::uint32_t root, std::size_t) {
+    for_each_face([&](const FaceSum& face, std::uint32_t root) {
       if (bad[component_of_[root]]) open_.push_back(face.atom);
     });
   }
 
-  std::span<const Ball> atoms_;
   double p_;
   std::span<const std::uint32_t> block_of_;
   std::span<const BlockPart> parts_;

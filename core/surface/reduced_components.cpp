@@ -8,6 +8,7 @@
 
 #include "core/math/union_find.h"
 #include "core/reduced_surface/reduced_surface.h"
+#include "core/surface/atom_areas.h"
 #include "core/surface/reduced_surface_engine.h"
 #include "core/surface/compute_surface.h"
 
@@ -117,9 +118,8 @@ std::vector<ReducedComponentSize> sizes_of(const Surface& surface, const Reduced
     if (face.kind == PatchKind::toroidal) size.toroidal += face.area;
     if (face.kind == PatchKind::concave) size.reentrant += face.area;
     if (face.kind != PatchKind::convex) continue;
-    const double r = surface.atoms[surface.convex[face.patch].atom].radius, ratio = (r + surface.probe_radius) / r;
     size.contact += face.area;
-    size.accessible += face.area * ratio * ratio;
+    size.accessible += accessible_area(surface, face);
   }
   for (std::size_t c = 0; c < of_sheet.size(); ++c) sizes[of_sheet[c]].volume += surface.components[c].volume;
   return sizes;

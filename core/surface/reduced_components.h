@@ -39,7 +39,7 @@ struct ReducedComponentSize {
   double contact = 0.0;     ///< Å² of convex faces
   double toroidal = 0.0;    ///< Å²
   double reentrant = 0.0;   ///< Å² of concave faces
-  double accessible = 0.0;  ///< Å² of the solvent-accessible surface; NaN where a ball has no radius
+  double accessible = 0.0;  ///< Å² of the solvent-accessible surface
   double volume = 0.0;      ///< Å³, signed: negative for a cavity
   double area() const { return contact + toroidal + reentrant; }
 };

@@ -14,6 +14,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/base/constants.h"
+#include "core/base/version.h"
 #include "core/math/ball_grid.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/mesh/weld.h"
@@ -229,14 +230,19 @@ double msms_edge(double density) { return kEdgeAtDensityOne / std::sqrt(density)
 
 namespace {
 
+/// The first line of NanoShaper's files but for its date, so that equal input gives equal files.
+constexpr const char* kNanoShaper =
+    "# File created by NanoShaper version 1.5 (meniscus-nanoshaper " MENISCUS_VERSION ")\n";
+
 /// Without the sign of what rounds to nothing, which some readers take for a field of its own.
 double unsigned_zero(double x) { return std::abs(x) < 0.0005 ? 0.0 : x; }
 
 std::string header_text(const char* what, const char* counted, std::size_t count, const MsmsSpheres& spheres,
                         const MsmsHeader& header) {
   if (!header.wanted) return {};
+  if (header.of_nanoshaper) return fmt::format("{}{}\n{}\n", kNanoShaper, counted, count);
   return fmt::format(
-      "# MSMS solvent excluded surface {} for {}\n{} #sphere density probe_r\n{:7d} {:7d} {:5.2f} {:5.2f}\n", what,
+      "# MSMS solvent excluded surface {} for {}\n{:7} #sphere density probe_r\n{:7d} {:7d} {:5.2f} {:5.2f}\n", what,
       spheres.file, counted, count, spheres.count, header.density, header.probe_radius);
 }
 
@@ -251,13 +257,14 @@ std::string vert_text(const MsmsMesh& mesh, const MsmsSpheres& spheres, const Ms
                           fmt::format_to(out, FMT_COMPILE("{:9.3f} {:9.3f} {:9.3f} "), unsigned_zero(x.x),
                                          unsigned_zero(x.y), unsigned_zero(x.z));
                         fmt::format_to(out, FMT_COMPILE("{:7d} {:7d} {:2d}"), v.face, sphere + 1, v.level);
+                        if (header.of_nanoshaper) *out = ' ';
                         if (!spheres.names.empty()) fmt::format_to(out, FMT_COMPILE(" {}"), spheres.names[sphere]);
                         *out = '\n';
                       });
 }
 
 std::string face_text(const MsmsMesh& mesh, const MsmsSpheres& spheres, const MsmsHeader& header) {
-  return text_of_rows(header_text("faces", "#faces ", mesh.triangles.size(), spheres, header), mesh.triangles.size(),
+  return text_of_rows(header_text("faces", "#faces", mesh.triangles.size(), spheres, header), mesh.triangles.size(),
                       [&](std::size_t n, auto out) {
                         const MsmsTriangle& t = mesh.triangles[n];
                         fmt::format_to(out, FMT_COMPILE("{:6d} {:6d} {:6d} {:2d} {:6d}\n"), t.corner[0] + 1,
@@ -266,12 +273,13 @@ std::string face_text(const MsmsMesh& mesh, const MsmsSpheres& spheres, const Ms
 }
 
 std::string off_text(const MsmsMesh& mesh) {
-  std::string text = text_of_rows(fmt::format("OFF\n{} {} 0\n", mesh.vertices.size(), mesh.triangles.size()),
-                                  mesh.vertices.size(), [&](std::size_t n, auto out) {
-                                    const glm::dvec3& x = mesh.vertices[n].position;
-                                    fmt::format_to(out, FMT_COMPILE("{:.3f} {:.3f} {:.3f}\n"), unsigned_zero(x.x),
-                                                   unsigned_zero(x.y), unsigned_zero(x.z));
-                                  });
+  std::string text =
+      text_of_rows(fmt::format("OFF\n{}\n{} {} 0\n", kNanoShaper, mesh.vertices.size(), mesh.triangles.size()),
+                   mesh.vertices.size(), [&](std::size_t n, auto out) {
+                     const glm::dvec3& x = mesh.vertices[n].position;
+                     fmt::format_to(out, FMT_COMPILE("{:.3f} {:.3f} {:.3f}\n"), unsigned_zero(x.x), unsigned_zero(x.y),
+                                    unsigned_zero(x.z));
+                   });
   return text_of_rows(std::move(text), mesh.triangles.size(), [&](std::size_t n, auto out) {
     const auto& [a, b, c] = mesh.triangles[n].corner;
     fmt::format_to(out, FMT_COMPILE("3 {} {} {}\n"), a, b, c);

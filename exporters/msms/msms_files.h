@@ -73,10 +73,12 @@ struct MsmsSpheres {
   std::size_t count = 0;
 };
 
+/// The lines above the rows: those of MSMS, or those of NanoShaper, the third of which is the number of rows alone.
 struct MsmsHeader {
   bool wanted = true;
-  double density = 0.0;       ///< vertices per Å², as asked
-  double probe_radius = 0.0;  ///< Å
+  double density = 0.0;        ///< vertices per Å², as asked
+  double probe_radius = 0.0;   ///< Å
+  bool of_nanoshaper = false;  ///< rows of vertices end with a blank, too
 };
 
 /// Rows of nine columns, ten with names: position, normal, face, closest sphere (from 1), level, name.
@@ -85,7 +87,8 @@ std::string vert_text(const MsmsMesh& mesh, const MsmsSpheres& spheres, const Ms
 /// Rows of five: corners (from 1), kind, face.
 std::string face_text(const MsmsMesh& mesh, const MsmsSpheres& spheres, const MsmsHeader& header);
 
-/// The same mesh as OFF, as NanoShaper writes it unless it is asked for the files of MSMS: corners from 0.
+/// The same mesh as OFF, as NanoShaper writes it unless it is asked for the files of MSMS: counts in the fourth line,
+/// corners from 0.
 std::string off_text(const MsmsMesh& mesh);
 
 /// A line of titles, then a row for each sphere: its number from 0, areas of each component (solvent-excluded,

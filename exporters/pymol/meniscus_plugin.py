@@ -71,7 +71,7 @@ def surface_of(atoms, probe, kind="ses"):
     if not atoms.selected.any():
         raise CmdException("the selection has no atoms in this state")
     with refusals():
-        return the_library().surface(atoms.positions, atoms.radii, probe, kind=kind)
+        return the_library().surface(atoms.positions, atoms.radii, probe, kind=kind if probe else "vdw")
 
 
 def probe_of(probe):
@@ -219,7 +219,7 @@ EXAMPLES
             raise CmdException(f"{word} is neither ses nor sas")
     atoms, probe = atoms_of(selection, context, int(state) or -1), probe_of(probe)
     ses, sas = surface_of(atoms, probe), surface_of(atoms, probe, "sas")
-    areas = {"ses": ses.atom_areas, "sas": ses.atom_sas_areas}
+    areas = {"ses": ses.atom_areas, "sas": sas.atom_areas}
     of_selection = {kind: float(values[atoms.selected].sum()) for kind, values in areas.items()}
     for column, kind in (("b", b), ("q", q)):
         if kind:

@@ -230,6 +230,20 @@ TEST(CApi, RefusesBadOptions) {
   EXPECT_NE(std::strstr(meniscus_last_error(), "probe_radius: -1.4 Å is negative"), nullptr) << meniscus_last_error();
   EXPECT_EQ(refused([](auto& o) { o.probe_radius = 1e-4; }), MENISCUS_INPUT);
   EXPECT_EQ(refused([](auto& o) { o.probe_radius = kInfinity; }), MENISCUS_INPUT);
+  // A struct of zeros but for its size would be a surface without a probe.
+  for (const meniscus_kind kind : {MENISCUS_SES, MENISCUS_SAS}) {
+    const auto zeros = [kind](auto& o) { o = {sizeof o, 0.0, kind, MENISCUS_CPU, 0, 0}; };
+    EXPECT_EQ(refused(zeros), MENISCUS_INPUT);
+    EXPECT_NE(std::strstr(meniscus_last_error(),
+                          "probe_radius is 0; set it (MENISCUS_OPTIONS_INIT has 1.4 Å), or "
+                          "choose MENISCUS_VDW"),
+              nullptr)
+        << meniscus_last_error();
+  }
+  meniscus_options without = default_options();
+  without.kind = MENISCUS_VDW;
+  without.probe_radius = 0.0;
+  EXPECT_TRUE(computer(without));
   EXPECT_EQ(refused([](auto& o) { o.kind = meniscus_kind{3}; }), MENISCUS_USAGE);
   EXPECT_EQ(refused([](auto& o) { o.device = meniscus_device{-1}; }), MENISCUS_USAGE);
   EXPECT_EQ(refused([](auto& o) { o.threads = -1; }), MENISCUS_USAGE);

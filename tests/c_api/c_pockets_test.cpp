@@ -113,8 +113,7 @@ TEST(CPockets, RefuseWhatMakesNoSense) {
   accessible.kind = MENISCUS_SAS;
   const Computer other = computer(accessible);
   EXPECT_EQ(meniscus_surface_pockets(computed(other.get(), balls).get(), nullptr, &pockets), MENISCUS_USAGE);
-  accessible = default_options();
-  accessible.probe_radius = 0.0;
+  accessible.kind = MENISCUS_VDW;
   const Computer without = computer(accessible);
   EXPECT_EQ(meniscus_surface_pockets(computed(without.get(), balls).get(), nullptr, &pockets), MENISCUS_USAGE);
   // None at all: tables without rows.

@@ -137,7 +137,7 @@ TEST_F(CStructure, ColorsAtomsByTheWordsOfTheProgram) {
   EXPECT_FALSE(std::equal(by_chain.begin(), by_chain.begin() + 3, by_chain.begin() + 9));
   EXPECT_TRUE(std::equal(by_element.begin(), by_element.begin() + 3, by_element.begin() + 9));
   EXPECT_NE(colors("bfactor"), by_chain);
-  for (const char* scheme : {"kind", "component", "buried", "rmsf", "file"})
+  for (const char* scheme : {"kind", "component", "buried", "rmsf", "relative-accessibility", "file"})
     refused(scheme, MENISCUS_USAGE, "needs more than the atoms of a file");
   refused("chains", MENISCUS_USAGE, "'chains' is not one of element, ");
   refused("charge", MENISCUS_INPUT, "partial charges");

@@ -201,6 +201,50 @@ TEST(Csv, AtomsAndResiduesAddUpToTheSurface) {
   EXPECT_EQ(surface({kToxin, "--csv", "same", "--csv-residues", "same"}).exit_code, 2);
 }
 
+// Areas by the other program; it divides them by those of Gly-X-Gly in one conformation.
+TEST(Csv, RelativeAccessibilityIsAccessibleAreaOverTheGreatest) {
+  const std::map<std::string, double> greatest{// M. Z. Tien et al., PLoS ONE 8, e80635 (2013), table 1, theoretical
+                                               {"ALA", 129}, {"ARG", 274}, {"ASN", 195}, {"ASP", 193}, {"GLN", 225},
+                                               {"GLU", 223}, {"GLY", 104}, {"HIS", 224}, {"ILE", 197}, {"LEU", 201},
+                                               {"LYS", 236}, {"MET", 224}, {"PHE", 240}, {"PRO", 159}, {"SER", 155},
+                                               {"THR", 172}, {"TYR", 263}, {"VAL", 174}};
+  const auto residues = [](std::vector<std::string> more) {
+    more.insert(more.begin(), {"--csv-residues", "-"});
+    const ProgramResult result = surface(more);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return parse_csv(result.out);
+  };
+  const Table ours = residues({kUbiquitin, "--radii", "protor"});
+  const ProgramResult theirs = test::run_program(
+      "/usr/bin/freesasa", {"--lee-richards", "--resolution=1000", "--format=rsa", "--no-warnings", kUbiquitin}, 250);
+  ASSERT_EQ(theirs.exit_code, 0) << theirs.err;
+  std::istringstream lines(theirs.out);
+  std::size_t n = 0;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string record, residue, chain, number;
+    double area = 0.0;
+    if (!(words >> record >> residue >> chain >> number >> area) || record != "RES") continue;
+    ASSERT_LT(n, ours.size());
+    EXPECT_NEAR(std::stod(ours[n++].at("relative_sas_area")), area / greatest.at(residue), 1e-3) << line;
+  }
+  EXPECT_EQ(n, 76u);
+  // The same of the accessible surface; never of areas of another surface or probe.
+  for (std::size_t k = 0; const auto& row : residues({kUbiquitin, "--radii", "protor", "--surface", "sas"}))
+    EXPECT_NEAR(std::stod(row.at("relative_sas_area")), std::stod(ours[k++].at("relative_sas_area")), 2e-6);
+  for (std::vector<std::string> other :
+       {std::vector<std::string>{"--surface", "vdw"}, {"--probe", "1.5"}, {"--surface", "sas", "--probe", "1.5"}}) {
+    other.insert(other.begin(), kUbiquitin);
+    EXPECT_FALSE(residues(other).front().contains("relative_sas_area"));
+  }
+  // In the presence of others, and what they bury; nothing for parts of residues and what is no amino acid.
+  for (const auto& row : residues({kToxin, "--select", "chain D", "--context", "chain E"}))
+    EXPECT_NEAR(std::stod(row.at("relative_sas_area")) - std::stod(row.at("relative_sas_area_in_context")),
+                std::stod(row.at("relative_sas_area_buried")), 2e-6);
+  for (const auto& row : residues({kUbiquitin, "--keep-water", "--select", "water or name N CA"}))
+    EXPECT_EQ(row.at("relative_sas_area"), "");
+}
+
 TEST(Csv, NamesWithCommasAndQuotesStayInTheirCells) {
   const TemporaryFolder folder;
   const ProgramResult result = surface(

@@ -243,6 +243,10 @@ TEST_F(ColorCommand, WhatCannotBeIsRefusedWithItsReason) {
       {{"--color", "#102030", "--legend"}, 2, "nothing to explain"},
       {{"--color", "chain A=lipophilicity"}, 2, "'lipophilicity' cannot colour some of the atoms"},
       {{"--color", "lipophilicity", "--extent", "visible"}, 2, "--color lipophilicity needs the complete surface"},
+      {{"--color", "relative-accessibility"}, 3, "has no complete amino acids"},
+      {{"--color", "relative-accessibility", "--probe", "1.5"}, 2, "needs accessible areas by a probe of 1.4 Å"},
+      {{"--color", "relative-accessibility", "--surface", "vdw"}, 2, "leave out --probe and --surface vdw"},
+      {{"--color", "chain A=relative-accessibility"}, 2, "it colours the whole surface"},
       {{"--object", R"({"representation": "surface", "selection": "all", "color": "lipophilicity"})"},
        2,
        "cannot be lipophilicity"},
@@ -323,6 +327,18 @@ TEST_F(ColorCommand, GradesOfConservationComeFromATable) {
   const ProgramResult without = render("r.png", {"--color", "conservation"});
   EXPECT_EQ(without.exit_code, 2);
   EXPECT_NE(without.err.find("conservation needs --color-by-file"), std::string::npos) << without.err;
+}
+
+TEST_F(ColorCommand, RelativeAccessibilityIsThatOfTheTable) {
+  file_ = "/usr/share/freesasa/test-data/1ubq.pdb";
+  const ProgramResult table = meniscus({"surface", file_, "--csv-residues", path("residues.csv"), "-q"});
+  ASSERT_EQ(table.exit_code, 0) << table.err;
+  const std::string shown = picture({"--color", "relative-accessibility"});
+  EXPECT_EQ(shown, picture({"--color-by-file", path("residues.csv"), "--color-column", "relative_sas_area",
+                            "--color-range", "0:1"}));
+  EXPECT_EQ(shown, picture({"--color", "relative-accessibility", "--surface", "ses", "--color-range", "0:1"}));
+  EXPECT_NE(picture({"--color", "relative-accessibility", "--legend"}), shown);
+  picture({"--color", "relative-accessibility", "--sticks", "resname LYS", "--spheres", "water and resid 77-90"});
 }
 
 TEST_F(ColorCommand, LegendsGoWithEveryScheme) {

@@ -34,10 +34,10 @@ Mesh = collections.namedtuple("Mesh", "positions normals atoms triangles")
 
 
 def rows(path, width):
-    """Two lines are thrown away, the third begins with the number of rows; all others are rows."""
+    """Two lines are thrown away, the third is the number of rows, as propermab reads it; all others are rows."""
     lines = path.read_text().splitlines()
     found = [line.split() for line in lines[3:]]
-    assert len(found) == int(lines[2].split()[0]) and {len(row) for row in found} == {width}, path
+    assert len(found) == int(lines[2]) and {len(row) for row in found} == {width}, path
     return found
 
 
@@ -111,6 +111,21 @@ class NanoShaper(Folder):
             with_the_normals += dot(cross(minus(b, a), minus(c, a)), mesh.normals[triangle[0]]) > 0
         self.assertGreater(with_the_normals, 0.98 * len(mesh.triangles))
         self.assertTrue(all(abs(dot(normal, normal) - 1) < 0.005 for normal in mesh.normals))
+
+    def test_every_line_is_as_in_the_sources_of_nanoshaper(self):
+        """fprintf of Surface::saveMesh, versions 0.8.1 and 1.5; only the date in line 1 is not there."""
+        mesh = self.shape(scale=1.0)
+        first = r"# File created by NanoShaper version \d\S* .*"
+        vert = (self.folder / "triangulatedSurf.vert").read_text().split("\n")
+        self.assertRegex(vert[0], first)
+        self.assertEqual(vert[1:3], ["#vertex", str(len(mesh.positions))])
+        for line, position, normals, atom in zip(vert[3:], mesh.positions, mesh.normals, mesh.atoms):
+            self.assertEqual(line, "%9.3f %9.3f %9.3f %9.3f %9.3f %9.3f %7d %7d %2d " % (*position, *normals, 0, atom, 0))
+        face = (self.folder / "triangulatedSurf.face").read_text().split("\n")
+        self.assertRegex(face[0], first)
+        self.assertEqual(face[1:3], ["#faces", str(len(mesh.triangles))])
+        for line, corners in zip(face[3:], mesh.triangles):
+            self.assertEqual(line, "%6d %6d %6d %2d %6d" % (*(corner + 1 for corner in corners), 1, 1))
 
     def test_spheres_are_those_that_the_probe_touches(self):
         mesh = self.shape(scale=1.0)
@@ -221,10 +236,11 @@ Max_skin_patches_per_auxiliary_grid_2d_cell = 2000
         settings.write_text(as_msms.replace("MSMS_Format = true", "MSMS_Format = false") + "Root_FileName = tmp/vmdns.7.\n")
         self.good(BUILD / "meniscus-nanoshaper", cwd=self.folder)
         self.assertEqual([path.name for path in (self.folder / "tmp").iterdir()], ["vmdns.7.triangulatedSurf.off"])
-        words = (self.folder / "tmp/vmdns.7.triangulatedSurf.off").read_text().split()
-        count, triangles, edges = map(int, words[1:4])
-        self.assertEqual((words[0], count, triangles, edges), ("OFF", len(mesh.positions), len(mesh.triangles), 0))
-        numbers = list(map(float, words[4:]))
+        lines = (self.folder / "tmp/vmdns.7.triangulatedSurf.off").read_text().split("\n")
+        self.assertRegex("|".join(lines[:3]), r"^OFF\|# File created by NanoShaper version \d\S* .*\|$")
+        count, triangles, edges = map(int, lines[3].split())
+        self.assertEqual((count, triangles, edges), (len(mesh.positions), len(mesh.triangles), 0))
+        numbers = list(map(float, " ".join(lines[4:]).split()))
         self.assertEqual([tuple(numbers[3 * n:3 * n + 3]) for n in range(count)], mesh.positions)
         rows = [tuple(map(int, numbers[3 * count + 4 * n:3 * count + 4 * n + 4])) for n in range(triangles)]
         self.assertEqual(rows, [(3, *triangle) for triangle in mesh.triangles])

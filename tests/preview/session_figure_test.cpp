@@ -357,7 +357,7 @@ TEST_F(FigureSession, WhatItCannotShowIsRefusedInOneLine) {
     EXPECT_EQ(reply.value("error", std::string()).find('\n'), std::string::npos) << reply;
     EXPECT_EQ(state(), before) << command;
   };
-  for (const char* scheme : {"buried", "rmsf", "component"})
+  for (const char* scheme : {"buried", "rmsf", "relative-accessibility", "component"})
     refused(std::string(R"({"command":"color","scheme":")") + scheme + "\"}", "needs more than atoms");
   refused(R"({"command":"paint","selection":"all","color":"buried"})", "needs more than atoms");
   refused(R"({"command":"object","object":{"selection":"ligand","color":"rmsf"}})", "needs more than atoms");
@@ -403,7 +403,7 @@ TEST_F(FigureSession, SchemesThatAreOfferedAreThoseItCanShow) {
     return words;
   };
   const std::set<std::string> words = offered(*session_);
-  for (const char* word : {"buried", "rmsf", "component", "volume", "copy", "file"})
+  for (const char* word : {"buried", "rmsf", "relative-accessibility", "component", "volume", "copy", "file"})
     EXPECT_FALSE(words.contains(word)) << word;
   for (const char* word : {"element", "chain", "bfactor"}) EXPECT_TRUE(words.contains(word)) << word;
   // Of the others the reason is told.

@@ -97,6 +97,20 @@ TEST(AtomAreas, AccessibleAreaIsThatOfTheUnionOfGrownBalls) {
   }
 }
 
+TEST(AtomAreas, AccessibleAreaOfBallsThatAreTinyBesideTheProbeIsExact) {
+  for (const double radius : {1e-2, 1e-4, 1e-6}) {
+    SCOPED_TRACE(radius);
+    Balls balls = ubiquitin();
+    for (std::size_t n = 0; n < balls.size(); ++n) balls[n].radius = n % 3 ? radius : 1.7;
+    const Surface ses = compute_surface_cpu(balls, kWater);
+    for (Ball& ball : balls) ball.radius += kWater;
+    const Surface sas = compute_surface_cpu(balls, 0.0);
+    const AtomAreas of_ses = atom_areas(ses), of_sas = atom_areas(sas);
+    EXPECT_NEAR(accessible_area(ses), sas.area, 1e-12 * sas.area);
+    for (std::size_t n = 0; n < balls.size(); ++n) EXPECT_NEAR(of_ses.accessible[n], of_sas.surface[n], 1e-11);
+  }
+}
+
 // The atom whose contact direction is nearest to a point of a re-entrant patch, by its definition.
 std::uint32_t owner(const Surface& s, const ConcavePatch& patch, const glm::dvec3& point) {
   std::uint32_t best = 0;

@@ -20,6 +20,10 @@ class Errors(unittest.TestCase):
             meniscus.surface(chain(5)[0], -radii)
         with self.assertRaisesRegex(meniscus.InputError, "probe_radius: -1 Å is negative"):
             meniscus.surface(*chain(5), probe=-1.0)
+        for kind in ("ses", "sas"):
+            with self.assertRaisesRegex(meniscus.InputError, 'probe is 0; kind="vdw" is the surface without a probe'):
+                meniscus.surface(*chain(5), probe=0, kind=kind)
+        self.assertEqual(meniscus.surface(*chain(5), probe=0, kind="vdw").probe, 0)
         with self.assertRaisesRegex(meniscus.UsageError, "kind is 'lee', none of ses, sas, vdw"):
             meniscus.surface(*chain(5), kind="lee")
         with self.assertRaisesRegex(meniscus.InputError, "tolerance is 9"):

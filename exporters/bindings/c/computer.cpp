@@ -30,6 +30,10 @@ void check_probe(double radius) {
   if (!std::isfinite(radius)) refuse(MENISCUS_INPUT, "probe_radius is {}, not a finite number", radius);
   const std::string fault = probe_fault(radius);
   if (!fault.empty()) refuse(MENISCUS_INPUT, "probe_radius: {}", fault);
+  if (radius == 0.0)
+    refuse(MENISCUS_INPUT,
+           "probe_radius is 0; set it (MENISCUS_OPTIONS_INIT has {} Å), or choose MENISCUS_VDW, which has no probe",
+           kDefaults.probe_radius);
 }
 
 meniscus_options checked(const meniscus_options* given) {

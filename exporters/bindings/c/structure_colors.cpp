@@ -16,8 +16,8 @@ namespace meniscus::c_api {
 
 std::vector<glm::vec3> structure_colors(const Structure& structure, std::string_view scheme) {
   using By = ColorScheme::By;
-  constexpr std::array kOfMore{By::kind, By::component,    By::buried,       By::rmsf,
-                               By::file, By::conservation, By::lipophilicity};
+  constexpr std::array kOfMore{By::kind,          By::component, By::buried,       By::rmsf,
+                               By::accessibility, By::file,      By::conservation, By::lipophilicity};
   const std::optional<ColorScheme> by = parse_color_scheme(scheme);
   if (!by) refuse(MENISCUS_USAGE, "scheme: {} is not one of {}", in_quotes(scheme), color_scheme_words());
   if (std::ranges::find(kOfMore, by->by) != kOfMore.end())

@@ -39,7 +39,8 @@ def meniscus(session, atoms=None, *, probe_radius=1.4, tolerance=0.05):
     models = []
     for structure, part in (in_chains if len(in_chains) else atoms).by_structure:
         try:
-            exact = library.surface(part.coords, part.radii.astype(float), probe_radius)
+            kind = "ses" if probe_radius > 0 else "vdw"
+            exact = library.surface(part.coords, part.radii.astype(float), probe_radius, kind=kind)
             vertices, normals, triangles, colors = geometry(exact.mesh(tolerance), part.colors)
         except library.Error as error:
             raise UserError(str(error)) from error
@@ -48,9 +49,10 @@ def meniscus(session, atoms=None, *, probe_radius=1.4, tolerance=0.05):
         model.vertex_colors = colors
         structure.add([model])
         models.append(model)
+        accessible = exact.atom_sas_areas if kind == "ses" else exact.atom_areas
         session.logger.info(
             f"{structure}: {len(part)} atoms, probe {probe_radius:g} Å: solvent-excluded area {exact.area:.2f} Å², "
-            f"volume {exact.volume:.2f} Å³; solvent-accessible area {exact.atom_sas_areas.sum():.2f} Å²", is_html=False)
+            f"volume {exact.volume:.2f} Å³; solvent-accessible area {accessible.sum():.2f} Å²", is_html=False)
     if not models:
         raise UserError("there are no atoms")
     return models

@@ -51,10 +51,85 @@ TEST(Lipophilicity, OfAminoAcidsIsThatOfRdkit) {
   }
   EXPECT_EQ(lipophilicity("ASP", "OD1"), lipophilicity("ASP", "OD2"));
   EXPECT_EQ(lipophilicity("HID", "NE2"), lipophilicity("HIS", "NE2"));
+  EXPECT_NEAR(lipophilicity("HIP", "ND1") + lipophilicity("HSP", "NE2"), -1.0145, 1e-9);  // of imidazolium
+  EXPECT_EQ(lipophilicity("HIP", "CD2"), lipophilicity("HIS", "CD2"));
+  EXPECT_EQ(lipophilicity("CYM", "SG"), -0.0024);
   EXPECT_EQ(lipophilicity("LEU", "HD11"), 0.0);
   EXPECT_EQ(lipophilicity("LEU", "1HD1"), 0.0);
   for (const auto& [residue, name] : {std::pair{"HEM", "FE"}, {"LEU", "XX"}, {"", ""}, {"HOH", "O"}, {"DA", "P"}})
     EXPECT_TRUE(std::isnan(lipophilicity(residue, name))) << residue << " " << name;
+}
+
+/// Adds atoms of one residue: "N CA C O", the first at x, the next 2.1 Å on; "O" and what follows it lies beside.
+void add_residue(Structure& structure, const char* chain, const char* residue, double x, const std::string& names) {
+  const std::uint32_t number = structure.atoms.empty() ? 0 : structure.atoms.back().residue + 1;
+  std::istringstream words(names);
+  double beside = 0.0;
+  for (std::string name; words >> name;) {
+    Atom atom;
+    atom.index = static_cast<std::uint32_t>(structure.atoms.size());
+    atom.chain = chain;
+    atom.residue_name = residue;
+    atom.residue = number;
+    atom.residue_number = static_cast<std::int32_t>(number);
+    atom.name = name;
+    atom.kind = AtomClass::polymer;
+    atom.element = name[0] == 'H' ? 1 : name[0] == 'N' ? 7 : name[0] == 'O' ? 8 : name[0] == 'S' ? 16 : 6;
+    const double y = 8.0 * (chain[0] - 'A');
+    if (name == "N" || name == "CA" || name == "C" || name == "CH3") {
+      atom.position = {x + (name == "N" || name == "CH3" ? 0.0 : name == "CA" ? 2.1 : 4.2), y, 0.0};
+    } else if (name == "SG") {
+      atom.position = {x + 2.1, y + 0.9, 2.5};
+    } else if (atom.element == 1) {  // at the nitrogen, or at OXT
+      atom.position = name == "HXT" ? glm::dvec3(x + 4.2, y + 2.1, 0.95) : glm::dvec3(x, y + 0.6, beside += 0.4);
+    } else {
+      const bool is_oxygen = name[0] == 'O';
+      atom.position = {x + (is_oxygen      ? 4.2
+                            : name == "CD" ? 0.0
+                                           : 2.1),
+                       y + (name == "OXT" || name.back() == '2' ? 2.1 : -2.1), 0.0};
+    }
+    structure.atoms.push_back(atom);
+  }
+}
+
+TEST(Lipophilicity, EndsOfChainsAndDisulphidesAreFoundByPlaceAndBonds) {
+  Structure s;
+  constexpr double kNext = 6.3;
+  add_residue(s, "A", "GLY", 0, "N CA C O");
+  add_residue(s, "A", "CYS", kNext, "N CA C O CB SG");
+  add_residue(s, "A", "ALA", 2 * kNext, "N CA C O OXT CB");
+  add_residue(s, "B", "PRO", 0, "N CA C O CB CG CD");
+  add_residue(s, "B", "CYS", kNext, "N CA C O CB SG");  // the chain is not complete: no OXT
+  s.atoms.back().position = {kNext + 2.1, 2.9, 2.5};    // 2 Å from that of chain A
+  add_residue(s, "C", "ALA", 0, "N H1 H2 H3 CA C O CB");
+  add_residue(s, "C", "CYS", kNext, "N H CA C O OXT HXT CB SG");
+  add_residue(s, "D", "ACE", 0, "CH3 C O");
+  add_residue(s, "D", "ALA", kNext, "N CA C OC1 OC2 CB");
+  add_residue(s, "E", "ALA", 0, "N H CA C O CB");  // its hydrogen says that a residue before it is not there
+  add_residue(s, "E", "ALA", 3 * kNext, "N CA C OT1 OT2 CB");  // after a gap
+  const std::vector<double> found = lipophilicities(s);
+  const auto value = [&](std::uint32_t residue, const char* name) {
+    for (std::size_t a = 0; a < s.atoms.size(); ++a)
+      if (s.atoms[a].residue == residue && s.atoms[a].name == name) return found[a];
+    return std::nan("");
+  };
+  // RDKit 2026.09, as above: [NH3+], [NH2+] of proline, amides; O- and O of carboxylates in halves; COOH; CSSC.
+  const struct {
+    std::uint32_t residue;
+    const char* name;
+    double value;
+  } wanted[] = {{0, "N", -1.3074},  {0, "O", -0.1526},    {1, "N", -0.4954},   {1, "SG", 0.6482},   {2, "N", -0.4954},
+                {2, "O", -0.7393},  {2, "OXT", -0.7393},  {3, "N", -1.5216},   {4, "N", -0.4954},   {4, "O", -0.1526},
+                {4, "SG", 0.6482},  {5, "N", -1.3074},    {6, "N", -0.4954},   {6, "O", -0.1526},   {6, "OXT", 0.0087},
+                {6, "SG", 0.3805},  {8, "N", -0.4954},    {8, "OC1", -0.7393}, {8, "OC2", -0.7393}, {9, "N", -0.4954},
+                {10, "N", -0.4954}, {10, "OT1", -0.7393}, {10, "OT2", -0.7393}};
+  for (const auto& [residue, name, number] : wanted)
+    EXPECT_NEAR(value(residue, name), number, 1e-9) << residue << " " << name;
+  EXPECT_TRUE(std::isnan(value(7, "C")));
+  const auto paint = lipophilicity_paint(s, scheme("lipophilicity"));
+  const glm::dvec3 at_end = s.atoms[0].position - glm::dvec3(2, 0, 0);
+  EXPECT_LT(paint->value(at_end, {1, 0, 0}), -0.1) << "an ammonium is hydrophilic";
 }
 
 Structure three_atoms() {

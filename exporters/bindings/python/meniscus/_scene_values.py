@@ -15,10 +15,10 @@ class SurfaceValues(TypedDict, total=False):
     #: SCHEME: Colour: a scheme, a colour (red, #rrggbb), or EXPR=COLOR. Schemes: element, element-cpk (darker),
     #: chain, copy (of an assembly), residue (type), secondary (helix, strand, coil), plddt (AlphaFold's
     #: confidence), snfg (sugars), bead (of Martini), kind (of patch), component; by a number: bfactor,
-    #: occupancy, charge, hydrophobicity (Kyte & Doolittle 1982), lipophilicity (a potential), index, rainbow
-    #: (along each chain), radial (for capsids). EXPR=COLOR colours some atoms, as in 'ligand=orange';
-    #: 'ligand=orange:ATP' names them in the legend. Repeatable; the last one counts. meniscus colors explains
-    #: the schemes [element]
+    #: occupancy, charge, hydrophobicity (Kyte & Doolittle 1982), lipophilicity (a potential), relative-
+    #: accessibility, index, rainbow (along each chain), radial (for capsids). EXPR=COLOR colours some atoms, as
+    #: in 'ligand=orange'; 'ligand=orange:ATP' names them in the legend. Repeatable; the last one counts.
+    #: meniscus colors explains the schemes [element]
     color: Union[Text, Sequence[Text]]
     #: WORD: Look: publication, cover, flat, soft or classic. publication: shade, thin lines, colours as given;
     #: cover: studio light, highlights; flat: constant colours and lines; soft: matt, no lines; classic: studio

@@ -65,6 +65,8 @@ class Surface:
         options = lib.default("options", lib.Options())
         options.probe_radius, options.threads, options.verify = probe, threads, lib.flag("verify", verify)
         options.kind = lib.word("kind", kind, lib.KINDS)
+        if options.probe_radius == 0 and kind != "vdw":
+            raise InputError('probe is 0; kind="vdw" is the surface without a probe')
         options.device = lib.word("device", device, lib.DEVICES)
         self._kind: Kind = kind
         self._options = (float(options.probe_radius), kind, device, int(options.threads), bool(options.verify))
@@ -281,7 +283,7 @@ class Surface:
     def mesh(self, tolerance: float = 0.01, *, split_colors: bool = True, density: Optional[float] = None,
              even: bool = False) -> Mesh:
         """Triangles that are nowhere farther than `tolerance` (Å) from the surface; with split_colors cut where the
-        nearest atom changes. With `even` nearly equilateral ones, which reach over borders of patches; with a
+        nearest contact changes. With `even` nearly equilateral ones, which reach over borders of patches; with a
         `density` as many of these as make that many vertices per Å² (0.1: about a triangle an atom), whatever the
         distance. InputError where such a mesh cannot be, CapacityError where it does not fit into memory.
 

@@ -5,7 +5,9 @@
  *   meniscus_surface* surface = NULL;
  *   meniscus_summary summary = {.size = sizeof summary};
  *   meniscus_atoms atoms = {.size = sizeof atoms, .count = count, .positions = xyz, .radii = radii};
- *   if (meniscus_computer_new(NULL, &computer) || meniscus_compute(computer, &atoms, &surface) ||
+ *   meniscus_options options = MENISCUS_OPTIONS_INIT;
+ *   options.probe_radius = 1.5;
+ *   if (meniscus_computer_new(&options, &computer) || meniscus_compute(computer, &atoms, &surface) ||
  *       meniscus_surface_summary(surface, &summary))
  *     fprintf(stderr, "%s\n", meniscus_last_error());
  *   else
@@ -24,7 +26,8 @@
  *
  * Structs that are passed begin with their `size`: set it to sizeof. For a caller compiled against an older header,
  * fields that it does not know have their defaults; fields of a newer header that this library does not know are
- * refused if they are set.
+ * refused if they are set. A struct whose fields have defaults, in brackets below, begins as its MENISCUS_..._INIT or
+ * as its meniscus_default_...() fills it in: zeros are not the defaults.
  *
  * Ownership. Objects begin with one reference. _retain adds one, _release removes one (NULL is allowed), and the last
  * frees the object. Arrays that are passed in are read during the call only. Arrays of a surface or a mesh are its own
@@ -123,13 +126,16 @@ typedef enum meniscus_device MENISCUS_WORDS {
 
 typedef struct meniscus_options {
   size_t size;
-  double probe_radius;    /* [1.4], 0 or 0.001 to 100; ignored by MENISCUS_VDW */
+  double probe_radius;    /* [1.4] 0.001 to 100; ignored by MENISCUS_VDW, which alone has no probe */
   meniscus_kind kind;     /* [MENISCUS_SES] */
   meniscus_device device; /* [MENISCUS_CPU] */
   int32_t threads;        /* [0: all] CPU threads, the calling one included */
   int32_t verify;         /* [0] else: also compute on the other device and mesh; every difference is an error */
 } meniscus_options;
 
+/* The defaults, to begin a variable with. */
+#define MENISCUS_OPTIONS_INIT \
+  { sizeof(meniscus_options), 1.4, MENISCUS_SES, MENISCUS_CPU, 0, 0 }
 /* Fills in the defaults, as in brackets. options->size has to be set. */
 MENISCUS_API meniscus_status meniscus_default_options(meniscus_options* options);
 
@@ -389,6 +395,11 @@ typedef struct meniscus_read_options {
   int32_t reserved;                         /* 0 */
 } meniscus_read_options;
 
+#define MENISCUS_READ_OPTIONS_INIT                                                                         \
+  {                                                                                                        \
+    sizeof(meniscus_read_options), NULL, NULL, "best", NULL, NULL, NULL, 0, 0, 1, MENISCUS_HYDROGENS_AUTO, \
+        MENISCUS_UNKNOWN_HALT, 0, 0, 0                                                                     \
+  }
 MENISCUS_API meniscus_status meniscus_default_read_options(meniscus_read_options* options);
 
 /* The atoms of a molecule, as a surface uses them. It never changes. */
@@ -468,6 +479,8 @@ typedef struct meniscus_pocket_options {
   double mouth_tolerance;    /* [0.1] Å, 0.001 to 1: largest error of a mouth's position */
 } meniscus_pocket_options;
 
+#define MENISCUS_POCKET_OPTIONS_INIT \
+  { sizeof(meniscus_pocket_options), 4.0, 1.0, 30.0, 0.1 }
 MENISCUS_API meniscus_status meniscus_default_pocket_options(meniscus_pocket_options* options);
 
 /* Pockets, tunnels and cavities of a molecule: the connected regions that its probe can fill inside the solid that a
@@ -519,12 +532,14 @@ typedef enum meniscus_mesh_method MENISCUS_WORDS {
 typedef struct meniscus_mesh_options {
   size_t size;
   meniscus_mesh_method method; /* [MENISCUS_MESH_BY_PATCH] */
-  int32_t split_colors; /* [1] of MENISCUS_MESH_BY_PATCH: cut triangles where the nearest atom changes, so that colours
-                           change along edges */
+  int32_t split_colors; /* [1] of MENISCUS_MESH_BY_PATCH: cut triangles where the nearest contact changes, so that
+                           colours change along edges */
   double tolerance;     /* [0.01] Å, 0.00001 to 1: no point of the mesh is farther from the surface */
   double density;       /* [0] vertices per Å^2 of the exact area, 0.005 to 1,000 */
 } meniscus_mesh_options;
 
+#define MENISCUS_MESH_OPTIONS_INIT \
+  { sizeof(meniscus_mesh_options), MENISCUS_MESH_BY_PATCH, 1, 0.01, 0.0 }
 MENISCUS_API meniscus_status meniscus_default_mesh_options(meniscus_mesh_options* options);
 
 /* A closed triangle mesh. All vertices lie on the exact surface, which the mesh keeps for meniscus_mesh_save. Triangles
@@ -544,14 +559,14 @@ typedef enum meniscus_mesh_table_id MENISCUS_WORDS {
   MENISCUS_MESH_POSITIONS = 0,           /* double[3] per vertex */
   MENISCUS_MESH_NORMALS = 1,             /* double[3] per vertex, unit, exact; at cusps a mean */
   MENISCUS_MESH_TRIANGLES = 2,           /* uint32_t[3] per triangle: vertices */
-  MENISCUS_MESH_TRIANGLE_ATOMS = 3,      /* uint32_t per triangle: the touched atom that is nearest */
+  MENISCUS_MESH_TRIANGLE_ATOMS = 3,      /* uint32_t per triangle: the atom whose contact is nearest */
   MENISCUS_MESH_TRIANGLE_KINDS = 4,      /* uint8_t per triangle: MENISCUS_KIND_... */
   MENISCUS_MESH_TRIANGLE_FACES = 5,      /* uint32_t per triangle: row of MENISCUS_FACES */
   MENISCUS_MESH_TRIANGLE_PATCHES = 6,    /* uint32_t per triangle: row of the table of its kind */
   MENISCUS_MESH_TRIANGLE_COMPONENTS = 7, /* uint32_t per triangle */
   MENISCUS_MESH_SHARP_CORNERS = 8,       /* uint32_t, ascending: corners (3 * triangle + 0, 1, 2) at cusps, where */
   MENISCUS_MESH_SHARP_NORMALS = 9,       /* double[3]: these are the exact normals */
-  MENISCUS_MESH_VERTEX_ATOMS = 10        /* uint32_t per vertex: the touched atom that is nearest; where several are
+  MENISCUS_MESH_VERTEX_ATOMS = 10        /* uint32_t per vertex: the atom whose contact is nearest; where several are
                                             equally near the first */
 } meniscus_mesh_table_id;
 
@@ -574,6 +589,8 @@ typedef struct meniscus_mesh_file {
   int32_t replace;          /* [0: refuse] else: replace an existing file */
 } meniscus_mesh_file;
 
+#define MENISCUS_MESH_FILE_INIT \
+  { sizeof(meniscus_mesh_file), NULL, "usual", NULL, 1.0, {0.75f, 0.82f, 0.9f}, 0 }
 MENISCUS_API meniscus_status meniscus_default_mesh_file(meniscus_mesh_file* file);
 
 /* Writes a mesh, completely or not at all. Edges shorter than 0.001 Å and triangles without area in single precision

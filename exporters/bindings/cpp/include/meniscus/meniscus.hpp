@@ -346,7 +346,7 @@ class Mesh {
   std::span<const std::array<std::uint32_t, 3>> triangles() const {
     return table<std::array<std::uint32_t, 3>>(MENISCUS_MESH_TRIANGLES);
   }
-  // Of each triangle the touched atom that is nearest.
+  // Of each triangle the atom whose contact is nearest.
   std::span<const std::uint32_t> triangle_atoms() const { return table<std::uint32_t>(MENISCUS_MESH_TRIANGLE_ATOMS); }
   // MENISCUS_KIND_... of each triangle.
   std::span<const std::uint8_t> triangle_kinds() const { return table<std::uint8_t>(MENISCUS_MESH_TRIANGLE_KINDS); }
@@ -360,7 +360,7 @@ class Mesh {
   std::span<const std::uint32_t> triangle_components() const {
     return table<std::uint32_t>(MENISCUS_MESH_TRIANGLE_COMPONENTS);
   }
-  // Of each vertex the touched atom that is nearest.
+  // Of each vertex the atom whose contact is nearest.
   std::span<const std::uint32_t> vertex_atoms() const { return table<std::uint32_t>(MENISCUS_MESH_VERTEX_ATOMS); }
   // Corners (3 * triangle + 0, 1, 2) at cusps, ascending, and the exact normals there.
   std::span<const std::uint32_t> sharp_corners() const { return table<std::uint32_t>(MENISCUS_MESH_SHARP_CORNERS); }
