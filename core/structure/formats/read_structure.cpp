@@ -143,10 +143,9 @@ void mark_shown(std::vector<Atom>& atoms, std::span<const ShownAtoms> shown, con
 /// What each atom is left out for, in the order of the reasons in structure.h.
 void choose_atoms(std::vector<Atom>& atoms, std::vector<Atom>& beside, const ReadOptions& options,
                   const RadiiChoice& radii, ReadReport& report, const std::string& path, Meaning meaning) {
-  const std::vector<char> altlocs = kept_altlocs(atoms, options.altloc);
-  const bool all_altlocs = options.altloc.rule == AltlocChoice::Rule::all;
+  const std::vector<bool> of_kept_altlocs = kept_alternates(atoms, options.altloc, report.warnings);
   leave_out(atoms, beside, report, [&](std::size_t n) -> const char* {
-    if (atoms[n].altloc != ' ' && atoms[n].altloc != altlocs[atoms[n].residue] && !all_altlocs) return kExcludedAltloc;
+    if (!of_kept_altlocs[n]) return kExcludedAltloc;
     return !radii.from_molecule_file() && is_virtual_site(atoms[n]) ? kExcludedVirtual : nullptr;
   });
   if (options.secondary_structure) assign_secondary_structure(atoms);
