@@ -98,7 +98,9 @@ class AlternateResidue {
     std::string words;
     for (const bool hydrogens : {false, true})
       for (const Conformer& other : conformers_) words += complete(first.residue_name, other, hydrogens);
-    return words.empty() ? words : label_of(first) + " of " + escaped(std::string(1, best.letter)) + " with" + words;
+    if (words.empty()) return words;
+    return fmt::format("{} {}{}:{} beside {}", escaped(first.residue_name), escaped(first.chain), first.residue_number,
+                       words, escaped(std::string(1, best.letter)));
   }
 
  private:

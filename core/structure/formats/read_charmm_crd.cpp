@@ -105,9 +105,8 @@ FileContents read(const TextFile& file, const ModelChoice& models) {
 
 const Reader kCharmmCrdReader{
     {"CRD", ".crd .cor", "coordinates of CHARMM (CARD), with names", "CHARMM documentation, io.info: coordinate files",
-     "titles, count, atoms in fixed columns of both widths (EXT); segments are the chains; elements are guessed from "
-     "the "
-     "names; weights are ignored; alone, or as --trajectory of a PSF"},
+     "titles, count, atoms in fixed columns of both widths (EXT); segments are the chains, elements guessed by name; "
+     "alone, or as --trajectory of a PSF"},
     recognizes,
     read};
 

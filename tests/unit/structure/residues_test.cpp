@@ -78,8 +78,8 @@ TEST(Altloc, AResidueIsCompletedByName) {
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(
       warnings.front().text,
-      "1 residue has atoms that the chosen alternate location lacks; they are taken from the next (first: 'CB' in "
-      "SER A2 of B with N CA C O of A)");
+      "1 residue has atoms that the chosen alternate location lacks; they are taken from the next (first: SER A2: "
+      "N CA C O of A beside B)");
   EXPECT_EQ(kept_of(kSerine, "C"), (Names{"N.A", "CA.A", "C.A", "O.A", "CB.C", "OG.C"}));
   EXPECT_EQ(kept_of(kSerine, "A", &warnings), (Names{"N.A", "CA.A", "C.A", "O.A", "CB.A", "OG.A"}));
   EXPECT_TRUE(warnings.empty());
