@@ -141,7 +141,7 @@ void print_structure(const SceneCommand& command, Trajectory* trajectory) {
 
 void run(const SceneCommand& command, const std::string& trajectory_path) {
   const bool alone = trajectory_path.empty() && !bare_trajectory_format(command.scene.molecule.file).empty();
-  TrajectoryOptions opening{cache_folder()};
+  TrajectoryOptions opening{cache_folder(), {}, true};
   if (!alone) opening.atoms = [&] { return count_atoms(command.scene.molecule.file, std::nullopt); };
   std::unique_ptr<Trajectory> trajectory;
   if (alone || !trajectory_path.empty())

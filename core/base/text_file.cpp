@@ -46,22 +46,6 @@ std::string read_standard_input(const std::string& path, std::size_t largest) {
   return bytes;
 }
 
-void refuse_other_containers(const std::string& path, std::string_view bytes) {
-  constexpr std::pair<std::string_view, const char*> kContainers[] = {{"BZh", "bzip2"},
-                                                                      {"\xfd"
-                                                                       "7zXZ",
-                                                                       "xz"},
-                                                                      {"\x28\xb5\x2f\xfd", "zstd"},
-                                                                      {"PK\x03\x04", "zip"}};
-  for (const auto& [magic, name] : kContainers) {
-    if (bytes.starts_with(magic))
-      throw InputError(path, 0, fmt::format("is packed with {}; only gzip is read, unpack it first", name));
-  }
-  if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff")) {
-    throw InputError(path, 0, "is UTF-16 text; save it as UTF-8 or ASCII");
-  }
-}
-
 void unify_line_ends(std::string& text) {
   if (text.find('\r') == std::string::npos) return;
   std::size_t out = 0;
@@ -106,7 +90,9 @@ TextFile text_of_bytes(const std::string& path, std::string bytes) {
   TextFile file{path, std::move(bytes)};
   std::string& text = file.text;
   if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
-  refuse_other_containers(path, text);
+  refuse_packed(path, text);
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+    throw InputError(path, 0, "is UTF-16 text; save it as UTF-8 or ASCII");
   if (const std::size_t nul = text.find('\0'); nul != std::string::npos) {
     throw InputError(path, 0, fmt::format("is binary, not text: byte {} is zero; molecule files are text", nul));
   }

@@ -166,7 +166,7 @@ FrameRun::FrameRun(const MoleculeRequest& molecule, const RunRequest& request, b
       interpolates_(request.interpolate > 1),
       velocities_(velocities) {
   check_options(molecule, request);
-  TrajectoryOptions options{request.index_folder};
+  TrajectoryOptions options{request.index_folder, {}, request.trust_atom_order};
   if (!request.trajectories.empty())
     options.atoms = [&] { return count_atoms(molecule.file, request.trajectory_atoms); };
   trajectory_ = open_all(request.trajectories.empty() ? std::vector{molecule.file} : request.trajectories, options);

@@ -194,12 +194,12 @@ class MoleculeBonds {
   MoleculeBonds(std::span<const Atom> atoms, std::span<const std::int32_t> fully_bonded)
       : atoms_(atoms), fully_bonded_(fully_bonded.begin(), fully_bonded.end()), standard_(atoms.size()) {
     positions_.reserve(atoms.size());
+    std::map<std::pair<std::uint32_t, std::string_view>, char> letters;  // of each atom of a residue by its name
     for (const Atom& atom : atoms) {
       positions_.push_back(atom.position);
-      if (atom.residue >= letter_.size()) letter_.resize(atom.residue + 1, ' ');
-      char& letter = letter_[atom.residue];
-      if (atom.altloc == ' ' || atom.altloc == letter) continue;
-      letter = letter == ' ' ? atom.altloc : kSeveral;
+      if (atom.altloc == ' ') continue;
+      const auto [first, is_new] = letters.try_emplace({atom.residue, atom.name}, atom.altloc);
+      if (!is_new && first->second != atom.altloc) of_several_.insert(atom.residue);
     }
   }
 
@@ -263,8 +263,6 @@ class MoleculeBonds {
   }
 
  private:
-  static constexpr char kSeveral = '\0';
-
   bool may_have_more(const Atom& atom) const { return !fully_bonded_.contains(atom.model); }
 
   bool binds_by_distance(const Atom& atom) const {
@@ -274,7 +272,7 @@ class MoleculeBonds {
   bool of_one_molecule(const Atom& a, const Atom& b) const {
     if (a.model != b.model || a.copy != b.copy) return false;
     if (a.altloc == b.altloc || a.altloc == ' ' || b.altloc == ' ') return true;
-    return a.residue != b.residue && letter_[a.residue] != kSeveral && letter_[b.residue] != kSeveral;
+    return !of_several_.contains(a.residue) && !of_several_.contains(b.residue);
   }
 
   bool add(std::uint32_t a, std::uint32_t b) {
@@ -287,8 +285,8 @@ class MoleculeBonds {
   std::span<const Atom> atoms_;
   std::set<std::int32_t> fully_bonded_;
   std::vector<glm::dvec3> positions_;
-  std::vector<bool> standard_;  ///< in a bond of a template
-  std::vector<char> letter_;    ///< of each residue's alternate location; blank: it has none
+  std::vector<bool> standard_;          ///< in a bond of a template
+  std::set<std::uint32_t> of_several_;  ///< residues that have an atom in several alternate locations
   std::vector<Bond> bonds_;
 };
 

@@ -31,8 +31,8 @@ std::vector<Bond> guessed_bonds(std::span<const Atom> atoms, std::span<const glm
 /// standard residue: no farther apart than the covalent radii (B. Cordero et al., Dalton Trans. 2008, 2832) and 0.4 Å;
 /// between standard residues, as in disulphides and cross-links, 0.2 Å. No distance binds two hydrogens, a free ion, an
 /// atom of unknown element, or what is within 0.5 Å, which are duplicates. Never across models, copies, or
-/// alternate locations: of two atoms with different letters, not if one residue has both of them or either has several.
-/// Nothing longer than kLongestBond, which crosses a periodic box. O(n) for molecules. fully_bonded: models
+/// alternate locations: of two atoms with different letters, not if the residue of either has an atom in several of
+/// them. Nothing longer than kLongestBond, which crosses a periodic box. O(n) for molecules. fully_bonded: models
 /// (Atom::model) that have no others than those listed.
 std::vector<Bond> molecule_bonds(std::span<const Atom> atoms, std::span<const Bond> listed,
                                  std::span<const std::int32_t> fully_bonded = {});

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "core/base/text.h"
 #include "core/structure/element_tables.h"
 #include "core/structure/residue_names.h"
 #include "core/structure/structure.h"
@@ -69,20 +70,80 @@ namespace {
 struct Conformer {
   char letter;
   double occupancy = 0.0, b_factor = 0.0;  ///< sums; missing ones count as 1 and 0
-  int atoms = 0;
+  std::vector<std::uint32_t> atoms{};
 
-  auto rank() const { return std::make_tuple(-occupancy / atoms, b_factor / atoms, letter); }
+  double mean_occupancy() const { return occupancy / static_cast<double>(atoms.size()); }
+  auto rank() const { return std::make_tuple(-mean_occupancy(), b_factor / static_cast<double>(atoms.size()), letter); }
 };
 
-char chosen(const std::vector<Conformer>& conformers, const AltlocChoice& choice) {
-  if (choice.rule == AltlocChoice::Rule::first) return conformers.front().letter;
-  const bool there = std::any_of(conformers.begin(), conformers.end(),
-                                 [&](const Conformer& conformer) { return conformer.letter == choice.letter; });
-  if (choice.rule == AltlocChoice::Rule::letter && there) return choice.letter;
-  return std::min_element(conformers.begin(), conformers.end(),
-                          [](const Conformer& a, const Conformer& b) { return a.rank() < b.rank(); })
-      ->letter;
-}
+/// A residue with alternate locations, in the order of the file, while its atoms are chosen.
+class AlternateResidue {
+ public:
+  AlternateResidue(const std::vector<Atom>& atoms, std::vector<bool>& kept) : atoms_(atoms), kept_(kept) {}
+
+  void add(std::uint32_t n) {
+    const Atom& atom = atoms_[n];
+    if (atom.altloc == ' ') return keep(n);
+    auto found = std::ranges::find(conformers_, atom.altloc, &Conformer::letter);
+    if (found == conformers_.end()) found = conformers_.insert(found, Conformer{atom.altloc});
+    found->occupancy += std::isnan(atom.occupancy) ? 1.0 : atom.occupancy;
+    found->b_factor += std::isnan(atom.b_factor) ? 0.0 : atom.b_factor;
+    found->atoms.push_back(n);
+  }
+
+  /// What was taken from other alternate locations than the chosen one, in words; empty: nothing.
+  std::string choose(const AltlocChoice& choice) {
+    const Conformer best = *chosen(choice);
+    for (const std::uint32_t n : best.atoms) keep(n);
+    const Atom& first = atoms_[best.atoms.front()];
+    std::ranges::stable_sort(conformers_, std::ranges::greater{}, &Conformer::mean_occupancy);
+    std::string words;
+    for (const bool hydrogens : {false, true})
+      for (const Conformer& other : conformers_) words += complete(first.residue_name, other, hydrogens);
+    if (words.empty()) return words;
+    return fmt::format("{} {}{}:{} beside {}", escaped(first.residue_name), escaped(first.chain), first.residue_number,
+                       words, escaped(std::string(1, best.letter)));
+  }
+
+ private:
+  void keep(std::uint32_t n) {
+    kept_[n] = true;
+    names_.insert(atoms_[n].name);
+  }
+
+  std::vector<Conformer>::const_iterator chosen(const AltlocChoice& choice) const {
+    if (choice.rule == AltlocChoice::Rule::first) return conformers_.begin();
+    const auto wanted = std::ranges::find(conformers_, choice.letter, &Conformer::letter);
+    if (choice.rule == AltlocChoice::Rule::letter && wanted != conformers_.end()) return wanted;
+    return std::ranges::min_element(conformers_, {}, &Conformer::rank);
+  }
+
+  std::string complete(const std::string& residue_name, const Conformer& from, bool hydrogens) {
+    std::string names;
+    for (const std::uint32_t n : from.atoms) {
+      const Atom& atom = atoms_[n];
+      if (atom.residue_name != residue_name || (atom.element == 1) != hydrogens || names_.contains(atom.name)) continue;
+      if (hydrogens && !has_bonded_atom(n, from)) continue;
+      keep(n);
+      names += ' ' + escaped(atom.name);
+    }
+    return names.empty() ? names : fmt::format("{} of {}", names, escaped(std::string(1, from.letter)));
+  }
+
+  /// H and D, which share a place in structures by neutrons, have two names, and hydrogens on a common atom turn.
+  bool has_bonded_atom(std::uint32_t hydrogen, const Conformer& from) const {
+    constexpr double kLongestToHydrogen = 1.6;  // Å
+    return std::ranges::any_of(from.atoms, [&](std::uint32_t n) {
+      return kept_[n] && atoms_[n].element != 1 &&
+             glm::distance(atoms_[n].position, atoms_[hydrogen].position) <= kLongestToHydrogen;
+    });
+  }
+
+  const std::vector<Atom>& atoms_;
+  std::vector<bool>& kept_;
+  std::vector<Conformer> conformers_;
+  std::set<std::string_view> names_;  ///< of the atoms that are kept
+};
 
 }  // namespace
 
@@ -95,22 +156,26 @@ std::optional<AltlocChoice> parse_altloc_choice(std::string_view text) {
   return std::nullopt;
 }
 
-std::vector<char> kept_altlocs(const std::vector<Atom>& atoms, const AltlocChoice& choice) {
-  std::uint32_t residues = 0;
-  std::map<std::uint32_t, std::vector<Conformer>> conformers;
-  for (const Atom& atom : atoms) {
-    residues = std::max(residues, atom.residue + 1);
-    if (atom.altloc == ' ') continue;
-    std::vector<Conformer>& of_residue = conformers[atom.residue];
-    auto found = std::find_if(of_residue.begin(), of_residue.end(),
-                              [&](const Conformer& conformer) { return conformer.letter == atom.altloc; });
-    if (found == of_residue.end()) found = of_residue.insert(found, Conformer{atom.altloc});
-    found->occupancy += std::isnan(atom.occupancy) ? 1.0 : atom.occupancy;
-    found->b_factor += std::isnan(atom.b_factor) ? 0.0 : atom.b_factor;
-    ++found->atoms;
+std::vector<bool> kept_alternates(const std::vector<Atom>& atoms, const AltlocChoice& choice,
+                                  std::vector<Warning>& warnings) {
+  std::vector<bool> kept(atoms.size(), true);
+  std::map<std::uint32_t, AlternateResidue> residues;
+  for (const Atom& atom : atoms)
+    if (atom.altloc != ' ' && choice.rule != AltlocChoice::Rule::all) residues.try_emplace(atom.residue, atoms, kept);
+  for (std::uint32_t n = 0; n < atoms.size() && !residues.empty(); ++n) {
+    const auto residue = residues.find(atoms[n].residue);
+    if (residue == residues.end()) continue;
+    kept[n] = false;
+    residue->second.add(n);
   }
-  std::vector<char> kept(residues, ' ');
-  for (const auto& [residue, of_residue] : conformers) kept[residue] = chosen(of_residue, choice);
+  std::vector<std::string> mixed;
+  for (auto& [number, residue] : residues)
+    if (std::string words = residue.choose(choice); !words.empty()) mixed.push_back(std::move(words));
+  if (!mixed.empty())
+    warnings.emplace_back(
+        fmt::format("{} {} atoms that the chosen alternate location lacks; they are taken from the next (first: {})",
+                    with_thousands(mixed.size()), mixed.size() == 1 ? "residue has" : "residues have", mixed.front()),
+        mixed);
   return kept;
 }
 

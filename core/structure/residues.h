@@ -45,7 +45,7 @@ class ResidueCounter {
   std::uint32_t residues_ = 0;
 };
 
-/// One letter a residue is kept, and the atoms without a letter.
+/// One letter a residue is kept, the atoms without a letter, and what these lack.
 struct AltlocChoice {
   enum class Rule {
     best,    ///< highest mean occupancy, then lowest mean B-factor, then first letter
@@ -60,8 +60,12 @@ struct AltlocChoice {
 /// Reads "best", "first", "all" or a single letter or digit; nothing for any other text.
 std::optional<AltlocChoice> parse_altloc_choice(std::string_view text);
 
-/// The letter to keep by residue (Atom::residue), blank for residues without alternatives. Not for Rule::all.
-std::vector<char> kept_altlocs(const std::vector<Atom>& atoms, const AltlocChoice& choice);
+/// Whether each atom is kept. A residue (Atom::residue) is completed: atoms whose names the kept ones lack come from
+/// its other alternate locations, that of the highest mean occupancy first, then in the order of the file. Residues of
+/// other names at the same place give none, and hydrogens come with the atom that they are bonded to. A warning lists
+/// what was mixed.
+std::vector<bool> kept_alternates(const std::vector<Atom>& atoms, const AltlocChoice& choice,
+                                  std::vector<Warning>& warnings);
 
 /// For each residue (Atom::residue): does a peptide bond, C to N of two residues with CA or caps of chains, or a
 /// phosphodiester, O3' to P of two residues with C4', join it to another residue of its model? By distance, 1.0 to

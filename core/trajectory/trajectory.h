@@ -88,6 +88,7 @@ struct TrajectoryOptions {
   /// How many atoms the structure has, for a format that does not say it of its frames (mdcrd); may throw. Null: there
   /// is no structure.
   std::function<std::size_t()> atoms{};
+  bool trust_atom_order = false;  ///< atoms that bear no numbers (LAMMPS dumps) are in the order of the structure
 };
 
 /// Opens a file of any format in core/trajectory/formats/trajectory_formats.h, recognized by content. Throws

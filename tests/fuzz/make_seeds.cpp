@@ -4,7 +4,10 @@
 #include <fstream>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "tests/support/binary_cif.h"
+#include "tests/trajectory/byte_writer.h"
 #include "tests/trajectory/samples.h"
 
 namespace {
@@ -30,5 +33,12 @@ int main(int, char** arguments) {
   write(folder / "trr/double.trr", trr({.frames = 2, .doubles = true, .without_positions = 0}));
   write(folder / "netcdf/cdf2.nc", amber_netcdf({.frames = 2}));
   write(folder / "bcif/every_encoding.bcif", binary_cif({category("_atom_site", 3, atom_columns())}));
+  for (const std::endian order : {std::endian::little, std::endian::big}) {
+    ByteWriter restart(order);
+    restart.put(std::int32_t{3});
+    for (int n = 0; n < 9; ++n) restart.put(1.25 * n - 3.0);
+    write(folder / fmt::format("namd_coordinates/{}.coor", order == std::endian::big ? "big" : "little"),
+          restart.bytes());
+  }
   write(folder / "netcdf/cdf5.nc", amber_netcdf({.frames = 2, .version = 5}));
 }

@@ -168,6 +168,28 @@ TEST(Dcd, DamageIsNamedWithFrameAndPlace) {
             std::string::npos);
 }
 
+TEST(Dcd, MoreTitlesThanTheirMarkersSayAreRead) {
+  // Versions of MDAnalysis wrote three titles between markers of two.
+  const TemporaryFolder folder;
+  for (const std::endian order : {std::endian::little, std::endian::big}) {
+    const std::string plain = dcd({.order = order});
+    const auto number = [&](std::uint32_t n) { return ByteWriter(order).put(n).bytes(); };
+    const std::string titles = number(164) + number(3) + std::string(240, ' ') + number(164);
+    const std::size_t begin = 92, end = plain.find(number(4) + number(4) + number(4), begin);
+    ASSERT_NE(end, std::string::npos);
+    const auto trajectory = open_bytes(folder, plain.substr(0, begin) + titles + plain.substr(end));
+    EXPECT_EQ(trajectory->frame_count(), 3U);
+    Frame frame;
+    trajectory->read(2, frame);
+    EXPECT_EQ(frame.positions[1].y, double{test::coordinate(2, 1, 1)});
+    const std::string four = number(164) + number(4) + std::string(240, ' ') + number(164);
+    EXPECT_NE(refusal([&] {
+                open_bytes(folder, plain.substr(0, begin) + four + plain.substr(end));
+              }).find("the markers about its titles disagree"),
+              std::string::npos);
+  }
+}
+
 TEST(Dcd, CoordinatesThatAreNoneAreNamed) {
   const TemporaryFolder folder;
   for (const float wrong : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -1e6F}) {
@@ -207,6 +229,8 @@ TEST(Dcd, NameAndContentMustAgree) {
             std::string::npos);
   EXPECT_NE(refusal([&] { open_trajectory(folder.file("a.XTC.gz", test::gzipped("\x01"))); }).find("unpack it first"),
             std::string::npos);
+  const std::string packed = folder.file("a.mdcrd.bz2", "BZh91AY&SY" + std::string(9, '\0'));
+  EXPECT_NE(refusal([&] { open_trajectory(packed); }).find("unpack it first: bzip2 -dk '" + packed), std::string::npos);
   EXPECT_NE(refusal([&] { open_trajectory(folder.file("a.nc", "\x89HDF\r\n\x1a\n")); }).find("is NetCDF-4"),
             std::string::npos);
   EXPECT_NE(refusal([&] { open_trajectory(folder.file("a", "\x89HDF\r\n\x1a\n")); }).find("cannot open it"),

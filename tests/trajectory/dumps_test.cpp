@@ -137,13 +137,38 @@ TEST(LammpsDump, CutFilesGiveTheirWholeFrames) {
   const TemporaryFolder folder;
   const std::string whole = lammps("id x y z", kFirst, kSecond);
   const std::size_t one = whole.find("ITEM: TIMESTEP", 10);
-  for (std::size_t length = one + 1; length < whole.size(); ++length) {
+  // A last line that has all columns is an atom, if one of which the last number may be cut.
+  for (std::size_t length = one + 1; length < whole.size() - 1; ++length) {
     const auto trajectory = open_trajectory(folder.file("a.lammpstrj", whole.substr(0, length)));
     EXPECT_EQ(trajectory->frame_count(), 1u) << length;
     EXPECT_EQ(trajectory->cut_short(), "the file ends within frame 1; its 1 whole frame is used") << length;
   }
-  expect_words(refusal([&] { open_trajectory(folder.file("a.lammpstrj", whole.substr(0, one - 1))); }),
+  for (const std::size_t size : {one, whole.size()}) {
+    const auto trajectory = open_trajectory(folder.file("a.lammpstrj", whole.substr(0, size - 1)));
+    EXPECT_EQ(trajectory->frame_count(), size == one ? 1u : 2u);
+    EXPECT_EQ(trajectory->cut_short(), "");
+    ASSERT_EQ(trajectory->warnings().size(), 2u);  // the other: no units
+    expect_words(trajectory->warnings().back().text, "its last line has no line end; if the file was cut there");
+    Frame frame, same;
+    trajectory->read(trajectory->frame_count() - 1, frame);
+    open_trajectory(folder.file("w.lammpstrj", whole))->read(trajectory->frame_count() - 1, same);
+    EXPECT_EQ(frame.positions, same.positions);
+  }
+  expect_words(refusal([&] { open_trajectory(folder.file("a.lammpstrj", whole.substr(0, one - 3))); }),
                "holds no complete frame");
+}
+
+TEST(LammpsDump, AtomsWithoutNumbersAreTakenInOrderIfTrusted) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a.lammpstrj", lammps("type x y z", kFirst, kSecond));
+  const auto trajectory = open_trajectory(path, {{}, {}, true});
+  Frame frame;
+  trajectory->read(0, frame);
+  EXPECT_EQ(frame.positions, (std::vector<glm::dvec3>{{1, 2, 3}, {4, 5, 6}, {0.5, 0.25, 1}}));
+  trajectory->read(1, frame);
+  EXPECT_EQ(frame.positions[0], glm::dvec3(4, 5, 7));
+  EXPECT_EQ(open_trajectory(folder.file("b.dump", lammps("id x y z", kFirst, kSecond)), {{}, {}, true})->atom_count(),
+            3u);
 }
 
 TEST(LammpsDump, WhatIsNoTrajectoryIsNamed) {
@@ -155,7 +180,9 @@ TEST(LammpsDump, WhatIsNoTrajectoryIsNamed) {
       trajectory->read(1, frame);
     });
   };
-  expect_words(said(lammps("type x y z", kFirst, kSecond)), "has no column 'id', so its atoms cannot be identified");
+  expect_words(said(lammps("type x y z", kFirst, kSecond)),
+               "has no column 'id', so its atoms cannot be identified; add id to dump custom, or --trust-atom-order if "
+               "they are in");
   expect_words(said(lammps("id vx vy vz", kFirst, kSecond)), "neither xu yu zu, xsu ysu zsu, x y z nor xs ys zs");
   expect_words(said(lammps("id x y z", kFirst, "2 4 5 7\n8 1.5 0.25 1\n7 1 2 4\n")),
                "has the atom 8 where the first frame has 9: a dump of a changing group is not a trajectory");

@@ -196,6 +196,26 @@ TEST(Trr, BothPrecisionsAndFramesWithoutPositions) {
   EXPECT_NE(refusal(none).find("holds no complete frame with positions"), std::string::npos);
 }
 
+TEST(Trr, TitlesOfOtherProgramsMayHaveAnyLength) {
+  // cpptraj wrote its own name until 2016.
+  const TemporaryFolder folder;
+  using std::string_literals::operator""s;
+  const std::string plain = test::trr({.frames = 1}), tag = "\0\0\0\x0d\0\0\0\x0cGMX_trn_file"s;
+  ASSERT_EQ(plain.substr(4, tag.size()), tag);
+  const auto with = [&](const std::string& other) { return plain.substr(0, 4) + other + plain.substr(4 + tag.size()); };
+  Frame frame, same;
+  open_trajectory(folder.file("a.trr", plain))->read(0, same);
+  open_trajectory(folder.file("b.trr", with("\0\0\0\x1b\0\0\0\x1a"
+                                            "Cpptraj generated TRR file\0\0"s)))
+      ->read(0, frame);
+  EXPECT_EQ(frame.positions, same.positions);
+  EXPECT_EQ(frame.time, same.time);
+  EXPECT_NE(refusal([&] {
+              open_trajectory(folder.file("c.trr", with("\0\0\0\x0d\0\0\xff\x0cGMX_trn_file"s)));
+            }).find("has a title of 65292 letters"),
+            std::string::npos);
+}
+
 TEST(AmberNetcdf, EveryVersionInAnyOrder) {
   const TemporaryFolder folder;
   for (const char version : {1, 2, 5}) {

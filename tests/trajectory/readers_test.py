@@ -16,7 +16,7 @@ import MDAnalysis  # noqa: E402
 import MDAnalysis.coordinates.LAMMPS  # noqa: E402
 import MDAnalysis.coordinates.TRJ  # noqa: E402
 import mdtraj.formats  # noqa: E402
-from parmed.amber import AmberMdcrd  # noqa: E402
+from parmed.amber import AmberAsciiRestart, AmberMdcrd  # noqa: E402
 from MDAnalysis.lib.mdamath import triclinic_box  # noqa: E402
 
 FRAMES = 6
@@ -212,6 +212,46 @@ class Readers(unittest.TestCase):
             other = MDAnalysis.coordinates.TRJ.TRJReader(str(self.path(f"p{count}{box}.mdcrd")), n_atoms=count)
             self.compare(again, [step.positions.copy() for step in other])
             self.assertEqual([frame["text"] for frame in again], [frame["text"] for frame in frames])
+
+    def one_frame(self, path):
+        (frame,) = dump(path)
+        other = MDAnalysis.coordinates.core.reader(str(path))
+        self.compare([frame], [other.ts.positions.copy()])
+        return frame
+
+    def test_amber_restart(self):
+        """Written by ParmEd with and without velocities and a box, and by leap: crambin of bio3d."""
+        for count in (len(self.atoms), 10, 1):
+            for velocities in (False, True):
+                for box in (False, True):
+                    path = self.path(f"r{count}{velocities}{box}.inpcrd")
+                    file = AmberAsciiRestart(str(path), "w", natom=count, title="of a test", time=7.25)
+                    file.coordinates = self.motion[2][:count]
+                    if velocities:
+                        file.velocities = self.motion[3][:count]
+                    if box:
+                        file.box = self.boxes[1]
+                    file.close()
+                    frame = self.one_frame(path)
+                    np.testing.assert_allclose(frame["positions"], self.motion[2][:count], rtol=0, atol=1e-7)
+                    self.assertEqual(frame["cell"] is not None, box)
+                    if box:
+                        np.testing.assert_allclose(triclinic_box(*frame["cell"]), self.boxes[1], rtol=0, atol=1e-4)
+                    self.assertEqual(frame["time"], 7.25)
+        self.one_frame("/usr/lib/R/site-library/bio3d/examples/crambin.inpcrd")
+
+    def test_namd_coordinates(self):
+        self.atoms.positions = self.motion[4]
+        self.atoms.write(str(self.path("a.coor")))
+        self.one_frame(self.path("a.coor"))
+
+    def test_charmm_coordinates(self):
+        self.atoms.positions = self.motion[5]
+        for extended in (False, True):
+            path = self.path(f"{extended}.crd")
+            self.atoms.write(str(path), extended=extended)
+            self.assertEqual("EXT" in path.read_text()[:200], extended)
+            self.one_frame(path)
 
     def lammps_dump(self, name, columns, low=(0, 0, 0), vectors=None, head=lambda n: ""):
         """A dump as LAMMPS writes it, atoms in another order in each frame: the positions in it, with `low` as the corner

@@ -86,6 +86,18 @@ TEST(Psf, StandardExtendedAndNamdForms) {
                                       "       3 B    -1   LYS  HZ1         0.330000        3.0240       0\n"));
   expect_three_atoms(typeless);
   EXPECT_EQ(typeless.atoms[2].chain, "B");
+  const Structure both = read(psf("PSF",  // by its columns, as MDAnalysis and VMD read it
+                                  "       1      7    MET  N              -0.300000       14.0070       0\n"
+                                  "       2      8A   CAL  CAL             2.000000       40.0800       0\n"
+                                  "       3      -1   LYS  HZ1             0.330000        3.0240       0\n"));
+  expect_three_atoms(both);
+  EXPECT_EQ(both.atoms[2].chain, "");
+  expect_three_atoms(
+      read(psf("PSF EXT",
+               "         1          7        MET      N               -0.300000       14.0070           0\n"
+               "         2          8A       CAL      CAL              2.000000       40.0800           0\n"
+               "         3          -1       LYS      HZ1              0.330000       3.02400           0\n",
+               "\n         2 !NBOND: bonds\n         1         2         1         3\n")));
 }
 
 TEST(Psf, MassMovedToHydrogensLeavesElementsAsNamed) {
@@ -108,7 +120,11 @@ TEST(Psf, DamageIsNamedWithItsLine) {
     EXPECT_NE(refusal(text).find(words), std::string::npos) << refusal(text);
   };
   expect(whole.substr(0, whole.find("       3 B")), "a.psf:6: the count says 3 atoms, but the file ends after 2");
-  expect(whole.substr(0, whole.find("2 !NBOND")), "has no line with a number and !NBOND; is the file cut short?");
+  const Structure bare = read(whole.substr(0, whole.find("2 !NBOND")));
+  EXPECT_EQ(bare.atoms.size(), 3u);
+  EXPECT_EQ(bare.report.warnings.front().text,
+            "it has no section !NBOND, so its bonds are unknown; is the file cut short?");
+  expect("PSF\n\n 1 !NTITLE\n", "has no line with a number and !NATOM; is the file cut short?");
   expect(psf("PSF", kAtoms, "\n 2 !NBOND: bonds\n 1 2\n"), "!NBOND says 2 bonds, but 1 follow; is the file cut short?");
   expect(psf("PSF", kAtoms, "\n 2 !NBOND: bonds\n 1 2\n\n 9 !NTHETA\n"), "!NBOND says 2 bonds, but 1 follow");
   expect(psf("PSF", kAtoms, "\n 1 !NBOND: bonds\n 1 4\n"), "a bond names atom '4'; the atoms are 1 to 3");

@@ -27,17 +27,9 @@ namespace {
 using nlohmann::json;
 
 /// What the reader of mmCIF looks for.
-constexpr std::array<std::string_view, 11> kCategories{"_atom_site",
-                                                       "_exptl",
-                                                       "_ma_qa_metric",
-                                                       "_ma_qa_metric_local",
-                                                       "_entity",
-                                                       "_entity_poly",
-                                                       "_struct_conf",
-                                                       "_struct_sheet_range",
-                                                       "_pdbx_struct_assembly",
-                                                       "_pdbx_struct_oper_list",
-                                                       "_pdbx_struct_assembly_gen"};
+constexpr std::string_view kCategories =
+    " _atom_site _chem_comp_atom _chem_comp_bond _exptl _ma_qa_metric _ma_qa_metric_local _entity _entity_poly "
+    "_struct_conf _struct_sheet_range _pdbx_struct_assembly _pdbx_struct_oper_list _pdbx_struct_assembly_gen ";
 
 /// Molecules have at most four values and forty letters for a byte of their file.
 constexpr std::size_t kMostValuesPerByte = 64, kMostLettersPerByte = 256;
@@ -215,7 +207,7 @@ class Decoder {
       std::set<std::string> seen;
       for (const json& category : block.at("categories")) {
         const auto& name = category.at("name").get_ref<const std::string&>();
-        if (std::ranges::find(kCategories, name) == kCategories.end() || !seen.insert(name).second) continue;
+        if (kCategories.find(' ' + name + ' ') == std::string_view::npos || !seen.insert(name).second) continue;
         read_category(category, name, document.blocks.back());
       }
     }

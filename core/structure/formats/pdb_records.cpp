@@ -92,6 +92,17 @@ void read_pdb_names(std::string_view line, Atom& atom) {
   atom.insertion_code = column(line, 27);
 }
 
+bool parse_residue_number(std::string_view field, std::int32_t& number, char& insertion_code) {
+  if (!field.empty() && std::isalpha(static_cast<unsigned char>(field.back()))) {
+    insertion_code = field.back();
+    field.remove_suffix(1);
+  }
+  std::int64_t parsed = 0;
+  if (!parse_whole_number(field, parsed) || parsed < -1'000'000'000 || parsed > 1'000'000'000) return false;
+  number = static_cast<std::int32_t>(parsed);
+  return true;
+}
+
 bool PdbResidueNumbers::read(std::string_view line, Atom& atom) {
   const std::string_view field = trimmed(columns(line, 23, 26));
   std::int64_t number = 0;

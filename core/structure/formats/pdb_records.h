@@ -25,6 +25,9 @@ bool is_pdb_atom(std::string_view line);
 /// segment where it is blank. Columns missing at the end are blank.
 void read_pdb_names(std::string_view line, Atom& atom);
 
+/// Reads "52" or, with an insertion code, "52A"; false for other texts.
+bool parse_residue_number(std::string_view field, std::int32_t& number, char& insertion_code);
+
 /// Residue numbers in the four columns 23 to 26 (five, if a digit is in the place of the insertion code): decimal;
 /// hybrid-36 (A000 is 10,000; R. W. Grosse-Kunstleve); hexadecimal as VMD writes it above 9,999, which is distinguished
 /// from the others by continuing the count; stars, counted on from the residue before by names that come again.

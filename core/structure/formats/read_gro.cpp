@@ -41,14 +41,7 @@ bool is_atom_line(std::string_view line) {
          parse_number(coordinate(line, width, 2), ignored);
 }
 
-/// Three lengths, or nine numbers of a triclinic box.
-bool is_box_line(std::string_view line) {
-  const std::vector<std::string_view> fields = fields_of(line);
-  double ignored = 0.0;
-  return (fields.size() == 3 || fields.size() == 9) &&
-         std::all_of(fields.begin(), fields.end(),
-                     [&](std::string_view field) { return parse_number(field, ignored); });
-}
+bool is_box_line(std::string_view line) { return !gro_box(line).empty(); }
 
 class GroReader {
  public:
@@ -183,6 +176,22 @@ bool positions(std::string_view model, std::vector<glm::dvec3>& positions) {
 }
 
 }  // namespace
+
+std::vector<double> gro_box(std::string_view line) {
+  line = trimmed(line);
+  const std::size_t last_dot = line.rfind('.');
+  const std::size_t decimals = last_dot == std::string_view::npos ? 0 : line.size() - last_dot - 1;
+  std::vector<double> numbers;
+  for (std::string_view field : fields_of(line, 10)) {
+    while (!field.empty()) {
+      const bool touches = field.find('.') != field.rfind('.');
+      const std::string_view text = touches ? field.substr(0, field.find('.') + 1 + decimals) : field;
+      if (!parse_number(text, numbers.emplace_back())) return {};
+      field.remove_prefix(text.size());
+    }
+  }
+  return numbers.size() == 3 || numbers.size() == 9 ? numbers : std::vector<double>();
+}
 
 const Reader kGroReader{
     {"GRO", ".gro", "GROMACS coordinates, in nanometres", "GROMACS manual, file formats: gro",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads the atom table of mmCIF, as text or as BinaryCIF.
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -53,25 +54,15 @@ enum Column {
   kEntityId,
   kGroup
 };
-const std::vector<std::string> kColumns{"Cartn_x",
-                                        "Cartn_y",
-                                        "Cartn_z",
-                                        "?type_symbol",
-                                        "?auth_atom_id",
-                                        "?label_atom_id",
-                                        "?auth_comp_id",
-                                        "?label_comp_id",
-                                        "?auth_asym_id",
-                                        "?label_asym_id",
-                                        "?auth_seq_id",
-                                        "?label_seq_id",
-                                        "?pdbx_PDB_ins_code",
-                                        "?label_alt_id",
-                                        "?occupancy",
-                                        "?B_iso_or_equiv",
-                                        "?pdbx_PDB_model_num",
-                                        "?label_entity_id",
-                                        "?group_PDB"};
+std::vector<std::string> column_names(std::string_view text) {
+  const std::vector<std::string_view> names = fields_of(text);
+  return {names.begin(), names.end()};
+}
+
+const std::vector<std::string> kColumns = column_names(
+    "Cartn_x Cartn_y Cartn_z ?type_symbol ?auth_atom_id ?label_atom_id ?auth_comp_id ?label_comp_id ?auth_asym_id "
+    "?label_asym_id ?auth_seq_id ?label_seq_id ?pdbx_PDB_ins_code ?label_alt_id ?occupancy ?B_iso_or_equiv "
+    "?pdbx_PDB_model_num ?label_entity_id ?group_PDB");
 
 /// The line of a row of _atom_site; rows are one line each in all but hand-made files, otherwise the loop's first line.
 std::size_t line_of_row(const TextFile& file, const cif::Table& table, std::size_t row, const std::string& value) {
@@ -258,6 +249,51 @@ class TextNumbers {
   std::size_t last_ = 0;
 };
 
+/// The first of the three columns of coordinates that all rows of a component have, the model's if they are whole.
+std::size_t whole_coordinates(const TextFile& file, cif::Table& table, std::size_t begin, std::size_t end,
+                              std::vector<Warning>& warnings) {
+  const std::string name = in_quotes(table[begin].str(0));
+  std::size_t x = 3;
+  for (const char* kind : {"model", "ideal", "dictionary"}) {
+    bool whole = true;
+    for (std::size_t n = 3 * begin; whole && n < 3 * end; ++n) whole = table[n / 3].has2(x + n % 3);
+    if (whole) {
+      warnings.emplace_back(fmt::format("{} coordinates of component {} are used", kind, name));
+      return x;
+    }
+    x += 3;
+  }
+  throw InputError(
+      file.path, 0,
+      fmt::format("component {} has neither model nor ideal coordinates of all of its {} atoms", name, end - begin));
+}
+
+/// The atoms of chemical components (_chem_comp_atom) as a table _atom_site, in which each is a model.
+cif::Block component_sites(const TextFile& file, const ModelChoice& choice, cif::Document& document,
+                           std::vector<Warning>& warnings) {
+  cif::Block sites("components");
+  cif::Loop& loop = sites.init_loop(
+      "_atom_site.",
+      column_names("pdbx_PDB_model_num group_PDB label_comp_id label_atom_id type_symbol Cartn_x Cartn_y Cartn_z"));
+  std::int32_t model = 0;
+  for (cif::Block& block : document.blocks) {
+    cif::Table table = block.find(
+        "_chem_comp_atom.", column_names("comp_id atom_id ?type_symbol ?model_Cartn_x ?model_Cartn_y ?model_Cartn_z "
+                                         "?pdbx_model_Cartn_x_ideal ?pdbx_model_Cartn_y_ideal "
+                                         "?pdbx_model_Cartn_z_ideal ?x ?y ?z"));
+    for (std::size_t begin = 0, end = 0; begin < table.length(); begin = end) {
+      while (end < table.length() && table[end][0] == table[begin][0]) ++end;
+      const std::size_t x = choice.takes(++model) ? whole_coordinates(file, table, begin, end, warnings) : 3;
+      for (std::size_t n = begin; n < end; ++n) {
+        const cif::Table::Row row = table[n];
+        const auto cell = [&](std::size_t column) { return row.has(column) ? row[column] : std::string("?"); };
+        loop.add_row({std::to_string(model), "HETATM", row[0], row[1], cell(2), cell(x), cell(x + 1), cell(x + 2)});
+      }
+    }
+  }
+  return sites;
+}
+
 /// The atoms of a file. What other tables say of them may come later in the file, so it is added at the end.
 class AtomRows {
  public:
@@ -273,6 +309,7 @@ class AtomRows {
   }
 
   FileContents finish(cif::Document& document) {
+    if (blocks_ == 0) take_components(document);
     if (blocks_ == 0) refuse_without_atoms(file_, document);
     if (blocks_ > 1)
       contents_.warnings.emplace_back(fmt::format("{} data blocks hold atoms; the first is used", blocks_));
@@ -286,6 +323,26 @@ class AtomRows {
   }
 
  private:
+  /// Reads each chemical component as a model, with its bonds.
+  void take_components(cif::Document& document) {
+    cif::Block sites = component_sites(file_, choice_, document, contents_.warnings);
+    if (sites.items.front().loop.values.empty()) return;
+    take(sites, 0);
+    contents_.of_molecules = true;
+    std::map<std::array<std::string, 2>, std::uint32_t> places;
+    for (const Atom& atom : contents_.atoms) places.try_emplace({atom.residue_name, atom.name}, atom.index);
+    for (cif::Block& block : document.blocks) {
+      for (const auto row : block.find("_chem_comp_bond.", {"comp_id", "atom_id_1", "atom_id_2"})) {
+        const auto first = places.find({row.str(0), row.str(1)}), second = places.find({row.str(0), row.str(2)});
+        if (first == places.end() || second == places.end() || first == second) continue;
+        contents_.bonds.push_back({std::min(first->second, second->second), std::max(first->second, second->second)});
+        std::vector<std::int32_t>& models = contents_.fully_bonded;
+        const std::int32_t model = contents_.atoms[first->second].model;
+        if (models.empty() || models.back() != model) models.push_back(model);
+      }
+    }
+  }
+
   /// What an atom is called in other tables.
   struct Names {
     std::uint32_t entity, residue;
@@ -370,7 +427,8 @@ bool recognizes(std::string_view text) {
 const Reader kMmcifReader{
     {"mmCIF", ".cif .mmcif .mcif", "macromolecular CIF of the wwPDB", "PDBx/mmCIF dictionary; Hall, Allen & Brown 1991",
      "_atom_site (author's names where given, label_asym_id too), _entity and _entity_poly, _struct_conf and "
-     "_struct_sheet_range, _exptl, pLDDT of _ma_qa_metric_local"},
+     "_struct_sheet_range, _exptl, pLDDT of _ma_qa_metric_local; chemical components (_chem_comp_atom, "
+     "_chem_comp_bond), each a model"},
     recognizes,
     read,
     read_mmcif_assemblies};

@@ -160,9 +160,14 @@ class PdbReader {
     }
     Atom atom;
     atom.model = model();
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::size_t column = 30 + 8 * static_cast<std::size_t>(axis);
-      atom.position[axis] = parse_coordinate(file_, number, "xyz"[axis], line.substr(column, 8));
+    try {
+      for (int axis = 0; axis < 3; ++axis) {
+        const std::size_t column = 30 + 8 * static_cast<std::size_t>(axis);
+        atom.position[axis] = parse_coordinate(file_, number, "xyz"[axis], line.substr(column, 8));
+      }
+    } catch (const InputError&) {
+      refuse_shifted(line, number);
+      throw;
     }
     read_pdb_names(behind_ ? line.substr(0, kBehind) : line, atom);
     if (!residue_numbers_.read(line, atom)) number_.add(number, line.substr(22, 4));
@@ -172,6 +177,17 @@ class PdbReader {
     residues_.number(atom);
     contents_.atoms.push_back(std::move(atom));
     if (contents_.atoms.front().model == model()) bonds_.add_atom(line);
+  }
+
+  /// Behind a number of more digits than its columns the points of all coordinates are further to the right.
+  void refuse_shifted(std::string_view line, std::size_t number) const {
+    for (const std::size_t shift : {1, 2, 3})
+      if (line.size() > 50 + shift && line[34 + shift] == '.' && line[42 + shift] == '.' && line[50 + shift] == '.')
+        throw InputError(
+            file_.path, number,
+            fmt::format("the coordinates of {} begin in column {} instead of 31, as after a number that is "
+                        "too long for its columns; write hybrid-36 numbers or mmCIF",
+                        in_quotes(line), 31 + shift));
   }
 
   float optional_number(std::string_view line, std::size_t column, WarningCollector& oddity, std::size_t number) {

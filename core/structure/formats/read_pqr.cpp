@@ -29,18 +29,6 @@ bool is_number(std::string_view field) {
   return parse_number(field, ignored);
 }
 
-/// "52" or "52A".
-bool read_residue_number(std::string_view field, PqrRecord& record) {
-  if (!field.empty() && std::isalpha(static_cast<unsigned char>(field.back()))) {
-    record.insertion_code = field.back();
-    field.remove_suffix(1);
-  }
-  std::int64_t number = 0;
-  if (!parse_whole_number(field, number) || number < -1'000'000'000 || number > 1'000'000'000) return false;
-  record.residue_number = static_cast<std::int32_t>(number);
-  return true;
-}
-
 /// Blank-separated: serial, name, residue, chain if there is one, number, insertion code if it is alone; then five
 /// numbers.
 std::optional<PqrRecord> by_blanks(std::string_view line) {
@@ -54,7 +42,8 @@ std::optional<PqrRecord> by_blanks(std::string_view line) {
     record.insertion_code = fields.back()[0];
     fields.pop_back();
   }
-  if (fields.size() == 6 || !read_residue_number(fields.back(), record)) return std::nullopt;
+  if (fields.size() == 6 || !parse_residue_number(fields.back(), record.residue_number, record.insertion_code))
+    return std::nullopt;
   if (fields.size() < 4 || parse_whole_number(fields[1], ignored)) return std::nullopt;
   record.name = fields[1];
   record.residue_name = fields[2];
@@ -73,7 +62,8 @@ std::optional<PqrRecord> by_columns(std::string_view line) {
   record.name = names.name;
   record.residue_name = names.residue_name;
   record.chain = names.chain;
-  if (!read_residue_number(trimmed(line.substr(22, 4)), record)) return std::nullopt;
+  if (!parse_residue_number(trimmed(line.substr(22, 4)), record.residue_number, record.insertion_code))
+    return std::nullopt;
   record.insertion_code = names.insertion_code;
   record.altloc = names.altloc;
   for (std::size_t axis = 0; axis < 3; ++axis) {

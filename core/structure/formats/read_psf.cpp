@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@
 #include "core/base/text.h"
 #include "core/base/text_file.h"
 #include "core/structure/atom_classes.h"
+#include "core/structure/formats/pdb_records.h"
 #include "core/structure/formats/structure_formats.h"
 #include "core/structure/residues.h"
 
@@ -25,8 +27,13 @@ class PsfReader {
     std::string_view line;
     lines_.next(line);
     extended_ = line.find("EXT") != std::string_view::npos;
-    read_atoms(find_section("!NATOM"));
-    read_bonds(find_section("!NBOND"));
+    const std::optional<std::size_t> atoms = find_section("!NATOM");
+    if (!atoms) throw InputError(file_.path, 0, "has no line with a number and !NATOM; is the file cut short?");
+    read_atoms(*atoms);
+    if (const std::optional<std::size_t> bonds = find_section("!NBOND"))
+      read_bonds(*bonds);
+    else
+      contents_.warnings.emplace_back("it has no section !NBOND, so its bonds are unknown; is the file cut short?");
     set_elements_by_mass(contents_.atoms, hints_);
     contents_.sites = classify_atoms(contents_.atoms, contents_.warnings, hints_, contents_.bonds);
     contents_.without_positions = true;
@@ -35,8 +42,8 @@ class PsfReader {
   }
 
  private:
-  /// Goes to the line "N !NAME..."; the N.
-  std::size_t find_section(std::string_view name) {
+  /// Goes to the line "N !NAME..."; the N. Nothing where there is none, as in files without a topology.
+  std::optional<std::size_t> find_section(std::string_view name) {
     for (std::string_view line; lines_.next(line);) {
       const std::size_t at = line.find(name);
       std::int64_t count = 0;
@@ -50,7 +57,7 @@ class PsfReader {
       }
       return static_cast<std::size_t>(count);
     }
-    throw InputError(file_.path, 0, fmt::format("has no line with a number and {}; is the file cut short?", name));
+    return std::nullopt;
   }
 
   void read_atoms(std::size_t count) {
@@ -63,11 +70,9 @@ class PsfReader {
     }
   }
 
-  /// "52" or "52A".
   static bool is_residue_number(std::string_view field) {
-    if (!field.empty() && std::isalpha(static_cast<unsigned char>(field.back()))) field.remove_suffix(1);
-    std::int64_t number = 0;
-    return parse_whole_number(field, number);
+    Atom ignored;
+    return parse_residue_number(field, ignored.residue_number, ignored.insertion_code);
   }
 
   /// Number, segment, residue, its name, atom name, type, charge, mass, and what follows.
@@ -78,6 +83,7 @@ class PsfReader {
       const bool has_segment = !is_residue_number(fields[1]) && is_residue_number(fields[2]);
       fields.insert(fields.begin() + (has_segment ? 5 : 1), std::string_view());
     }
+    if (fields.size() < 9 && line.size() > (extended_ ? 51 : 33)) fields = fixed_columns_of(line);
     if (fields.size() < 9) {
       throw InputError(
           file_.path, lines_.number(),
@@ -88,6 +94,17 @@ class PsfReader {
     return {fields[1], fields[2], fields[3], fields[4], fields[5], fields[6], fields[7]};
   }
 
+  /// Where several columns are blank: as CHARMM has them, of four letters or of eight.
+  std::vector<std::string_view> fixed_columns_of(std::string_view line) const {
+    const std::size_t number = extended_ ? 10 : 8, width = extended_ ? 8 : 4;
+    std::vector<std::string_view> fields{line.substr(0, number)};
+    for (std::size_t n = 0; n < 4; ++n) fields.push_back(trimmed(line.substr(number + 1 + n * (width + 1), width)));
+    const std::size_t type = number + 1 + 4 * (width + 1);
+    fields.push_back(trimmed(line.substr(type, 4)));
+    for (const std::string_view field : fields_of(line.substr(type + 4), 4)) fields.push_back(field);
+    return fields;
+  }
+
   void read_atom(std::string_view line) {
     const auto [segment, residue, residue_name, name, type, charge, mass] = columns_of(line);
     Atom atom;
@@ -95,7 +112,9 @@ class PsfReader {
     atom.chain = atom.subchain = atom.segment;
     atom.residue_name = residue_name;
     atom.name = name;
-    read_residue_number(residue, atom);
+    if (!parse_residue_number(residue, atom.residue_number, atom.insertion_code))
+      throw InputError(file_.path, lines_.number(),
+                       fmt::format("residue {} is not a number; columns may have run together", in_quotes(residue)));
     AtomHints hint;
     if (!parse_single(charge, atom.charge) || !parse_single(mass, hint.mass)) {
       throw InputError(file_.path, lines_.number(),
@@ -106,21 +125,6 @@ class PsfReader {
     hints_.push_back(hint);
     residues_.number(atom);
     contents_.atoms.push_back(std::move(atom));
-  }
-
-  /// "52" or "52A", with an insertion code.
-  void read_residue_number(std::string_view field, Atom& atom) const {
-    std::string_view digits = field;
-    if (!digits.empty() && std::isalpha(static_cast<unsigned char>(digits.back()))) {
-      atom.insertion_code = digits.back();
-      digits.remove_suffix(1);
-    }
-    std::int64_t number = 0;
-    if (!parse_whole_number(digits, number) || number < -99'999'999 || number > 99'999'999) {
-      throw InputError(file_.path, lines_.number(),
-                       fmt::format("residue {} is not a number; columns may have run together", in_quotes(field)));
-    }
-    atom.residue_number = static_cast<std::int32_t>(number);
   }
 
   void read_bonds(std::size_t count) {

@@ -144,10 +144,9 @@ void mark_shown(std::vector<Atom>& atoms, std::span<const ShownAtoms> shown, con
 void choose_atoms(std::vector<Atom>& atoms, const std::vector<bool>& sites, std::vector<Atom>& beside,
                   const ReadOptions& options, const RadiiChoice& radii, ReadReport& report, const std::string& path,
                   Meaning meaning) {
-  const std::vector<char> altlocs = kept_altlocs(atoms, options.altloc);
-  const bool all_altlocs = options.altloc.rule == AltlocChoice::Rule::all;
+  const std::vector<bool> of_kept_altlocs = kept_alternates(atoms, options.altloc, report.warnings);
   leave_out(atoms, beside, report, [&](std::size_t n) -> const char* {
-    if (atoms[n].altloc != ' ' && atoms[n].altloc != altlocs[atoms[n].residue] && !all_altlocs) return kExcludedAltloc;
+    if (!of_kept_altlocs[n]) return kExcludedAltloc;
     const bool is_site = (n < sites.size() && sites[n]) || is_virtual_site(atoms[n]);
     return !radii.from_molecule_file() && is_site ? kExcludedVirtual : nullptr;
   });

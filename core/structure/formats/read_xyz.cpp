@@ -193,7 +193,30 @@ bool recognizes(std::string_view text) {
   return lines.next(line) && is_atom_line(line, columns);
 }
 
-FileContents read(const TextFile& file, const ModelChoice& models) { return XyzReader(file, models).run(); }
+/// Rows of Tinker begin with the number of the atom and its name; the box may be before them.
+bool is_of_tinker(std::string_view text) {
+  LineReader lines(text);
+  std::string_view line;
+  std::int64_t number = 0;
+  double ignored = 0.0;
+  for (int n = 0; n < 3 && lines.next(line); ++n) {
+    const std::vector<std::string_view> fields = fields_of(line, 6);
+    if (n > 0 && fields.size() == 6 && parse_whole_number(fields[0], number) && !parse_number(fields[1], ignored) &&
+        parse_whole_number(fields[5], number))
+      return true;
+  }
+  return false;
+}
+
+FileContents read(const TextFile& file, const ModelChoice& models) {
+  if (!recognizes(file.text) && is_of_tinker(file.text))
+    throw InputError(
+        file.path, 0,
+        fmt::format("is XYZ of Tinker, whose rows begin with numbers of atoms; convert it: obabel -itxyz {} "
+                    "-opdb -O tinker.pdb",
+                    shell_word(file.path)));
+  return XyzReader(file, models).run();
+}
 
 bool positions(std::string_view model, std::vector<glm::dvec3>& positions) {
   LineReader lines(model);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads XYZR and XYZRN: one ball a line, as MSMS and NanoShaper take it.
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/base/error.h"
@@ -15,7 +17,7 @@ namespace {
 constexpr std::string_view kLine = "x y z radius [[1] name]";
 
 std::vector<std::string_view> fields_before_comment(std::string_view line) {
-  return fields_of(line.substr(0, line.find('#')), 6);
+  return fields_of(line.substr(0, line.find('#')), 7);
 }
 
 bool recognizes(std::string_view text) {
@@ -24,7 +26,9 @@ bool recognizes(std::string_view text) {
     const std::vector<std::string_view> fields = fields_before_comment(line);
     if (fields.empty()) continue;
     double ignored = 0.0;
-    return fields.size() >= 4 && parse_number(fields[0], ignored) && parse_number(fields[1], ignored);
+    return fields.size() >= 4 && fields.size() < 7 &&
+           std::all_of(fields.begin(), fields.begin() + 4,
+                       [&](std::string_view field) { return parse_number(field, ignored); });
   }
   return false;
 }

@@ -16,34 +16,20 @@ namespace meniscus {
 namespace {
 
 /// A new format is a file read_<name>.cpp, its name in reader.h and an entry in both lists.
-constexpr std::array<const Reader*, 12> kReaders{&kPdbReader,  &kMmcifReader, &kBinaryCifReader, &kSdfReader,
-                                                 &kMol2Reader, &kPdbqtReader, &kPqrReader,       &kGroReader,
-                                                 &kXyzReader,  &kXyzrReader,  &kPsfReader,       &kPrmtopReader};
+constexpr std::array<const Reader*, 13> kReaders{
+    &kPdbReader, &kMmcifReader, &kBinaryCifReader, &kSdfReader,       &kMol2Reader, &kPdbqtReader, &kPqrReader,
+    &kGroReader, &kXyzReader,   &kXyzrReader,      &kCharmmCrdReader, &kPsfReader,  &kPrmtopReader};
 
 /// Strict tests first: PDB takes any text with one of its records in it, and what may be PQR or PDBQT too.
-constexpr std::array<const Reader*, 12> kOrderOfTrial{&kBinaryCifReader, &kPsfReader, &kPrmtopReader, &kMmcifReader,
-                                                      &kMol2Reader,      &kSdfReader, &kGroReader,    &kXyzReader,
-                                                      &kPdbqtReader,     &kPdbReader, &kPqrReader,    &kXyzrReader};
+constexpr std::array<const Reader*, 13> kOrderOfTrial{
+    &kBinaryCifReader, &kPsfReader, &kPrmtopReader, &kCharmmCrdReader, &kMmcifReader, &kMol2Reader, &kSdfReader,
+    &kGroReader,       &kXyzReader, &kPdbqtReader,  &kPdbReader,       &kPqrReader,   &kXyzrReader};
 static_assert(kReaders.size() == kOrderOfTrial.size());
 
-std::string lower_case_name(const std::string& path) {
-  std::string name = path;
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (name.ends_with(".gz")) name.resize(name.size() - 3);
-  return name;
-}
-
-const Reader* reader_by_name(const std::string& name) {
-  for (const Reader* reader : kReaders) {
-    std::string_view rest = reader->metadata.extensions;
-    while (!rest.empty()) {
-      const std::string_view extension = rest.substr(0, rest.find(' '));
-      if (name.ends_with(extension)) return reader;
-      rest.remove_prefix(std::min(rest.size(), extension.size() + 1));
-    }
-  }
-  return nullptr;
+const Reader* reader_by_name(std::string path) {
+  if (path.ends_with(".gz")) path.resize(path.size() - 3);
+  const auto found = std::ranges::find_if(kReaders, [&](const Reader* reader) { return reader->metadata.names(path); });
+  return found == kReaders.end() ? nullptr : *found;
 }
 
 /// Formats we can name but not read; better refused by name than misread as PDB.
@@ -58,6 +44,12 @@ void refuse_known_foreign(const TextFile& file) {
 }  // namespace
 
 std::span<const Reader* const> readers() { return kReaders; }
+
+bool FormatMetadata::names(std::string_view path) const {
+  std::string lower(path);
+  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
+  return std::ranges::any_of(fields_of(extensions), [&](std::string_view end) { return lower.ends_with(end); });
+}
 
 std::string format_names() {
   std::string names;
@@ -75,7 +67,7 @@ TextFile read_molecule_file(const std::string& path) {
 }
 
 const Reader& choose_reader(const TextFile& file) {
-  const Reader* by_name = reader_by_name(lower_case_name(file.path));
+  const Reader* by_name = reader_by_name(file.path);
   if (by_name && by_name->recognizes(file.text)) return *by_name;
   refuse_known_foreign(file);
   for (const Reader* reader : kOrderOfTrial) {

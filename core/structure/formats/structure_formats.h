@@ -21,6 +21,9 @@ struct FormatMetadata {
   std::string_view description;
   std::string_view reference;
   std::string_view reads;  ///< which records or columns are used
+
+  /// Does the path, in letters of any case, end as files of the format do?
+  bool names(std::string_view path) const;
 };
 
 /// Which models (frames) of a file are wanted. They count from 1 in the order of the file, whatever numbers it gives.
@@ -71,11 +74,16 @@ extern const Reader kXyzReader;
 extern const Reader kXyzrReader;
 extern const Reader kPsfReader;
 extern const Reader kPrmtopReader;
+extern const Reader kCharmmCrdReader;
+
+/// The three or nine numbers of the box line of GRO, nm; empty if it is no such line. Numbers that fill their columns
+/// touch, and are parted by their decimals, which are as many in each.
+std::vector<double> gro_box(std::string_view line);
 
 /// All formats, as people list them.
 std::span<const Reader* const> readers();
 
-/// "PDB, mmCIF, BinaryCIF, SDF, MOL2, PDBQT, PQR, GRO, XYZ, XYZR, PSF, prmtop"
+/// "PDB, mmCIF, BinaryCIF, SDF, MOL2, PDBQT, PQR, GRO, XYZ, XYZR, CRD, PSF, prmtop"
 std::string format_names();
 
 /// read_text_file, or, where a file is BinaryCIF, its bytes.

@@ -125,19 +125,27 @@ class Dcd final : public Trajectory {
     fixed_count_ = integer(8);
     time_step_ = version == 0 ? number<double>(header.data() + 40) : number<float>(header.data() + 40);
     has_cell_ = version != 0 && integer(10) != 0;
-    has_fourth_axis_ = version != 0 && integer(11) != 0;
+    has_fourth_axis_ = version != 0 && integer(11) == 1;
     charmm_itself_ = version >= kFirstCharmmWithShapeMatrix;
     return offset;
   }
 
+  /// The record holds a number of titles and 80 letters for each. Versions of MDAnalysis wrote three titles between
+  /// markers of two, so that where the markers disagree the number decides.
   std::uint64_t skip_titles(std::uint64_t offset) const {
-    std::vector<std::byte> marker(markers_.size);
-    file_.read(offset, marker);
-    const std::uint64_t length = markers_.at(marker.data());
+    std::vector<std::byte> head(markers_.size + sizeof(std::int32_t));
+    file_.read(offset, head);
+    const std::uint64_t length = markers_.at(head.data());
+    const std::int64_t titles = number<std::int32_t>(head.data() + markers_.size);
+    const auto counted = static_cast<std::uint64_t>(sizeof(std::int32_t) + 80 * std::max<std::int64_t>(titles, 0));
     if (length > file_.size()) refuse(offset, "is damaged: its titles are longer than the file");
-    file_.read(offset + markers_.size + length, marker);
-    if (markers_.at(marker.data()) != length) refuse(offset, "is damaged: the markers about its titles disagree");
-    return offset + length + 2 * markers_.size;
+    std::vector<std::byte> marker(markers_.size);
+    for (const std::uint64_t size : {length, counted}) {
+      if (offset + size + 2 * markers_.size > file_.size()) continue;
+      file_.read(offset + markers_.size + size, marker);
+      if (markers_.at(marker.data()) == length) return offset + size + 2 * markers_.size;
+    }
+    refuse(offset, "is damaged: the markers about its titles disagree");
   }
 
   std::uint64_t read_atom_count(std::uint64_t offset) {

@@ -152,13 +152,17 @@ class HeaderReader {
 class LammpsDump final : public Trajectory {
  public:
   LammpsDump(const std::string& path, const TrajectoryOptions& options)
-      : Trajectory(path, "LAMMPS dump"), file_(path), lines_(file_) {
+      : Trajectory(path, "LAMMPS dump"), file_(path), lines_(file_), trusts_order_(options.trust_atom_order) {
     index_ = find_frames(file_, options.index_folder, [this](std::uint64_t offset) { return extent_at(offset); });
     cut_short_ = index_.cut_short;
     frame_count_ = index_.offsets.size();
     DumpHeader first;
     read_header(0, first);
     choose_units(first.units);
+    std::array<std::byte, 1> end{};
+    file_.read(file_.size() - 1, end);
+    if (cut_short_.empty() && end[0] != std::byte{'\n'})
+      warnings_.emplace_back("its last line has no line end; if the file was cut there, its last number is cut, too");
     Frame frame;
     read_unchecked(0, frame);
     numbers_ = found_;
@@ -181,8 +185,11 @@ class LammpsDump final : public Trajectory {
     std::string_view line;
     for (std::int64_t n = 0; n < header.atoms; ++n)
       if (!lines_.next(line)) return {kEndless, true, {}};
-    // LAMMPS ends every line: a number at the end of the file may be cut, and is a number still.
-    return {lines_.ended_by_newline() ? lines_.behind() - offset : kEndless, true, {}};
+    // LAMMPS ends every line, but other programs do not.
+    constexpr std::size_t kMost = 1000;
+    const bool whole = lines_.ended_by_newline() ||
+                       fields_of(without_return(line), kMost).size() >= fields_of(header.columns, kMost).size();
+    return {whole ? lines_.behind() - offset : kEndless, true, {}};
   }
 
   void choose_units(const std::string& name) {
@@ -218,7 +225,7 @@ class LammpsDump final : public Trajectory {
 
   /// Where the columns of an atom are that are read: its number, and three of its position.
   struct Columns {
-    std::array<std::size_t, 4> place;
+    std::array<std::size_t, 4> place;  ///< the first is beyond all columns where there are no numbers
     std::size_t last;
     bool scaled;
   };
@@ -230,13 +237,17 @@ class LammpsDump final : public Trajectory {
     };
     Columns columns{};
     columns.place[0] = place("id");
-    if (columns.place[0] == names.size())
-      refuse(number, "has no column 'id', so its atoms cannot be identified; add id to dump custom");
+    if (columns.place[0] == names.size() && !trusts_order_)
+      refuse(number,
+             fmt::format("has no column 'id', so its atoms cannot be identified; add id to dump custom, or {} if "
+                         "they are in the order of FILE in every frame",
+                         option_name("trust-atom-order")));
     for (const PositionColumns& kind : kPositionColumns) {
       for (std::size_t axis = 0; axis < 3; ++axis) columns.place[axis + 1] = place(kind.names[axis]);
-      columns.last = std::ranges::max(columns.place);
+      columns.last = *std::max_element(columns.place.begin() + 1, columns.place.end());
       columns.scaled = kind.scaled;
       if (columns.last == names.size()) continue;
+      if (columns.place[0] < names.size()) columns.last = std::max(columns.last, columns.place[0]);
       if (kind.scaled && !header.has_box) refuse(number, "has positions as fractions of a box, but no box");
       return columns;
     }
@@ -272,10 +283,11 @@ class LammpsDump final : public Trajectory {
       for (std::size_t n = 0; n < 4; ++n)
         if (columns.place[n] == column) fields[n] = field;
     }
-    std::int64_t id = 0;
+    auto id = static_cast<std::int64_t>(found_.size()) + 1;
     glm::dvec3 p(0.0);
-    if (!parse_whole_number(fields[0], id) || !parse_number(fields[1], p.x) || !parse_number(fields[2], p.y) ||
-        !parse_number(fields[3], p.z))
+    const bool has_id = columns.place[0] <= columns.last;
+    if ((has_id && !parse_whole_number(fields[0], id)) || !parse_number(fields[1], p.x) ||
+        !parse_number(fields[2], p.y) || !parse_number(fields[3], p.z))
       refuse(number, fmt::format("has the atom {}, whose number and position in the columns {} are not all numbers",
                                  in_quotes(line), in_quotes(trimmed(header.columns))));
     found_.push_back(id);
@@ -310,6 +322,7 @@ class LammpsDump final : public Trajectory {
   BinaryFile file_;
   FileLines lines_;
   FrameIndex index_;
+  bool trusts_order_ = false;
   double length_ = 1.0, time_ = 0.0;
   std::vector<std::int64_t> numbers_;  ///< of the atoms, ascending
   std::vector<std::int64_t> found_;    ///< those of the frame that is read

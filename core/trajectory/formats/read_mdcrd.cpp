@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads mdcrd, Amber's formatted trajectories: a title, then ten numbers of eight columns a line, in Å.
+// Reads what Amber writes as text, in Å: trajectories (mdcrd) with ten numbers of eight columns a line behind a title,
+// and coordinates of one moment (inpcrd, restart files) with six of twelve.
 #include <algorithm>
 #include <optional>
 #include <span>
@@ -26,18 +27,15 @@ std::string_view without_blanks_behind(std::string_view line) {
   return line.substr(0, line.find_last_not_of(" \t\r") + 1);
 }
 
-/// Of a line without blanks behind it.
-std::size_t fields_in(std::string_view line) { return (line.size() + kWidth - 1) / kWidth; }
-
-/// Does a line consist of numbers as F8.3 prints them? Those that do not fit into eight columns are asterisks.
-bool is_formatted(std::string_view line) {
+/// Does a line consist of numbers as F8.3 or F12.7 prints them? Those that do not fit into the columns are asterisks.
+bool is_formatted(std::string_view line, std::size_t width = kWidth, std::size_t most = kPerLine) {
   line = without_blanks_behind(line);
-  if (line.empty() || line.size() % kWidth != 0 || fields_in(line) > kPerLine) return false;
-  for (; !line.empty(); line.remove_prefix(kWidth)) {
-    const std::string_view field = line.substr(0, kWidth);
+  if (line.empty() || line.size() % width != 0 || line.size() > most * width) return false;
+  for (; !line.empty(); line.remove_prefix(width)) {
+    const std::string_view field = line.substr(0, width);
     double number = 0.0;
-    if (field == "********") continue;
-    if (field[4] != '.' || field[7] == ' ' || !parse_number(field, number)) return false;
+    if (field.find_first_not_of('*') == std::string_view::npos) continue;
+    if (field[4] != '.' || field.back() == ' ' || !parse_number(field, number)) return false;
   }
   return true;
 }
@@ -188,6 +186,96 @@ bool recognizes(std::string_view start) {
   return end != std::string_view::npos && is_formatted(rest.substr(0, end));
 }
 
+// Restart files
+
+constexpr std::size_t kRestartWidth = 12, kRestartPerLine = 6;
+
+/// "  160  0.5000000E+02": the number of atoms, the time in ps, and in replica exchange the temperature.
+bool parse_counts(std::string_view line, std::int64_t& atoms, std::optional<double>& time) {
+  const std::vector<std::string_view> fields = fields_of(without_blanks_behind(line), 4);
+  if (fields.empty() || fields.size() > 3 || !parse_whole_number(fields[0], atoms) || atoms < 1) return false;
+  return fields.size() == 1 || parse_number(fields[1], time.emplace());
+}
+
+class AmberRestart final : public Trajectory {
+ public:
+  explicit AmberRestart(const std::string& path)
+      : Trajectory(path, "Amber restart"), file_(read_text_file(path)), lines_(file_.text) {
+    std::string_view line;
+    std::int64_t atoms = 0;
+    lines_.next(line);
+    if (!lines_.next(line) || !parse_counts(line, atoms, frame_.time))
+      throw InputError(path, 2, "should have the number of atoms and the time, after a line of title");
+    const std::size_t most = lines_.bytes_left() / (3 * kRestartWidth);
+    if (static_cast<std::uint64_t>(atoms) > most) refuse_short_frame(file_, 2, static_cast<std::size_t>(atoms), most);
+    frame_count_ = 1;
+    atom_count_ = static_cast<std::size_t>(atoms);
+    time_precision_ = kSinglePrecision;  // seven decimals
+    read_positions();
+    read_rest();
+  }
+
+ private:
+  void read_positions() {
+    frame_.positions.resize(atom_count_);
+    std::string_view line;
+    for (std::size_t n = 0; n < 3 * atom_count_; ++n) {
+      const std::size_t place = n % kRestartPerLine, expected = std::min(kRestartPerLine, 3 * atom_count_ - n);
+      if (place == 0 && (!lines_.next(line) || without_blanks_behind(line).size() != expected * kRestartWidth))
+        throw InputError(
+            path_, lines_.number(),
+            fmt::format("{} does not have the {} numbers of twelve columns that {} atoms need here; is the "
+                        "file cut short?",
+                        in_quotes(line), expected, with_thousands(atom_count_)));
+      const char axis = "xyz"[n % 3];
+      frame_.positions[n / 3][static_cast<int>(n % 3)] =
+          parse_coordinate(file_, lines_.number(), axis, line.substr(place * kRestartWidth, kRestartWidth));
+    }
+  }
+
+  /// Velocities in as many lines as positions, a box in one, both or nothing. What may be either, six numbers behind
+  /// two atoms or three behind one, is no box.
+  void read_rest() {
+    const std::size_t lines_of_velocities = (3 * atom_count_ + kRestartPerLine - 1) / kRestartPerLine;
+    std::vector<std::string_view> rest;
+    for (std::string_view line; lines_.next(line);)
+      if (line = without_blanks_behind(line); !line.empty()) rest.push_back(line);
+    if (rest.size() >= lines_of_velocities &&
+        rest.front().size() == std::min(kRestartPerLine, 3 * atom_count_) * kRestartWidth)
+      rest.erase(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(lines_of_velocities));
+    if (rest.empty()) return;
+    const std::size_t numbers = rest.front().size() / kRestartWidth;
+    if (rest.size() > 1 || (numbers != 3 && numbers != 6) || !is_formatted(rest.front(), kRestartWidth))
+      throw InputError(path_, lines_.number(),
+                       fmt::format("{} follows {} atoms, where velocities fill {} lines and a box of three or six "
+                                   "numbers one; is the file cut short?",
+                                   in_quotes(rest.front()), with_thousands(atom_count_), lines_of_velocities));
+    glm::dvec3 edges(0.0), angles(0.0);
+    for (std::size_t n = 0; n < numbers; ++n)
+      parse_number(rest.front().substr(n * kRestartWidth, kRestartWidth),
+                   (n < 3 ? edges : angles)[static_cast<int>(n % 3)]);
+    if (numbers == 6)
+      frame_.cell = cell_of_angles(edges, angles);
+    else
+      warnings_.emplace_back("its box has edges without angles, as before Amber 7; no box is used");
+  }
+
+  void read_unchecked(std::uint64_t, Frame& frame) override { frame = frame_; }
+
+  TextFile file_;
+  LineReader lines_;
+  Frame frame_;
+};
+
+bool recognizes_restart(std::string_view start) {
+  LineReader lines(start);
+  std::string_view line;
+  std::int64_t atoms = 0;
+  std::optional<double> time;
+  return lines.next(line) && lines.next(line) && parse_counts(line, atoms, time) && lines.next(line) &&
+         is_formatted(line, kRestartWidth, kRestartPerLine);
+}
+
 }  // namespace
 
 const TrajectoryFormat kMdcrdFormat{
@@ -197,6 +285,14 @@ const TrajectoryFormat kMdcrdFormat{
     recognizes,
     [](const std::string& path, const TrajectoryOptions& options) {
       return std::unique_ptr<Trajectory>(std::make_unique<Mdcrd>(path, options));
+    }};
+
+const TrajectoryFormat kAmberRestartFormat{
+    {"Amber restart", ".inpcrd .rst7 .restrt", "coordinates of one moment as Amber writes them, as text",
+     "ambermd.org, File Formats: AMBER coordinate or restart file", "positions, the box, the time; no velocities"},
+    recognizes_restart,
+    [](const std::string& path, const TrajectoryOptions&) {
+      return std::unique_ptr<Trajectory>(std::make_unique<AmberRestart>(path));
     }};
 
 }  // namespace meniscus

@@ -177,8 +177,8 @@ std::optional<glm::dmat3> cell_of_cryst1(std::string_view record) {
 /// GRO writes xx yy zz xy xz yx yz zx zy of the vectors x, y, z; the last six may be left out.
 std::optional<glm::dmat3> cell_of_gro(std::string_view frame) {
   while (frame.ends_with('\n')) frame.remove_suffix(1);
-  std::vector<double> n = numbers_of(frame.substr(frame.rfind('\n') + 1));
-  if (n.size() != 3 && n.size() != 9) return std::nullopt;
+  std::vector<double> n = gro_box(frame.substr(frame.rfind('\n') + 1));
+  if (n.empty()) return std::nullopt;
   n.resize(9);
   return cell_of_vectors(kAngstromPerNanometre * glm::dmat3(n[0], n[3], n[4], n[5], n[1], n[6], n[7], n[8], n[2]));
 }
@@ -325,8 +325,8 @@ std::unique_ptr<Trajectory> open_models(const std::string& path, const Trajector
 }  // namespace
 
 const TrajectoryFormat kModelsFormat{
-    {"models", ".pdb .cif .bcif .sdf .mol2 .pdbqt .gro .xyz", "each model of a structure file of any format is a frame",
-     "those of the formats of structures",
+    {"models", ".pdb .cif .bcif .sdf .mol2 .pdbqt .gro .xyz .crd",
+     "each model of a structure file of any format is a frame", "those of the formats of structures",
      "positions; boxes of CRYST1, GRO and extended XYZ, times of GRO titles; of plain "
      "PDB, GRO and XYZ files one model is "
      "in memory at a time, of others all"},

@@ -18,9 +18,9 @@ namespace meniscus {
 namespace {
 
 constexpr std::int32_t kMagic = 1993;
-constexpr std::size_t kTitle = 24;                      // magic, length twice, "GMX_trn_file"
-constexpr std::size_t kIntegers = 13;                   // ten sizes, atoms, step, one more
-constexpr std::size_t kSizes = kTitle + 4 * kIntegers;  // time and lambda follow
+constexpr std::size_t kTag = 12;       // magic, the length of the title that follows, with and without its end
+constexpr std::size_t kIntegers = 13;  // ten sizes, atoms, step, one more; time and lambda follow
+constexpr std::int32_t kLongestTitle = 80;
 
 template <typename Number>
 Number big_endian(const std::byte* bytes) {
@@ -31,10 +31,11 @@ struct TrrHeader {
   bool doubles = false;
   std::size_t atoms = 0;
   std::int32_t step = 0;
-  std::uint64_t header_bytes = 0;
+  std::uint64_t title_bytes = 0, header_bytes = 0;
   std::uint64_t box_bytes = 0, between_bytes = 0, position_bytes = 0;  // box, what is before the positions, these
   std::uint64_t rest_bytes = 0;                                        // velocities and forces
 
+  std::uint64_t time_offset() const { return kTag + title_bytes + 4 * kIntegers; }
   std::uint64_t position_offset() const { return header_bytes + box_bytes + between_bytes; }
   std::uint64_t frame_bytes() const { return position_offset() + position_bytes + rest_bytes; }
 };
@@ -57,9 +58,16 @@ std::string parse(std::span<const std::byte> bytes, TrrHeader& header) {
   if (bytes.size() < 4) return {};
   if (const auto magic = big_endian<std::int32_t>(bytes.data()); magic != kMagic)
     return fmt::format("begins with {}, not with {}", magic, kMagic);
-  if (bytes.size() < kSizes) return {};
+  if (bytes.size() < kTag) return {};
+  // "GMX_trn_file" by GROMACS; cpptraj wrote its own name before 2016. Letters fill up to a multiple of four.
+  const auto letters = big_endian<std::int32_t>(bytes.data() + 8);
+  if (letters < 0 || letters > kLongestTitle || big_endian<std::int32_t>(bytes.data() + 4) != letters + 1)
+    return fmt::format("has a title of {} letters", letters);
+  header.title_bytes = (static_cast<std::uint64_t>(letters) + 3) / 4 * 4;
+  if (bytes.size() < header.time_offset()) return {};
   std::array<std::int64_t, kIntegers> numbers;
-  for (std::size_t n = 0; n < kIntegers; ++n) numbers[n] = big_endian<std::int32_t>(bytes.data() + kTitle + 4 * n);
+  for (std::size_t n = 0; n < kIntegers; ++n)
+    numbers[n] = big_endian<std::int32_t>(bytes.data() + kTag + header.title_bytes + 4 * n);
   const std::int64_t atoms = numbers[10];
   if (atoms <= 0) return fmt::format("has {} atoms", atoms);
   if (std::any_of(numbers.begin(), numbers.begin() + 10, [](std::int64_t size) { return size < 0; }))
@@ -70,7 +78,7 @@ std::string parse(std::span<const std::byte> bytes, TrrHeader& header) {
   header.doubles = width == sizeof(double);
   header.atoms = static_cast<std::size_t>(atoms);
   header.step = static_cast<std::int32_t>(numbers[11]);
-  header.header_bytes = kSizes + 2 * width;
+  header.header_bytes = header.time_offset() + 2 * width;
   header.box_bytes = size(2);
   header.between_bytes = size(3) + size(4);
   header.position_bytes = size(7);
@@ -99,7 +107,7 @@ class Trr final : public Trajectory {
 
  private:
   std::string read_header(std::uint64_t offset, TrrHeader& header) {
-    bytes_.resize(std::min<std::uint64_t>(kSizes, file_.size() - offset));
+    bytes_.resize(std::min<std::uint64_t>(kTag + kLongestTitle + 4 * kIntegers, file_.size() - offset));
     file_.read(offset, bytes_);
     return parse(bytes_, header);
   }
@@ -129,7 +137,8 @@ class Trr final : public Trajectory {
       return kAngstromPerNanometre * double{big_endian<Number>(bytes_.data() + place)};
     };
     frame.step = header.step;
-    if (const double time = big_endian<Number>(bytes_.data() + kSizes); std::isfinite(time)) frame.time = time;
+    if (const double time = big_endian<Number>(bytes_.data() + header.time_offset()); std::isfinite(time))
+      frame.time = time;
     if (header.box_bytes > 0) {
       glm::dmat3 box;
       for (std::size_t n = 0; n < 9; ++n)
@@ -149,7 +158,7 @@ class Trr final : public Trajectory {
 };
 
 bool recognizes(std::string_view start) {
-  return start.size() >= kSizes && big_endian<std::int32_t>(reinterpret_cast<const std::byte*>(start.data())) == kMagic;
+  return start.size() >= kTag && big_endian<std::int32_t>(reinterpret_cast<const std::byte*>(start.data())) == kMagic;
 }
 
 }  // namespace

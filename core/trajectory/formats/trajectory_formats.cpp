@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/gzip.h"
 #include "core/base/module_file.h"
+#include "core/base/text.h"
 #include "core/base/text_file.h"
 #include "core/base/version.h"
 #include "core/structure/formats/structure_formats.h"
@@ -20,9 +21,11 @@ namespace meniscus {
 namespace {
 
 /// A new format is a file read_<name>.cpp, its name in formats.h and an entry here, before the last.
-constexpr std::array<const TrajectoryFormat*, 8> kFormats{&kXtcFormat,    &kTrrFormat,         &kDcdFormat,
-                                                          &kH5mdFormat,   &kAmberNetcdfFormat, &kMdcrdFormat,
-                                                          &kLammpsFormat, &kModelsFormat};
+constexpr std::array<const TrajectoryFormat*, 10> kFormats{
+    &kXtcFormat,          &kTrrFormat,         &kDcdFormat,
+    &kH5mdFormat,         &kAmberNetcdfFormat, &kMdcrdFormat,
+    &kAmberRestartFormat, &kLammpsFormat,      &kNamdCoordinatesFormat,
+    &kModelsFormat};
 constexpr std::span<const TrajectoryFormat* const> kBareFormats{kFormats.data(), kFormats.size() - 1};
 
 std::string bare_format_names() {
@@ -31,18 +34,10 @@ std::string bare_format_names() {
   return names;
 }
 
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
-const TrajectoryFormat* format_by_name(const std::string& name) {
-  for (const TrajectoryFormat* format : kBareFormats) {
-    const auto extensions = fields_of(format->metadata.extensions);
-    if (std::any_of(extensions.begin(), extensions.end(), [&](std::string_view end) { return name.ends_with(end); }))
-      return format;
-  }
-  return nullptr;
+const TrajectoryFormat* format_by_name(std::string_view path) {
+  const auto found =
+      std::ranges::find_if(kBareFormats, [&](const TrajectoryFormat* format) { return format->metadata.names(path); });
+  return found == kBareFormats.end() ? nullptr : *found;
 }
 
 const TrajectoryFormat* format_by_content(std::string_view start) {
@@ -74,11 +69,13 @@ bool is_run_input(std::string_view start) {
 
 const TrajectoryFormat& choose_format(const std::string& path, const std::string& start) {
   if (is_run_input(start)) refuse_run_input(path);
-  const std::string name = lower_case(path);
+  refuse_packed(path, start);
   const bool packed = start.starts_with("\x1f\x8b");
-  if (packed && name.ends_with(".gz") && format_by_name(name.substr(0, name.size() - 3)))
-    throw InputError(path, 0, "is packed with gzip; unpack it first: frames are read in any order");
-  const TrajectoryFormat* by_name = format_by_name(name);
+  if (packed && path.ends_with(".gz") && format_by_name(std::string_view(path).substr(0, path.size() - 3)))
+    throw InputError(path, 0,
+                     fmt::format("is packed with gzip; unpack it first, as frames are read in any order: gzip -dk {}",
+                                 shell_word(path)));
+  const TrajectoryFormat* by_name = format_by_name(path);
   if (by_name && by_name->recognizes(start)) return *by_name;
   const TrajectoryFormat* by_content = format_by_content(start);
   if (by_name && by_content) {

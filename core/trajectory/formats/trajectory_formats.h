@@ -39,6 +39,8 @@ extern const TrajectoryFormat kAmberNetcdfFormat;
 extern const TrajectoryFormat kH5mdFormat;
 extern const TrajectoryFormat kLammpsFormat;
 extern const TrajectoryFormat kMdcrdFormat;
+extern const TrajectoryFormat kAmberRestartFormat;
+extern const TrajectoryFormat kNamdCoordinatesFormat;
 extern const TrajectoryFormat kModelsFormat;
 
 /// Opens a file. Throws InputError.

@@ -108,8 +108,10 @@ TEST(Altloc, TheMeanOccupancyCountsHoweverManyAtomsAConformerHas) {
   const std::string text = line(" CB ", 'A', "  0.40") + line(" CG ", 'A', "  0.40") + line(" CD ", 'A', "  0.40") +
                            line(" CB ", 'B', "  0.55") + line(" CG ", 'B', "  0.55");
   const Structure structure = read_text("a.pdb", text);
-  ASSERT_EQ(structure.atoms.size(), 2u);
-  EXPECT_EQ(structure.atoms[0].altloc, 'B');
+  ASSERT_EQ(structure.atoms.size(), 3u);
+  EXPECT_EQ(structure.atoms[0].name, "CD");  // which B lacks
+  EXPECT_EQ(structure.atoms[1].altloc, 'B');
+  EXPECT_EQ(structure.atoms[2].altloc, 'B');
 }
 
 TEST(Altloc, TiesGoToLowerBFactorThenLetter) {

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Coordinate files of NAMD, of any byte order.
+#include "tests/fuzz/trajectory_checks.h"
+
+namespace meniscus::fuzz {
+namespace {
+
+void run(std::string_view bytes) {
+  static const ScratchFile file("input.coor");
+  check_trajectory(kNamdCoordinatesFormat, file, bytes);
+}
+
+const Registration registration{"namd_coordinates", run};
+
+}  // namespace
+}  // namespace meniscus::fuzz
