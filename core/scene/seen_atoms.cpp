@@ -84,8 +84,10 @@ std::string advice(const Sought& hidden, const std::vector<Atom>& atoms, const C
   std::vector<Sought> again{hidden};
   look_for(again, atoms, cast(view_camera(turned, camera, {all, all, {}}), size));
   if (!again.front().is_seen) return "no side was found that shows them";
-  const std::string turn = option_name("turn");
-  return fmt::format("{0} y{1} {0} x{2} shows some", turn, turned.turns[0].degrees, turned.turns[1].degrees);
+  std::string words;
+  for (const Turn& turn : turned.turns)
+    if (turn.degrees != 0.0) words += fmt::format("{} {}{} ", option_name("turn"), "xyz"[turn.axis], turn.degrees);
+  return words + "shows some";
 }
 
 }  // namespace
