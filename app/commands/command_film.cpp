@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -32,19 +33,17 @@ namespace {
 /// Where the pictures go: into a film, or into numbered files.
 class FilmPictures {
  public:
-  FilmPictures(const FilmCommand& command, glm::ivec2 size) : command_(command) {
-    const Scene& scene = command.scene;
-    if (is_film_path(scene.output)) {
-      film_.emplace(scene.output, command.existing(), size, scene.film.frames_per_second, scene.film);
+  explicit FilmPictures(Storyboard& storyboard) : command_(storyboard.command()) {
+    const Scene& scene = command_.scene;
+    const glm::ivec2 size = storyboard.scene(0).run.scene().picture.size();
+    numbered_ = numbered_output(scene.output, storyboard.format(), size);
+    if (!numbered_) {
+      film_.emplace(scene.output, command_.existing(), size, scene.film.frames_per_second, storyboard.format());
       return;
     }
-    numbered_ = NumberedPath::parse(scene.output);
-    if (!numbered_)
-      throw UsageError(
-          fmt::format("-o {}: name a film (.mp4, .mov, .mkv, .webm, .gif), or put # where the number of a "
-                      "picture goes, as in {}",
-                      in_quotes(scene.output), in_quotes(numbered_name(scene.output))));
-    check_image_path(scene.output);
+    std::vector<std::uint64_t> numbers(storyboard.pictures());
+    std::iota(numbers.begin(), numbers.end(), std::uint64_t{0});
+    check_pictures(*numbered_, numbers, command_.existing());
   }
 
   std::uint64_t count() const { return count_; }
@@ -79,7 +78,7 @@ class PictureFilm : public FilmMaker {
       : storyboard_(storyboard),
         command_(storyboard.command()),
         device_(device_request()),
-        pictures_(command_, storyboard.scene(0).run.scene().picture.size()),
+        pictures_(storyboard),
         progress_(progress_on_stderr(command_), "film", storyboard.pictures()) {}
 
   void make() {
@@ -137,7 +136,6 @@ void run(const DeclaredFilm& declared) {
     throw UsageError(fmt::format("-o {}: --to {} writes a folder; name one, or leave --to out",
                                  in_quotes(command.scene.output),
                                  command.medium == FilmMedium::povray ? "povray" : "blender"));
-  if (is_film) check_output(command.scene.output, command.existing());
   Storyboard storyboard(declared);
   if (command.medium == FilmMedium::pictures)
     PictureFilm(storyboard).make();

@@ -134,12 +134,17 @@ PanelArrangement arrangement_of(const DeclaredPanels& declared, const Scene& fir
 void run(const DeclaredPanels& declared) {
   const PanelsCommand& page = declared.state;
   check_image_path(page.scene.output);
-  check_output(page.scene.output, page.existing());
   if (holds_aovs(page.scene.output))
     throw UsageError("-o: panels are written as .png, .jpg, .webp, .tif, .svg or .pdf");
   std::vector<SceneCommand> panels;
   for (const std::string& file : page.files) panels.push_back(read_panel(file, words_of_panels(declared), page));
   const PanelArrangement arrangement = arrangement_of(declared, panels.front().scene);
+  const glm::ivec2 usual = panels.front().scene.picture.size();
+  for (const SceneCommand& panel : panels) {
+    check_picture(panel.scene);
+    check_cost(page, panel.scene, {arrangement.width.value_or(usual.x), arrangement.height.value_or(usual.y)});
+  }
+  check_output(page.scene.output, page.existing());
   PanelPage made(read_panels(page, panels), arrangement);
   SurfaceRequest request = panels.front().scene.molecule.surface;
   for (const SceneCommand& panel : panels) request.cpu = request.cpu || picture_request(panel.scene).cpu;

@@ -31,7 +31,9 @@
 #include "core/scene/picture_device.h"
 #include "core/scene/scene_picture.h"
 #include "core/scene/scene_values.h"
+#include "core/scene/seen_atoms.h"
 #include "core/scene/settled_selections.h"
+#include "core/trajectory/formats/trajectory_formats.h"
 #include "core/trajectory/frame_list.h"
 
 namespace meniscus {
@@ -74,7 +76,24 @@ void name_output(RenderCommand& command) {
 /// Before anything is read.
 void check_scene(const RenderCommand& command) {
   const Scene& scene = command.scene;
-  if (!scene.frames.asked()) check_image_path(scene.output);
+  if (scene.frames.asked()) {
+    if (is_film_path(scene.output) && !scene.frames.only.empty())
+      throw UsageError("--only: a film needs all frames; write the chunk as pictures: frame_#####.png");
+    numbered_output(scene.output, scene.film, scene.picture.size());
+  } else {
+    if (const std::string_view format = bare_trajectory_format(scene.molecule.file); !format.empty())
+      throw UsageError(
+          fmt::format("{} is a trajectory ({}), which has no atoms of its own: name its topology before it, "
+                      "as in meniscus render topology.pdb {}",
+                      in_quotes(scene.molecule.file), format, in_quotes(scene.molecule.file)));
+    if (is_film_path(scene.output))
+      throw UsageError(
+          fmt::format("-o {} is a film, and {} one molecule; add --frames all for the models of that file, "
+                      "--trajectory FILE, or --turntable 1",
+                      in_quotes(scene.output), in_quotes(scene.molecule.file)));
+    check_image_path(scene.output);
+  }
+  check_cost(command, scene, scene.picture.size());
   if (scene.image.motion_blur > 1 && !scene.frames.asked())
     throw UsageError("--motion-blur: one molecule does not move; add the frames of a run (--frames)");
   if (scene.image.motion_blur > 1 && (scene.image.aovs || scene.image.extent))
@@ -90,13 +109,14 @@ void check_scene(const RenderCommand& command) {
       (scene.look.shadows.value_or(0.0f) > 0.0f || scene.look.ambient_occlusion_rays.value_or(0.0f) > 0.0f))
     throw UsageError("--shadows and --ambient-occlusion-rays need the complete surface; leave --extent out");
   if (!scene.image.extent && command.stats) throw UsageError("--stats reports the stages of a view; add --extent");
-  check_legend(scene);
+  check_picture(scene);
 }
 
 /// Whether the outputs can be written is known before the work begins; these vanish again.
 void check_files(const RenderCommand& command) {
   const Scene& scene = command.scene;
-  if (!scene.frames.asked() && !command.resumes) check_output(scene.output, command.existing());
+  if ((!scene.frames.asked() || is_film_path(scene.output)) && !command.resumes)
+    check_output(scene.output, command.existing());
   if (!scene.legend.file.empty()) {
     check_image_path(scene.legend.file);
     check_output(scene.legend.file, command.existing());
@@ -106,21 +126,27 @@ void check_files(const RenderCommand& command) {
 
 /// On the CPU all of a picture is made while others are; by GL the surface, if it comes from the CPU, and one picture
 /// after another.
-void draw_figures(FigureRun& run, PictureSink& sink, PictureDevice& device) {
+void draw_figures(FigureRun& run, const PictureLayout& layout, PictureSink& sink, PictureDevice& device) {
   std::optional<MotionBlur> blur;
   if (const int moments = run.scene().image.motion_blur; moments > 1)
     blur.emplace(run.scene(), moments, run.framing().cameras, device.context());
   const auto keep = [&](SurfaceRenderer& renderer, FigureFrame frame) {
     const SinkPicture picture{frame.number, frame.place, frame.source, frame.time, frame.camera};
-    const Annotations annotations = sink.annotations(picture, frame.figure.molecule.structure);
-    return sink.keep(picture, annotations, [&](const RenderSettings& settings) {
+    Annotations annotations = sink.annotations(picture, frame.figure.molecule.structure);
+    std::vector<std::string> unseen;
+    const bool is_told = !run.is_run() && !run.command().reporting.quiet;
+    const Survey survey = survey_of(run.scene(), frame.figure.molecule.structure, frame.camera, layout.size.size(),
+                                    annotations, is_told ? &unseen : nullptr);
+    const FinishFrame finish = sink.keep(picture, annotations, [&](const RenderSettings& settings) {
       if (blur) {
         Framebuffer drawn = blur->draw(frame.place, renderer, settings);
         if (settings.take_band) settings.take_band(Framebuffer(drawn), 0);
         return drawn;
       }
-      return draw(renderer, std::move(frame.figure), run.scene().figure, frame.camera, settings);
+      return draw(renderer, std::move(frame.figure), run.scene().figure, frame.camera, settings, survey);
     });
+    for (const std::string& sentence : unseen) say(run.command(), "note: " + sentence);
+    return finish;
   };
   constexpr std::uint64_t kBytesPerPixel = 100;  // sums, samples and what a look needs of them, files
   const glm::u64vec2 size(run.scene().picture.size());
@@ -142,8 +168,9 @@ void render_figures(const RenderCommand& command) {
   const PictureLayout layout(command.scene, run.key());
   run.aim(layout.size, false);
   PictureSink sink(command, layout, run.is_run() ? &run.frames() : nullptr);
+  if (run.is_run()) sink.check(run.framing().cameras, run.structure());
   PictureDevice device(picture_request(command.scene));
-  draw_figures(run, sink, device);
+  draw_figures(run, layout, sink, device);
   sink.finish();
   if (layout.legend_apart)
     write_legend_picture(command.scene.legend.file, *layout.legend_apart, image_settings(command));

@@ -63,7 +63,7 @@ void FigureRun::make_one_figure() {
 
 void FigureRun::aim(const ViewRequest& picture, bool extent) {
   if (!frames_) {
-    framing_.cameras = {aim_->camera(picture, given_.still, figure_->molecule.objects)};
+    framing_.cameras = {aim_->camera(picture, given_.still, aim_->viewed(*figure_))};
   } else if (extent) {
     framing_ = run_framing(picture, scene().run_camera, given_, *shown_);
   } else {
@@ -96,7 +96,7 @@ void FigureRun::save_cameras() const {
 Camera FigureRun::camera_for(const ViewRequest& picture, const std::optional<Camera>& given) {
   if (frames_) return run_cameras(picture, {}, {given, std::nullopt}, *shown_).front();
   const ViewAim aim(picture, scene().molecule.show, figure_->molecule.structure);
-  return aim.camera(picture, given, figure_->molecule.objects);
+  return aim.camera(picture, given, aim.viewed(*figure_));
 }
 
 void FigureRun::measure(ColorScheme& color) {

@@ -3,6 +3,8 @@
 #include "app/commands/picture_sink.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -84,6 +86,7 @@ FrameAnnotations::FrameAnnotations(const Scene& scene, FrameRun* run)
     : request_(scene.annotations), is_run_(run != nullptr) {
   if (!run) return;
   curve_ = curve_of_run(scene, *run);
+  last_ = run->source(run->numbers().back());
   if (request_.time_stamp) longest_ = run->last_time().value_or(0.0);
 }
 
@@ -97,6 +100,48 @@ Annotations FrameAnnotations::of(const SinkPicture& picture, const Structure& st
   return annotations;
 }
 
+void FrameAnnotations::check(const PictureLayout& layout, std::span<const Camera> cameras,
+                             const Structure& structure) const {
+  const glm::ivec2 size = layout.size.size() + glm::ivec2(0, layout.strips.top + layout.strips.bottom);
+  const auto scale = [&](const Camera& camera) { return angstroms_per_pixel(camera, size); };
+  const auto [nearest, farthest] = std::ranges::minmax_element(cameras, {}, scale);
+  std::optional<double> time;
+  if (longest_ > 0.0) time = longest_;
+  try {
+    for (const Camera& camera : {*nearest, *farthest})
+      AnnotationLayer(of({0, 0, last_, time, camera}, structure), camera, size, std::nullopt, layout.strips);
+  } catch (const InputError&) {
+    if (!is_run_) throw;
+  }
+}
+
+std::optional<NumberedPath> numbered_output(const std::string& path, const FilmFormat& format, glm::ivec2 size) {
+  if (is_film_path(path)) {
+    check_film_size(film_encoder(path, format), size);
+    return {};
+  }
+  std::optional<NumberedPath> numbered = NumberedPath::parse(path);
+  if (!numbered)
+    throw UsageError(fmt::format(
+        "-o {}: every picture would replace the one before; put # where its number goes, as in {}, or name a "
+        "film (.mp4, .mov, .mkv, .webm, .gif)",
+        in_quotes(path), in_quotes(numbered_name(path))));
+  check_image_path(path);
+  return numbered;
+}
+
+void check_pictures(const NumberedPath& path, std::span<const std::uint64_t> numbers, Existing existing) {
+  const auto is_there = [&](std::uint64_t number) {
+    std::error_code ignored;
+    return std::filesystem::exists(std::filesystem::symlink_status(path.at(number), ignored));
+  };
+  // The first for its folder as well.
+  check_output(path.at(numbers.front()), existing);
+  if (existing == Existing::replace) return;
+  const auto there = std::ranges::find_if(numbers, is_there);
+  if (there != numbers.end()) check_output(path.at(*there), existing);
+}
+
 std::optional<glm::vec3> ground_of_film(const std::optional<glm::vec3>& background, const FilmPixels& pixels) {
   if (background || pixels.channels == 4) return background;
   return glm::vec3(1.0f);
@@ -105,25 +150,15 @@ std::optional<glm::vec3> ground_of_film(const std::optional<glm::vec3>& backgrou
 PictureSink::PictureSink(const RenderCommand& command, const PictureLayout& layout, FrameRun* run)
     : command_(command), layout_(layout), run_(run), annotations_(command.scene, run) {
   tell_small_letters(command, layout);
-  if (run) name_files(command.scene.output);
+  if (run) name_files();
 }
 
-void PictureSink::name_files(const std::string& path) {
+void PictureSink::name_files() {
   const Scene& scene = command_.scene;
-  if (is_film_path(path)) {
-    if (!scene.frames.only.empty())
-      throw UsageError("--only: a film needs all frames; write the chunk as pictures: frame_#####.png");
-    film_ = std::make_unique<FilmWriter>(path, command_.existing(), scene.picture.size(), scene.film.frames_per_second,
-                                         scene.film);
-    return;
-  }
-  numbered_ = NumberedPath::parse(path);
-  if (!numbered_)
-    throw UsageError(
-        fmt::format("-o {}: every frame would replace the one before; put # where its number goes, as in "
-                    "{}, or name a film (.mp4)",
-                    in_quotes(path), in_quotes(numbered_name(path))));
-  check_image_path(path);
+  numbered_ = numbered_output(scene.output, scene.film, scene.picture.size());
+  if (numbered_) return check_pictures(*numbered_, run_->chunk(), command_.existing());
+  film_ = std::make_unique<FilmWriter>(scene.output, command_.existing(), scene.picture.size(),
+                                       scene.film.frames_per_second, scene.film);
 }
 
 FinishFrame PictureSink::keep(const SinkPicture& picture, const Annotations& annotations, const Draw& draw) {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "app/commands/render_command.h"
@@ -35,13 +36,24 @@ class FrameAnnotations {
   FrameAnnotations(const Scene& scene, FrameRun* run);
   /// Throws InputError for a label of no atoms.
   Annotations of(const SinkPicture& picture, const Structure& structure) const;
+  /// Before the first picture. Throws what annotate() does of what does not fit, by any of the cameras. structure: of
+  /// the molecule, or in the first frame, whose labels need neither be there nor fit.
+  void check(const PictureLayout& layout, std::span<const Camera> cameras, const Structure& structure) const;
 
  private:
   const AnnotationRequest& request_;
   bool is_run_;
   std::optional<Curve> curve_;  ///< the same in all pictures but for its mark
   double longest_ = 0.0;        ///< time of the run, ps
+  std::uint64_t last_ = 0;      ///< frame of the run, in the trajectory
 };
+
+/// Where numbered pictures go; nothing where they go into a film of this format and size. Before anything is read.
+/// Throws UsageError for a name that does not fit, and for a film that cannot be.
+std::optional<NumberedPath> numbered_output(const std::string& path, const FilmFormat& format, glm::ivec2 size);
+
+/// Before the first of them is made: throws OutputError if one of these pictures cannot be written.
+void check_pictures(const NumberedPath& path, std::span<const std::uint64_t> numbers, Existing existing);
 
 /// The ground of a film of such pixels: white where no background was asked for, but in a film that keeps what is
 /// transparent.
@@ -60,6 +72,10 @@ class PictureSink {
   Annotations annotations(const SinkPicture& picture, const Structure& structure) const {
     return annotations_.of(picture, structure);
   }
+  /// FrameAnnotations::check()
+  void check(std::span<const Camera> cameras, const Structure& structure) const {
+    annotations_.check(layout_, cameras, structure);
+  }
   /// Draws a picture, on any thread; what it returns adds it to a film.
   FinishFrame keep(const SinkPicture& picture, const Annotations& annotations, const Draw& draw);
 
@@ -67,7 +83,7 @@ class PictureSink {
   void finish();
 
  private:
-  void name_files(const std::string& path);
+  void name_files();
   FinishFrame to_file(const SinkPicture& picture, const Annotations& annotations, const Draw& draw);
   FinishFrame to_film(const SinkPicture& picture, const Annotations& annotations, const Draw& draw);
 

@@ -84,7 +84,8 @@ Camera aimed_camera(const Scene& scene, const std::optional<Camera>& given, cons
   std::vector<std::uint32_t> all(balls.size());
   std::iota(all.begin(), all.end(), 0u);
   if (objects.empty()) add(all);
-  return ViewAim(layout, scene.molecule.show, structure).camera(layout, given, objects);
+  const ViewAim aim(layout, scene.molecule.show, structure);
+  return aim.camera(layout, given, aim.viewed(objects));
 }
 
 void make_film(Scene scene, const ExportTarget& target, const ExportWatch& watch) {

@@ -156,6 +156,7 @@ void render_views(const RenderCommand& asked) {
   const PictureLayout layout(scene, viewed.key(scene));
   const std::vector<Camera> cameras = viewed.cameras(scene, layout.size);
   PictureSink sink(asked, layout, viewed.run.get());
+  if (viewed.run) sink.check(cameras, viewed.frames->first_shown());
   const EglContext context(scene.molecule.surface.gl);
   ViewPipeline pipeline;
   Renderer renderer;

@@ -68,6 +68,15 @@ std::vector<SceneCommand> read_scenes(const DeclaredFilm& declared) {
   return read;
 }
 
+/// Says which scene is at fault.
+void of_scene(const std::string& file, const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const RequestError& error) {
+    throw RequestError(fmt::format("{}: {}", escaped(file), error.what()));
+  }
+}
+
 }  // namespace
 
 FilmScene::FilmScene(const SceneCommand& command, bool extent)
@@ -75,6 +84,7 @@ FilmScene::FilmScene(const SceneCommand& command, bool extent)
       layout(std::make_shared<const PictureLayout>(run.scene(), run.key())),
       annotations(run.scene(), run.is_run() ? &run.frames() : nullptr) {
   run.aim(layout->size, extent);
+  if (!extent) annotations.check(*layout, run.framing().cameras, run.structure());
 }
 
 Storyboard::Timing::Timing(const FilmCommand& film) {
@@ -86,8 +96,10 @@ Storyboard::Timing::Timing(const FilmCommand& film) {
     between.push_back(pictures(seconds));
 }
 
-Storyboard::Storyboard(const DeclaredFilm& declared) : command_(with_scenes(declared.state)), timing_(command_) {
-  for (SceneCommand& command : read_scenes(declared)) {
+Storyboard::Storyboard(const DeclaredFilm& declared)
+    : command_(with_scenes(declared.state)), timing_(command_), format_(command_.scene.film) {
+  std::vector<SceneCommand> read = read_scenes(declared);
+  for (SceneCommand& command : read) {
     if (command_.is_draft) make_draft(command.scene);
     titles_.push_back(command.scene.annotations.title);
     // What is written into pictures is in no scene for another renderer, and leaves no room for it.
@@ -96,8 +108,21 @@ Storyboard::Storyboard(const DeclaredFilm& declared) : command_(with_scenes(decl
       command.scene.legend = {};
       command.scene.annotations = {};
     }
-    scenes_.push_back(std::make_unique<FilmScene>(command, is_exported()));
+    format_.transparent = format_.transparent || command.scene.film.transparent;
   }
+  if (!is_exported()) check_pictures_of(read);
+  for (std::size_t n = 0; n < read.size(); ++n)
+    of_scene(command_.files[n], [&] { scenes_.push_back(std::make_unique<FilmScene>(read[n], is_exported())); });
+}
+
+void Storyboard::check_pictures_of(const std::vector<SceneCommand>& scenes) const {
+  for (std::size_t n = 0; n < scenes.size(); ++n)
+    of_scene(command_.files[n], [&] {
+      check_picture(scenes[n].scene);
+      check_cost(command_, scenes[n].scene, scenes[n].scene.picture.size());
+    });
+  if (!numbered_output(command_.scene.output, format_, scenes.front().scene.picture.size()))
+    check_output(command_.scene.output, command_.existing());
 }
 
 std::uint64_t Storyboard::pictures() const {

@@ -65,6 +65,8 @@ class Storyboard {
   std::size_t size() const { return scenes_.size(); }
   FilmScene& scene(std::size_t n) { return *scenes_[n]; }
   const FilmCommand& command() const { return command_; }
+  /// Of the film: transparent if the command or any scene says so.
+  const FilmFormat& format() const { return format_; }
   bool is_exported() const { return command_.medium != FilmMedium::pictures; }
   std::uint64_t pictures() const;
   /// For how many pictures a scene is shown that is no run, and the transition to the next one lasts.
@@ -89,10 +91,13 @@ class Storyboard {
     explicit Timing(const FilmCommand& film);
     std::vector<std::uint64_t> held, between;
   };
+  /// Before anything is computed. Throws UsageError, RequestError, OutputError.
+  void check_pictures_of(const std::vector<SceneCommand>& scenes) const;
   void go_over(const Shot& next, std::uint64_t count, FilmMaker& maker, const EglContext* context);
 
   const FilmCommand& command_;
   Timing timing_;
+  FilmFormat format_;
   std::vector<std::unique_ptr<FilmScene>> scenes_;
   std::vector<std::string> titles_;
   std::optional<Shot> last_;  ///< of the scene before

@@ -83,6 +83,7 @@ Json film_json(const Film& film) {
   if (format.rate_factor) json["crf"] = *format.rate_factor;
   if (format.bits != 0) json["bits"] = format.bits;
   if (format.chroma != 0) json["chroma"] = format.chroma;
+  if (format.transparent) json["transparent"] = true;
   return json;
 }
 
@@ -131,6 +132,7 @@ Film read_film(const Json& json) {
   if (json.contains("crf")) film.format.rate_factor = number("crf");
   if (json.contains("bits")) film.format.bits = number("bits");
   if (json.contains("chroma")) film.format.chroma = number("chroma");
+  film.format.transparent = json.value("transparent", false);
   return film;
 }
 

@@ -232,7 +232,7 @@ Bundle described(const BundleOptions& options, const BundledCommand& asked, Bund
   command.scene = readied(command.scene);
   Scene& scene = command.scene;
   settle_selections(scene.molecule, scene.frames, {.view = &scene.picture, .motion = &scene.run_camera});
-  check_legend(scene);
+  check_picture(scene);
   if (!scene.legend.file.empty()) check_image_path(scene.legend.file);
   const GivenCameras cameras = given_cameras(scene.picture, scene.run_camera);
   FrameRun frames(scene.molecule, scene.frames);
@@ -249,9 +249,11 @@ Bundle described(const BundleOptions& options, const BundledCommand& asked, Bund
     throw UsageError("--film: pictures with --aovs are .exr, which films cannot use; leave one of them out");
   bundle.width = scene.picture.width;
   bundle.height = scene.picture.height;
-  if (options.film)
-    check_film_size(film_encoder(options.film->file, options.film->format), {bundle.width, bundle.height});
   bundle.film = options.film;
+  if (bundle.film) {
+    bundle.film->format.transparent = scene.film.transparent;
+    check_film_size(film_encoder(bundle.film->file, bundle.film->format), {bundle.width, bundle.height});
+  }
   ShownFrames shown(scene.molecule, frames);
   const std::optional<std::array<double, 2>> range = measured_range(scene, shown);
   legend = legend_of(scene, frames);

@@ -16,13 +16,20 @@ namespace {
 
 using Strings = std::vector<std::string>;
 
+/// Whether a codec keeps what is transparent.
+enum class Alpha { never, asked, always };
+
 struct Codec {
   std::string name;
   Strings endings;                 // of the containers that hold it
   Strings arguments;               // of ffmpeg
   std::vector<int> bits, chromas;  // the first is its own choice
   int rate_factor = 0, worst = 0;  // its own choice, and the largest; 0: it has none
-  bool alpha = false;
+  Alpha alpha = Alpha::never;
+
+  bool keeps_alpha(const FilmFormat& format) const {
+    return alpha == Alpha::always || (alpha == Alpha::asked && format.transparent);
+  }
 };
 
 const std::vector<Codec>& codecs() {
@@ -36,11 +43,18 @@ const std::vector<Codec>& codecs() {
        {420, 422, 444},
        20,
        51},
-      {"vp9", {".webm", ".mkv"}, {"libvpx-vp9", "-b:v", "0", "-row-mt", "1"}, {8, 10}, {420, 422, 444}, 24, 63},
+      {"vp9",
+       {".webm", ".mkv"},
+       {"libvpx-vp9", "-b:v", "0", "-row-mt", "1"},
+       {8, 10},
+       {420, 422, 444},
+       24,
+       63,
+       Alpha::asked},
       {"prores", {".mov", ".mkv"}, {"prores_ks", "-profile:v", "hq"}, {10}, {422}},
-      {"prores4444", {".mov", ".mkv"}, {"prores_ks", "-profile:v", "4444"}, {10}, {444}, 0, 0, true},
+      {"prores4444", {".mov", ".mkv"}, {"prores_ks", "-profile:v", "4444"}, {10}, {444}, 0, 0, Alpha::always},
       {"dnxhr", {".mov", ".mkv"}, {"dnxhd", "-profile:v"}, {8, 10}, {422, 444}},
-      {"gif", {".gif"}, {"gif"}, {8}, {444}},
+      {"gif", {".gif"}, {"gif"}, {8}, {444}, 0, 0, Alpha::asked},
   };
   return table;
 }
@@ -52,15 +66,24 @@ std::string ending_of(const std::string& path) {
 
 bool holds(const auto& list, const auto& value) { return std::ranges::find(list, value) != list.end(); }
 
-/// The first that the container holds stands for its ending.
+/// The first that the container holds, and that keeps what is transparent if that is asked for, stands for its ending.
 const Codec& codec_of(const std::string& path, const FilmFormat& format) {
   const std::string ending = ending_of(path);
   Strings fitting;
+  bool is_opaque = false;
   for (const Codec& codec : codecs()) {
     if (!holds(codec.endings, ending)) continue;
-    if (format.codec.empty() || format.codec == codec.name) return codec;
     fitting.push_back(codec.name);
+    if (!format.codec.empty() && format.codec != codec.name) continue;
+    if (!format.transparent || codec.keeps_alpha(format)) return codec;
+    is_opaque = true;
   }
+  if (is_opaque)
+    throw UsageError(
+        fmt::format("--background transparent: {} keeps no transparency; name a .webm, .mov, .gif or pictures, or "
+                    "choose a colour, such "
+                    "as --background white",
+                    format.codec.empty() ? "a " + ending + " film" : format.codec));
   throw UsageError(fmt::format("--codec {}: {} films hold {}", format.codec, ending, fmt::join(fitting, ", ")));
 }
 
@@ -93,12 +116,18 @@ bool is_film_path(const std::string& path) {
 
 FilmEncoder film_encoder(const std::string& path, const FilmFormat& format) {
   const Codec& codec = codec_of(path, format);
-  const int bits = chosen(codec, "--bits", codec.bits, format.bits);
-  const int chroma = chosen(codec, "--chroma", codec.chromas, format.chroma);
+  const bool keeps_alpha = codec.keeps_alpha(format);
+  // With alpha the encoders have their first choice alone.
+  const auto possible = [&](std::vector<int> all) {
+    if (keeps_alpha) all.resize(1);
+    return all;
+  };
+  const int bits = chosen(codec, "--bits", possible(codec.bits), format.bits);
+  const int chroma = chosen(codec, "--chroma", possible(codec.chromas), format.chroma);
   FilmEncoder encoder;
   Strings& arguments = encoder.arguments;
   const auto append = [&](const Strings& more) { arguments.insert(arguments.end(), more.begin(), more.end()); };
-  encoder.pixels = {codec.alpha ? 4 : 3, bits > 8 ? 2 : 1};
+  encoder.pixels = {keeps_alpha ? 4 : 3, bits > 8 ? 2 : 1};
   if (codec.name == "gif") {
     // A palette a picture: one for all would need all of them at once.
     append({"-filter_complex", "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1", "-c:v"});
@@ -110,8 +139,9 @@ FilmEncoder film_encoder(const std::string& path, const FilmFormat& format) {
   append({"-vf", "scale=out_color_matrix=bt709:out_range=tv", "-c:v"});
   append(codec.arguments);
   if (codec.name == "dnxhr") append({profile_of_dnxhr(bits, chroma)});
+  if (codec.name == "vp9" && keeps_alpha) append({"-auto-alt-ref", "0"});  // libvpx has none with alpha
   if (codec.worst > 0 || format.rate_factor) append({"-crf", fmt::format("{}", rate_factor_of(codec, format))});
-  append({"-pix_fmt", fmt::format("yuv{}{}p{}", codec.alpha ? "a" : "", chroma, bits > 8 ? "10le" : ""), "-colorspace",
+  append({"-pix_fmt", fmt::format("yuv{}{}p{}", keeps_alpha ? "a" : "", chroma, bits > 8 ? "10le" : ""), "-colorspace",
           "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range", "tv"});
   if (ending_of(path) == ".mp4" || ending_of(path) == ".mov") append({"-movflags", "+faststart"});
   encoder.unit = {chroma == 444 ? 1 : 2, chroma == 420 ? 2 : 1};

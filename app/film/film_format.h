@@ -13,7 +13,7 @@ namespace meniscus {
 
 /// The pixels that an encoder takes: rows from the top, sRGB, channels of 16 bits little-endian.
 struct FilmPixels {
-  int channels = 3;  ///< 4: and alpha, as ProRes 4444 keeps it
+  int channels = 3;  ///< 4: and alpha
   int bytes = 1;     ///< of a channel, 1 or 2
 };
 
@@ -29,7 +29,7 @@ struct FilmEncoder {
 bool is_film_path(const std::string& path);
 
 /// What is right for a film of that name. Throws UsageError for a codec that its container does not hold, and for bits,
-/// chroma or a rate factor that its codec does not have.
+/// chroma, a rate factor or transparency that its codec does not have.
 FilmEncoder film_encoder(const std::string& path, const FilmFormat& format);
 
 std::vector<std::string> film_codec_names();

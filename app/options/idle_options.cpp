@@ -46,11 +46,7 @@ class Asked {
   }
   const std::string& name() const { return command_.get_name(); }
 
-  bool is_run() const {
-    const auto counts = [&](const char* option) { return given(option) && value(option) != "1"; };
-    return any({"--trajectory", "--frames", "--begin", "--end", "--only"}) || counts("--stride") ||
-           counts("--repeat") || counts("--interpolate");
-  }
+  bool is_run() const { return options_.scene.frames.asked(); }
   bool is_film() const { return is_film_path(value("--output")); }
 
   Look look() const { return look_of(options_.scene.look, {1, 1}, std::nullopt, Hues::free); }
@@ -89,7 +85,8 @@ const std::vector<Need>& needs() {
         "--reference", "--smooth", "--camera-path", "--turntable", "--follow", "--time-stamp", "--curve",
         "--csv-series", "--csv-cavities", "--plot"},
        [](const Asked& asked) { return !asked.has("--stride") || asked.is_run(); },
-       "there is no run of frames; add --trajectory FILE, or --frames all for the models of FILE",
+       "there is no run of frames; add --trajectory FILE, --frames all for the models of FILE, or --repeat N to show "
+       "one molecule N times",
        true},
       {{"--min-patch", "--patch-lines", "--patch-line-color"},
        [](const Asked& asked) { return asked.given("--patches") || asked.name() == "preview"; },
@@ -140,14 +137,17 @@ const std::vector<Need>& needs() {
                 (ends_as(asked.value("--output"), {".usda", ".usdz"}) || asked.value("--format").starts_with("usd"));
        },
        "of meshes USD alone has times; name a file of a run, such as -o a.usda"},
-      {{"--clip", "--film-opacity", "--patches"},
+      {{"--film-opacity", "--patches"},
        [](const Asked& asked) { return !asked.given("--hide-surface"); },
-       "the surface is hidden, and shapes beside it are neither cut nor films, and have no patches"},
-      {{"--cap-color", "--cap-hatching"},
+       "the surface is hidden, and shapes beside it are no films, and have no patches"},
+      {{"--clip"},
+       [](const Asked& asked) { return !asked.given("--hide-surface") || asked.given("--clip-all"); },
+       "the surface is hidden; add --clip-all to cut what is beside it"},
+      {{"--cap-color", "--cap-hatching", "--clip-all"},
        [](const Asked& asked) {
          return asked.any({"--clip", "--look-into"});
        },
-       "nothing is cut, so there are no caps; add --clip PLANE"},
+       "nothing is cut; add --clip PLANE"},
       {{"--film-opacity"},
        [](const Asked& asked) { return asked.given("--opacity"); },
        "all of the surface is opaque; add --opacity"},

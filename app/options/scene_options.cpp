@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -20,7 +21,9 @@
 #include "app/options/scene_trust.h"
 #include "app/options/usage_faults.h"
 #include "app/process/program_error.h"
+#include "core/base/binary_file.h"
 #include "core/base/error.h"
+#include "core/base/system_file.h"
 #include "core/base/text.h"
 #include "core/color/color_maps.h"
 #include "core/mesh/check_by_mesh.h"
@@ -130,6 +133,7 @@ void SceneOptions::add_own_option(const Property& property) {
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   if (key == "camera.save") options.add(key, into_.save_camera);
   if (key == "output.force") options.add(key, into_.force);
+  if (key == "picture.any_cost") options.add(key, into_.any_cost);
   if (key == "scene.save") options.add(key, into_.save_scene);
   if (key == "scene.set")
     command_.add_option(std::string(property.option))
@@ -231,6 +235,22 @@ std::vector<SceneSetting> SceneOptions::read_scene_file(const std::vector<std::s
   return settings;
 }
 
+/// Before outputs are looked at: throws for a file that is not there what reading it would, and which scene asks for
+/// it.
+void SceneOptions::check_inputs() const {
+  for (const Property* property : properties()) {
+    if (property->type != ValueType::file || !has_option(*property, bit_) || !is_given(property->key)) continue;
+    for (const std::string& path : value_texts(into_.scene, *property)) {
+      std::error_code ignored;
+      if (path == "-" || std::filesystem::exists(path_of_text(path), ignored)) continue;
+      if (typed(property->key) || file_.empty()) BinaryFile(path, Contents::atoms);
+      throw InputError(file_, 0,
+                       fmt::format("scene: {} is {}: there is no such file, and none of its name in the working folder",
+                                   property->key, in_quotes(path)));
+    }
+  }
+}
+
 /// Of --set, in the form of a scene file's settings.
 std::vector<SceneSetting> SceneOptions::typed_settings() const {
   std::vector<SceneSetting> settings;
@@ -293,6 +313,8 @@ void SceneOptions::take(const std::vector<std::string>& named) {
       set(*property, texts);
   }
   check_table();
+  check_inputs();
+  turn_one_molecule();
   into_.scene.molecule.surface.check = check_by_mesh;
   try {
     complete(into_.scene);
@@ -305,6 +327,21 @@ void SceneOptions::take(const std::vector<std::string>& named) {
     if (!into_.reporting.quiet) std::cerr << "meniscus: " << escaped(sentence) << std::endl;
 }
 
+/// A camera that turns around one molecule makes a film of some seconds, unless it is said how many pictures it has.
+void SceneOptions::turn_one_molecule() {
+  Scene& scene = into_.scene;
+  ModelChoice& model = scene.molecule.reading.model;
+  if (bit_ != for_render || scene.run_camera.turns == 0.0 || scene.frames.asked() || model.all) return;
+  constexpr double kSeconds = 4.0;
+  scene.frames.frames = fmt::format("{}", model.number - 1);
+  scene.frames.repeat = static_cast<std::uint64_t>(std::max(std::lround(kSeconds * scene.film.frames_per_second), 2l));
+  model.number = 1;
+  if (!into_.reporting.quiet)
+    std::cerr << fmt::format(
+        "meniscus: note: --turntable turns around one molecule in {} pictures; --repeat N makes N\n",
+        scene.frames.repeat);
+}
+
 void SceneOptions::check_table() const {
   const auto name = [](std::string_view key) { return std::string(property_of(key).long_option()); };
   for (const Property* property : properties()) {
@@ -315,6 +352,16 @@ void SceneOptions::check_table() const {
     if (!property->needed.empty() && has_option(property_of(property->needed), bit_) && !is_given(property->needed))
       throw CLI::RequiresError(name(property->key), name(property->needed));
   }
+}
+
+void check_cost(const SceneCommand& command, const Scene& scene, glm::ivec2 size) {
+  constexpr double kRaysPerHour = 6e9;  // of a core, of a molecule that fills the picture
+  const double rays = static_cast<double>(size.x) * size.y * scene.image.samples * scene.image.motion_blur;
+  if (rays <= kMostRays || command.any_cost) return;
+  throw UsageError(fmt::format(
+      "{} x {} pixels with {} rays each are {:.2g} rays, about {:.3g} hours of one processor core; make the picture "
+      "smaller (--size), take fewer rays (--samples), or add --any-cost",
+      size.x, size.y, scene.image.samples * scene.image.motion_blur, rays, rays / kRaysPerHour));
 }
 
 SceneOutput::SceneOutput(const SceneCommand& command) : command_(command) {

@@ -46,12 +46,19 @@ struct SceneCommand {
   Reporting reporting;
   std::size_t jobs = 0;                 ///< frames that are made at once; 0: as cores and memory allow
   bool force = false;                   ///< outputs replace what is there
+  bool any_cost = false;                ///< pictures may have more rays than kMostRays
   std::string save_scene, save_camera;  ///< paths; empty: it is not saved
   /// Files that were added to the molecule when it was read, for scenes that are saved. Copies of the command share it.
   std::shared_ptr<std::vector<AddedFile>> added = std::make_shared<std::vector<AddedFile>>();
 
   Existing existing() const { return force ? Existing::replace : Existing::refuse; }
 };
+
+/// Rays of a picture that nobody asks for by chance: hours of work.
+inline constexpr double kMostRays = 1e10;
+
+/// Before anything is read. Throws UsageError for a picture of this size with more rays, unless any cost is all right.
+void check_cost(const SceneCommand& command, const Scene& scene, glm::ivec2 size);
 
 /// Must an output be named?
 enum class OutputName { required, optional };
@@ -97,6 +104,8 @@ class SceneOptions {
   void take_setting(const SceneSetting& setting);
   void set(const Property& property, const std::vector<std::string>& texts);
   void check_table() const;
+  void check_inputs() const;
+  void turn_one_molecule();
   [[noreturn]] void refuse(std::string_view key, const std::string& what) const;
 
   CLI::App& command_;

@@ -122,6 +122,9 @@ constexpr auto kTable = of_commands(
             .in(kPicture)
             .in_short_help()
             .of(for_render | for_film),
+        flag("picture.any_cost", "--any-cost", "Make a picture of more than 10^10 rays, too, which takes hours")
+            .in(kPicture, in_bundle | rare)
+            .of(for_render | for_film | for_panels),
         flag("picture.resume", "--resume",
              "Keep the picture, or those of a run, if they are there, and make the rest. Give it from the start: "
              "pictures then say of what they were made")

@@ -171,6 +171,10 @@ constexpr auto kTable = of_commands(
              "these atoms, 'before EXPR' is as deep as it must be for them to be seen. Repeatable; all apply")
             .in(kFigure, kSeen | live | repeatable | of_surfaces)
             .in_short_help(),
+        flag("surface.clip_all", "--clip-all",
+             "Cut sticks, balls, tubes and all else beside the surface by --clip, too")
+            .in(kFigure, kSeen)
+            .of(for_render | for_preview),
         text("surface.cap_color", "--cap-color", "COLOR",
              "Colour of caps: atom (that of the nearest) or a colour (red, #rrggbb)")
             .initially("atom")

@@ -166,6 +166,7 @@ class Writer {
 
   const LetterHeights& heights() const { return heights_; }
   std::vector<InkStroke> strokes() { return std::move(strokes_); }
+  std::vector<std::size_t> marks() { return std::move(marks_); }
 
   void panel(const std::string& text) {
     const int height = heights_.panel;
@@ -259,6 +260,7 @@ class Writer {
       shown.push_back(&label);
       unplaced.push_back({*seen + glm::dvec2(0.0, strips_.top), {}});
     }
+    marks_.assign(labels.size(), 0);
     if (shown.empty()) return true;
     LabelGround ground;
     ground.taken = taken_;
@@ -278,6 +280,7 @@ class Writer {
       for (std::size_t n = 0; n < shown.size(); ++n) {
         const PixelBox& box = (*boxes)[n];
         draw_line(leader_start(box, unplaced[n], ground), unplaced[n].anchor, width);
+        marks_[static_cast<std::size_t>(shown[n] - labels.data())] = strokes_.size();
         draw_line(unplaced[n].anchor, unplaced[n].anchor, 4.0 * width);
         write({shown[n]->text, {box.low.x, (box.low.y + box.high.y) / 2}, em});
       }
@@ -313,6 +316,7 @@ class Writer {
   const LetterHeights heights_;
   FontShelf& fonts_;
   std::vector<InkStroke> strokes_;
+  std::vector<std::size_t> marks_;
   std::vector<PixelBox> taken_;
 };
 
@@ -376,7 +380,28 @@ AnnotationLayer::AnnotationLayer(const Annotations& annotations, const Camera& c
         "smaller ({}), or the picture larger",
         option_name("label"), picture_size.x, picture_size.y, option_name("label-size")));
   strokes_ = writer.strokes();
+  marks_ = writer.marks();
+  hollow(annotations.labels);
   rim_width_ = std::max(1, writer.heights().usual / 9);
+}
+
+void AnnotationLayer::hollow(std::span<const PlaceLabel> labels) {
+  constexpr int kSides = 24;
+  for (std::size_t n = 0; n < marks_.size(); ++n) {
+    if (!labels[n].is_hidden || marks_[n] == 0) continue;
+    InkLine &line = std::get<InkLine>(strokes_[marks_[n] - 1]), &mark = std::get<InkLine>(strokes_[marks_[n]]);
+    const glm::dvec2 middle = mark.from, along = line.to - line.from;
+    const double radius = 0.75 * mark.width;
+    if (glm::length(along) > radius) line.to -= radius * glm::normalize(along);
+    const auto corner = [&](int side) {
+      const double angle = 2.0 * std::numbers::pi * side / kSides;
+      return middle + radius * glm::dvec2(std::cos(angle), std::sin(angle));
+    };
+    mark = {corner(0), corner(1), line.width};
+    for (int side = 1; side < kSides; ++side)
+      strokes_.emplace_back(InkLine{corner(side), corner(side + 1), std::get<InkLine>(strokes_[marks_[n]]).width});
+    marks_[n] = 0;
+  }
 }
 
 void AnnotationLayer::lay_over(Framebuffer& rows, int first_row) const {

@@ -22,6 +22,7 @@ struct Camera;
 struct PlaceLabel {
   std::string text;
   glm::dvec3 position{0.0};  ///< Å
+  bool is_hidden = false;    ///< behind what the picture shows: its mark is hollow
 };
 
 /// Numbers of a run of frames, one of which this picture is.
@@ -87,6 +88,9 @@ class AnnotationLayer {
   /// Writes into some whole rows of the picture, of which `first_row` is the first: as into the whole picture.
   void lay_over(Framebuffer& rows, int first_row) const;
 
+  /// Makes the marks of hidden labels hollow. labels: those of the constructor.
+  void hollow(std::span<const PlaceLabel> labels);
+
   /// Are there labels, and no room for them?
   bool lacks_labels() const { return lacks_labels_; }
 
@@ -97,6 +101,7 @@ class AnnotationLayer {
 
  private:
   std::vector<InkStroke> strokes_;
+  std::vector<std::size_t> marks_;  ///< of each label its mark, which is a stroke after its line; 0: it is not shown
   Inks inks_;
   int height_, rim_width_ = 1;
   bool lacks_labels_ = false;

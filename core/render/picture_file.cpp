@@ -57,6 +57,7 @@ PictureFile::PictureFile(const std::filesystem::path& path, const PictureMargins
 void PictureFile::take(const Framebuffer& band, int first_row) {
   shows_something_ =
       shows_something_ || std::ranges::any_of(band.color, [](const glm::vec4& pixel) { return pixel.w > 0.0f; });
+  if (first_row == 0) annotations_.hollow(margins_.annotations.labels);
   if (page_) return page_->add(band);
   const int top = margins_.strips.top;
   if (first_row == 0) write_strip(0, top);

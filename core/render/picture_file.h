@@ -16,7 +16,8 @@ namespace meniscus {
 
 struct Camera;
 
-/// What a picture shows beside the molecule; the first two must stay.
+/// What a picture shows beside the molecule; the first two must stay. Which labels are hidden is read with the first
+/// band.
 struct PictureMargins {
   const Annotations& annotations;
   const std::optional<Legend>& legend;

@@ -42,7 +42,7 @@ struct PictureObject {
   const Shapes* shapes = nullptr;    ///< or this
   /// One colour for each of Surface::atoms; for shapes, for each of Structure::atoms.
   const Coloring* coloring = nullptr;
-  /// Kept is what lies before all of them. A surface has caps there, which are sections of its solid; shapes have none.
+  /// Kept is what lies before all of them; where they cut there are caps: sections of the solid within.
   std::vector<ClipPlane> clip;
   CapStyle cap;
   /// Where a ray goes along a surface that is seen through, it sees more of it: opacity is that of a thin film.

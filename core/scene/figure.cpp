@@ -8,8 +8,10 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/queries/copies.h"
 
 namespace meniscus {
@@ -18,6 +20,8 @@ namespace {
 /// Of copies with more atoms than this a picture is made without having all of them in memory: with fewer it would
 /// not pay.
 constexpr std::size_t kMostMergedAtoms = 1'000'000;
+
+constexpr const char* kNothingShown = "the surface is not shown, and there is nothing beside it";
 
 std::size_t placed_atoms(std::span<const SurfaceObject> objects) {
   std::size_t count = 0;
@@ -66,6 +70,10 @@ void FigureRequest::ask_for(ReadOptions& reading) const {
   meniscus::ask_for(objects, reading);
 }
 
+void FigureRequest::check() const {
+  if (hides_surface && representations.empty() && objects.empty()) throw RequestError(kNothingShown);
+}
+
 BesideSurface make_beside(const Structure& structure, const FigureRequest& request, const ColorScheme& scheme) {
   BesideSurface beside;
   if (!request.representations.empty()) beside.shapes = shown_shapes(structure, request.representations, scheme);
@@ -93,6 +101,21 @@ std::vector<ClipPlane> surface_planes(const FigureRequest& request, const CutAto
   return clip_planes(request.cuts, cut_atoms, {camera, placed_balls(objects), shown_balls(objects)});
 }
 
+namespace {
+
+/// Whether the planes that cut the surface would cut something of what is beside it.
+bool lies_beyond(const FigureRequest& request, const Figure& figure, const Camera& camera) {
+  const std::vector<Ball> beside = figure.beside.balls();
+  const auto is_beyond = [&](const ClipPlane& plane) {
+    return std::ranges::any_of(
+        beside, [&](const Ball& ball) { return glm::dot(plane.normal, ball.center) + ball.radius > plane.offset; });
+  };
+  return std::ranges::any_of(surface_planes(request, figure.beside.cut_atoms, camera, figure.molecule.objects),
+                             is_beyond);
+}
+
+}  // namespace
+
 std::vector<std::string> idle_cuts(const FigureRequest& request, const Figure& figure, const Camera& camera) {
   std::vector<std::string> sentences;
   const auto of_objects = [](const FigureObjectRequest& object) { return !object.cuts.empty(); };
@@ -101,6 +124,10 @@ std::vector<std::string> idle_cuts(const FigureRequest& request, const Figure& f
   if (!request.hides_surface && !balls.empty())
     sentences =
         idle_cuts(request.cuts, figure.beside.cut_atoms, {camera, balls, shown_balls(figure.molecule.objects)}, balls);
+  if (!request.cuts_all && !request.cuts.empty() && !balls.empty() && lies_beyond(request, figure, camera))
+    sentences.push_back(
+        fmt::format("cuts the surface alone: some of what is drawn beside it lies beyond the plane; {} cuts it, too",
+                    option_name("clip-all")));
   for (std::size_t n = 0; n < figure.beside.objects.size(); ++n) {
     const FigureObject& object = figure.beside.objects[n];
     if (!object.surface || object.surface->surface.atoms.empty()) continue;
@@ -116,16 +143,21 @@ std::vector<PictureObject> picture_objects(const Surface& surface, const Colorin
                                            const FigureRequest& request, const BesideSurface* beside,
                                            const Camera& camera, std::span<const Ball> atoms) {
   std::vector<PictureObject> shown;
+  std::vector<ClipPlane> planes;
+  if (!request.hides_surface || request.cuts_all) {
+    std::vector<Ball> own;
+    if (uses_atoms(request.cuts)) own = shown_balls(surface.atoms, coloring);
+    planes = clip_planes(request.cuts, beside ? beside->cut_atoms : CutAtoms(), {camera, atoms, own});
+  }
   if (!request.hides_surface) {
     PictureObject& whole = shown.emplace_back();
     whole.surface = &surface;
     whole.coloring = &coloring;
+    whole.clip = planes;
     whole.cap = request.cap;
     whole.thickens = request.thickens;
-    std::vector<Ball> own;
-    if (uses_atoms(request.cuts)) own = shown_balls(surface.atoms, coloring);
-    whole.clip = clip_planes(request.cuts, beside ? beside->cut_atoms : CutAtoms(), {camera, atoms, own});
   }
+  const std::size_t first_beside = shown.size();
   if (beside && !beside->shapes.empty()) {
     PictureObject& shapes = shown.emplace_back();
     shapes.shapes = &beside->shapes.shapes;
@@ -136,7 +168,10 @@ std::vector<PictureObject> picture_objects(const Surface& surface, const Colorin
     if (object.surface || !object.shapes.empty())
       shown.push_back(picture_object(object, request.objects[n], camera, atoms));
   }
-  if (shown.empty()) throw RequestError("the surface is not shown, and there is nothing beside it");
+  if (shown.empty()) throw RequestError(kNothingShown);
+  if (request.cuts_all)
+    for (std::size_t n = first_beside; n < shown.size(); ++n)
+      shown[n].clip.insert(shown[n].clip.end(), planes.begin(), planes.end());
   return shown;
 }
 
@@ -147,23 +182,33 @@ const SurfaceObject* surface_beside(const BesideSurface& beside, const PictureOb
 }
 
 Framebuffer draw(SurfaceRenderer& renderer, Figure figure, const FigureRequest& request, const Camera& camera,
-                 const RenderSettings& settings) {
+                 const RenderSettings& settings, const Survey& survey) {
   // In bands or as a whole, as the renderer gives it.
-  const auto renamed = [&settings](const auto& render, const auto& rename) {
+  const auto renamed = [&](const auto& render, const auto& rename) {
+    if (survey)
+      survey([&](const Camera& seen_from, glm::ivec2 size) {
+        RenderSettings own;
+        own.size = size;
+        own.aovs = true;
+        Framebuffer seen = render(seen_from, own);
+        rename(seen);
+        return seen;
+      });
     RenderSettings own = settings;
     if (settings.take_band)
       own.take_band = [&](Framebuffer band, int first_row) {
         rename(band);
         settings.take_band(std::move(band), first_row);
       };
-    Framebuffer picture = render(own);
+    Framebuffer picture = render(camera, own);
     rename(picture);
     return picture;
   };
   std::vector<SurfaceObject>& objects = figure.molecule.objects;
   const bool opaque = std::ranges::none_of(objects, [](const SurfaceObject& o) { return o.coloring.is_translucent(); });
   if (request.plain() && opaque && placed_atoms(objects) > kMostMergedAtoms) {
-    return renamed([&](const RenderSettings& own) { return renderer.render_copies(objects, camera, own); },
+    return renamed([&](const Camera& seen_from,
+                       const RenderSettings& own) { return renderer.render_copies(objects, seen_from, own); },
                    [&](Framebuffer& picture) {
                      for (std::uint32_t& atom : picture.atom)
                        if (atom != kNone) atom = merged_atom(objects, atom);
@@ -173,17 +218,20 @@ Framebuffer draw(SurfaceRenderer& renderer, Figure figure, const FigureRequest& 
   // Planes along the view cut between the nearest atom of the molecule and its farthest.
   const std::vector<Ball> balls = request.plain() ? std::vector<Ball>{} : placed_balls(objects);
   const SurfaceObject whole = merged(std::move(objects));
-  const std::vector<PictureObject> shown =
-      picture_objects(whole.surface, whole.coloring, request, &figure.beside, camera, balls);
   std::vector<const SurfaceObject*> surfaces;
-  surfaces.reserve(shown.size());
-  for (const PictureObject& object : shown)
-    surfaces.push_back(object.surface == &whole.surface ? &whole : surface_beside(figure.beside, object));
-  return renamed([&](const RenderSettings& own) { return renderer.render(shown, camera, own); },
-                 [&](Framebuffer& picture) {
-                   name_atoms(surfaces, picture);
-                   name_atoms_as_the_file(figure.molecule.structure, picture);
-                 });
+  return renamed(
+      [&](const Camera& seen_from, const RenderSettings& own) {
+        const std::vector<PictureObject> shown =
+            picture_objects(whole.surface, whole.coloring, request, &figure.beside, seen_from, balls);
+        surfaces.clear();
+        for (const PictureObject& object : shown)
+          surfaces.push_back(object.surface == &whole.surface ? &whole : surface_beside(figure.beside, object));
+        return renderer.render(shown, seen_from, own);
+      },
+      [&](Framebuffer& picture) {
+        name_atoms(surfaces, picture);
+        name_atoms_as_the_file(figure.molecule.structure, picture);
+      });
 }
 
 }  // namespace meniscus

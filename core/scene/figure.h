@@ -2,6 +2,7 @@
 // A molecule as a figure shows it: its surface, cut or transparent, and the shapes and objects beside it.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,14 +21,18 @@ namespace meniscus {
 /// What is shown of a molecule, and how.
 struct FigureRequest {
   std::vector<Cut> cuts;            ///< of the surface
+  bool cuts_all = false;            ///< they cut what is drawn beside it, too
   CapStyle cap;                     ///< where they cut
   bool thickens = false;            ///< PictureObject::thickens
   bool hides_surface = false;       ///< it is not drawn, only what is drawn beside it
-  Representations representations;  ///< beside the surface; not cut
+  Representations representations;  ///< beside the surface
   std::vector<FigureObjectRequest> objects;
 
   /// Makes read_structure mark and keep the atoms of all that is beside the surface.
   void ask_for(ReadOptions& reading) const;
+
+  /// Throws RequestError if the surface is hidden and nothing is asked for beside it.
+  void check() const;
 
   /// Whether it is a surface and no more.
   bool plain() const {
@@ -73,7 +78,7 @@ std::vector<ClipPlane> surface_planes(const FigureRequest& request, const CutAto
                                       std::span<const SurfaceObject> objects);
 
 /// A sentence for each cut of the molecule's surface, and of those beside it, that takes nothing away or leaves
-/// nothing.
+/// nothing; and one if cuts leave something beside the surface that lies beyond them.
 std::vector<std::string> idle_cuts(const FigureRequest& request, const Figure& figure, const Camera& camera);
 
 /// What a picture shows of one surface: cut and seen through as asked, and what is drawn beside it (nullptr: nothing,
@@ -87,9 +92,14 @@ std::vector<PictureObject> picture_objects(const Surface& surface, const Colorin
 /// The surface among those beside the molecule's that an object of a picture shows; nullptr: none of them.
 const SurfaceObject* surface_beside(const BesideSurface& beside, const PictureObject& shown);
 
+/// Casts another picture of the figure that is about to be drawn: one ray a pixel, with its AOVs.
+using CastSurvey = std::function<Framebuffer(const Camera& camera, glm::ivec2 size)>;
+/// What looks at such pictures first.
+using Survey = std::function<void(const CastSurvey& cast)>;
+
 /// Its picture. atom of the AOVs: place in the file (Atom::index), as in every other answer; of copies the same. Throws
 /// as SurfaceRenderer::render() does.
 Framebuffer draw(SurfaceRenderer& renderer, Figure figure, const FigureRequest& request, const Camera& camera,
-                 const RenderSettings& settings);
+                 const RenderSettings& settings, const Survey& survey = {});
 
 }  // namespace meniscus

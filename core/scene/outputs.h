@@ -29,6 +29,7 @@ struct FilmFormat {
   int bits = 0;                    ///< of a channel, 8 or 10
   int chroma = 0;                  ///< 420, 422 or 444: colour in how many of the pixels
   double frames_per_second = 25.0;
+  bool transparent = false;  ///< what is transparent stays so, which not all codecs can; else white where none is
 
   bool operator==(const FilmFormat&) const = default;
 };

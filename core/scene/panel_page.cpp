@@ -15,6 +15,7 @@
 #include "core/base/text.h"
 #include "core/color/color_key.h"
 #include "core/render/vector_page.h"
+#include "core/scene/seen_atoms.h"
 
 namespace meniscus {
 namespace {
@@ -163,7 +164,7 @@ void PanelPage::aim(bool one_camera) {
   std::vector<Ball> shown, framed;
   for (Placed& placed : panels_) {
     const Panel& panel = placed.panel;
-    const ViewedAtoms seen = panel.aim.viewed(panel.figure.molecule.objects);
+    const ViewedAtoms seen = panel.aim.viewed(panel.figure);
     placed.camera = view_camera(placed.layout.size, panel.given, {seen.shown, seen.framed, panel.aim.symmetry()});
     shown.insert(shown.end(), seen.shown.begin(), seen.shown.end());
     framed.insert(framed.end(), seen.framed.begin(), seen.framed.end());
@@ -249,9 +250,10 @@ void PanelPage::write(const std::filesystem::path& path, SurfaceRenderer& render
       Placed& placed = panels_[n];
       const Scene& scene = placed.panel.scene;
       Figure& figure = placed.panel.figure;
-      const Annotations annotations = annotations_of(scene.annotations, figure.molecule.structure);
-      Framebuffer molecule =
-          draw(renderer, std::move(figure), scene.figure, placed.camera, render_settings(scene, placed.layout));
+      Annotations annotations = annotations_of(scene.annotations, figure.molecule.structure);
+      const RenderSettings settings = render_settings(scene, placed.layout);
+      const Survey survey = survey_of(scene, figure.molecule.structure, placed.camera, settings.size, annotations);
+      Framebuffer molecule = draw(renderer, std::move(figure), scene.figure, placed.camera, settings, survey);
       copy_into(row, output.finish(placed, annotations, std::move(molecule)), placed.place.x);
       if (done) done();
     }

@@ -86,7 +86,8 @@ void read_background(const Property&, Texts texts, Scene& scene) {
   std::optional<glm::vec3>& color = scene.image.background;
   const std::string& text = texts.back();
   color.reset();
-  if (text == "transparent") return;
+  scene.film.transparent = text == "transparent";
+  if (scene.film.transparent) return;
   color = parse_color(text);
   if (!color)
     throw RequestError(in_quotes(text) +
@@ -94,7 +95,7 @@ void read_background(const Property&, Texts texts, Scene& scene) {
 }
 
 Written write_background(const Property&, const Scene& scene) {
-  if (!scene.image.background) return {};
+  if (!scene.image.background) return scene.film.transparent ? Written{"transparent"} : Written();
   return {hex_color(*scene.image.background)};
 }
 

@@ -32,9 +32,13 @@ bool SceneTrust::has(const std::string& path) const {
 
 std::string SceneTrust::path(const Property& property, const std::string& text, const std::string& place) const {
   const fs::path given = path_of_text(text);
-  const std::string path = text_of_path(given.is_absolute() ? given : path_of_text(file).parent_path() / given);
+  std::error_code ignored;
+  std::string path = text_of_path(given.is_absolute() ? given : path_of_text(file).parent_path() / given);
+  // A picture in a folder of its own names its molecule as the command did that made it.
+  const bool reads = property.type != ValueType::new_file;
+  if (reads && !fs::exists(path_of_text(path), ignored) && fs::exists(given, ignored)) path = text;
   if (is_whole) return path;
-  if (property.type != ValueType::new_file) {
+  if (reads) {
     const bool leads_out = given.is_absolute() || std::ranges::find(given, fs::path("..")) != given.end();
     if (leads_out && !has(path))
       fail(file, place, fmt::format("is {}, outside of the scene's folder; {}", in_quotes(text), advice));
@@ -46,7 +50,6 @@ std::string SceneTrust::path(const Property& property, const std::string& text, 
   if (given != given.filename())
     fail(file, place,
          fmt::format("is {}; a scene cannot choose the folder of its picture: {}", in_quotes(text), own_advice));
-  std::error_code ignored;
   if (replaces && fs::exists(fs::symlink_status(path_of_text(path), ignored)))
     fail(file, place,
          fmt::format("is {}, which exists already; --force replaces what is named on the command line: {}",

@@ -10,7 +10,8 @@
 namespace meniscus {
 
 /// What someone who uses a scene has said of files. Unless it is trusted as a whole a scene names no files outside of
-/// its folder but those that are typed or named before, and writes to none but a new one beside it.
+/// its folder and the working folder but those that are typed or named before, and writes to none but a new one beside
+/// it.
 struct SceneTrust {
   std::string file{};                ///< of the scene
   std::vector<std::string> typed{};  ///< words of the command line
@@ -19,7 +20,8 @@ struct SceneTrust {
   bool replaces = false;             ///< --force
   std::string advice{};              ///< how this door lets a scene name a file outside: the end of a sentence
 
-  /// A path of the scene as seen from here. Throws InputError for one that it may not name. place: in the scene.
+  /// A path of the scene as seen from here: one that is read is looked for in the scene's folder, then in the working
+  /// folder. Throws InputError for one that it may not name. place: in the scene.
   std::string path(const Property& property, const std::string& text, const std::string& place) const;
 
  private:

@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/scene/scene_values.h"
+#include "core/scene/seen_atoms.h"
 #include "core/scene/settled_selections.h"
 
 namespace meniscus {
@@ -45,7 +46,8 @@ RenderSettings render_settings(const Scene& scene, const PictureLayout& layout) 
   return settings;
 }
 
-void check_legend(const Scene& scene) {
+void check_picture(const Scene& scene) {
+  scene.figure.check();
   if (scene.legend.asked() && scene.molecule.color.by == ColorScheme::By::fixed && scene.molecule.color.rules.empty())
     throw RequestError(fmt::format("{} has nothing to explain: everything has one colour; choose another {}",
                                    option_name("legend"), option_name("color")));
@@ -78,12 +80,13 @@ SceneFigure made_figure(const Scene& asked, const EglContext* context) {
 }
 
 Framebuffer scene_picture(const Scene& asked, SurfaceRenderer& renderer, const EglContext* context) {
-  check_legend(asked);
+  check_picture(asked);
   auto [scene, given, aim, figure] = made_figure(asked, context);
   const PictureLayout layout(scene, key_of(figure.molecule));
-  const Camera camera = aim.camera(layout.size, given.still, figure.molecule.objects);
-  const Annotations annotations = annotations_of(scene.annotations, figure.molecule.structure);
-  Framebuffer drawn = draw(renderer, std::move(figure), scene.figure, camera, render_settings(scene, layout));
+  const Camera camera = aim.camera(layout.size, given.still, aim.viewed(figure));
+  Annotations annotations = annotations_of(scene.annotations, figure.molecule.structure);
+  const Survey survey = survey_of(scene, figure.molecule.structure, camera, layout.size.size(), annotations);
+  Framebuffer drawn = draw(renderer, std::move(figure), scene.figure, camera, render_settings(scene, layout), survey);
   return finished_picture(std::move(drawn), annotations, layout, camera, scene.image.background);
 }
 

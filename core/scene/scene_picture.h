@@ -35,8 +35,9 @@ SurfaceRequest picture_request(const Scene& scene);
 /// How the part of the picture is drawn that the molecule has.
 RenderSettings render_settings(const Scene& scene, const PictureLayout& layout);
 
-/// Before anything is read. Throws RequestError for a legend that has nothing to explain.
-void check_legend(const Scene& scene);
+/// Before anything is read. Throws RequestError for a legend that has nothing to explain, and for a picture that shows
+/// nothing.
+void check_picture(const Scene& scene);
 
 /// A whole picture of the molecule with what is written into it, and its legend. lacks_labels: where to
 /// tell that labels have no room which need not fit. Throws as annotate() does.
@@ -58,7 +59,7 @@ SceneFigure made_figure(const Scene& scene, const EglContext* context);
 
 /// The picture of a scene, as `meniscus render` makes it of one molecule: read, computed, seen and drawn. scene:
 /// complete(). context: of the renderer, in which surfaces are computed, too; nullptr: on the CPU. Throws as
-/// made_figure(), check_legend() and drawing do.
+/// made_figure(), check_picture() and drawing do.
 Framebuffer scene_picture(const Scene& scene, SurfaceRenderer& renderer, const EglContext* context);
 
 }  // namespace meniscus

@@ -290,6 +290,8 @@ constexpr auto kSurfaceRows = std::to_array<SceneValue>({
     plain(
         "surface.film_opacity", [](auto& s) -> auto& { return s.figure.thickens; }),
     {"surface.clip", read_cuts, write_cuts},
+    plain(
+        "surface.clip_all", [](auto& s) -> auto& { return s.figure.cuts_all; }),
     {"camera.look_into", read_look_into, [](const Property&, const Scene&) { return Written(); }},
     {"surface.cap_color", read_cap_color, write_cap_color},
     plain(

@@ -190,7 +190,7 @@ Look look_between(const Look& from, const Look& to, double share) {
 Transition::Side Transition::side_of(Shot shot) {
   const Figure& figure = shot.figure;
   std::vector<ClipPlane> planes;
-  if (!shot.scene.figure.hides_surface)
+  if (!shot.scene.figure.hides_surface || shot.scene.figure.cuts_all)
     planes = surface_planes(shot.scene.figure, figure.beside.cut_atoms, shot.camera, figure.molecule.objects);
   const Look look = settings_of(shot).look;
   return {std::move(shot), std::move(planes), look};

@@ -73,7 +73,9 @@ ViewAim::ViewAim(const ViewRequest& request, const std::optional<Selection>& sho
     shown_.flip();
   }
   framed_ = shown_;
-  std::vector<bool> beside(structure.beside.size(), true);
+  for (std::size_t a = 0; a < framed_.size(); ++a) framed_[a] = framed_[a] || structure.atoms[a].shown != 0;
+  beside_.assign(structure.beside.size(), true);
+  frames_all_ = !request.zoom_to;
   if (request.zoom_to) {
     const std::vector<Atom> atoms = shown_atoms(structure);
     framed_ = request.zoom_to->evaluate(atoms);
@@ -82,11 +84,10 @@ ViewAim::ViewAim(const ViewRequest& request, const std::optional<Selection>& sho
                                      in_quotes(request.zoom_to->text()), with_thousands(atoms.size()),
                                      request.zoom_to->why_none(atoms)));
     const auto first_beside = framed_.begin() + static_cast<std::ptrdiff_t>(structure.atoms.size());
-    beside.assign(first_beside, framed_.end());
+    beside_.assign(first_beside, framed_.end());
     framed_.erase(first_beside, framed_.end());
   }
-  for (std::size_t n = 0; n < beside.size(); ++n)
-    if (beside[n]) beside_.push_back({structure.beside[n].position, structure.beside[n].radius});
+  balls_beside_ = framed_beside(structure);
   using Axes = ViewDirection::Frame;
   if (request.direction && request.direction->frame == Axes::open && !request.zoom_to)
     throw RequestError(
@@ -100,20 +101,34 @@ ViewAim::ViewAim(const ViewRequest& request, const std::optional<Selection>& sho
         "side");
 }
 
+std::vector<Ball> ViewAim::framed_beside(const Structure& structure) const {
+  std::vector<Ball> balls;
+  for (std::size_t n = 0; n < structure.beside.size(); ++n)
+    if (beside_[n]) balls.push_back({structure.beside[n].position, structure.beside[n].radius});
+  return balls;
+}
+
+ViewedAtoms ViewAim::viewed(const Figure& figure) const {
+  ViewedAtoms seen = viewed(figure.molecule.objects);
+  if (!frames_all_) return seen;
+  const std::vector<Ball> drawn = figure.beside.balls();
+  seen.framed.insert(seen.framed.end(), drawn.begin(), drawn.end());
+  return seen;
+}
+
 ViewedAtoms ViewAim::viewed(std::span<const SurfaceObject> objects) const {
   const std::vector<Ball> all = placed_balls(objects);
-  if (shown_.empty() && framed_.empty() && beside_.empty()) return {all, all};
+  if (shown_.empty() && framed_.empty() && balls_beside_.empty()) return {all, all};
   std::vector<Ball> shown = picked(objects, shown_), framed = picked(objects, framed_);
   // Atoms may belong to a part of the surface that was dropped (--cavities).
   if (shown.empty()) shown = all;
-  for (std::vector<Ball>* const balls : {&shown, &framed}) balls->insert(balls->end(), beside_.begin(), beside_.end());
+  for (std::vector<Ball>* const balls : {&shown, &framed})
+    balls->insert(balls->end(), balls_beside_.begin(), balls_beside_.end());
   if (framed.empty()) framed = shown;
   return {shown, framed};
 }
 
-Camera ViewAim::camera(const ViewRequest& layout, const std::optional<Camera>& given,
-                       std::span<const SurfaceObject> objects) const {
-  const ViewedAtoms seen = viewed(objects);
+Camera ViewAim::camera(const ViewRequest& layout, const std::optional<Camera>& given, const ViewedAtoms& seen) const {
   return view_camera(layout, given, {seen.shown, seen.framed, symmetry_});
 }
 
@@ -124,7 +139,12 @@ Camera ViewAim::camera(const ViewRequest& layout, const std::optional<Camera>& g
 
 std::vector<Ball> ViewAim::shown(const Structure& structure) const { return standing_balls(structure, shown_); }
 
-std::vector<Ball> ViewAim::framed(const Structure& structure) const { return standing_balls(structure, framed_); }
+std::vector<Ball> ViewAim::framed(const Structure& structure) const {
+  std::vector<Ball> balls = standing_balls(structure, framed_);
+  const std::vector<Ball> beside = framed_beside(structure);
+  balls.insert(balls.end(), beside.begin(), beside.end());
+  return balls;
+}
 
 bool sees_nothing(const Camera& camera, double aspect, const Structure& structure, double probe) {
   const std::vector<Ball> balls = balls_of(structure);

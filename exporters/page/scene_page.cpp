@@ -268,7 +268,7 @@ PackedFrame scene_frame(const Scene& scene, Figure figure, const SceneFrame& fra
 std::string scene_page(const Scene& asked) {
   check_scene(asked);
   SceneFigure made = made_figure(asked, nullptr);
-  const Camera camera = made.aim.camera(made.scene.picture, made.given.still, made.figure.molecule.objects);
+  const Camera camera = made.aim.camera(made.scene.picture, made.given.still, made.aim.viewed(made.figure));
   const Molecule& molecule = made.figure.molecule;
   const SceneFrame frame{camera, {}, key_of(molecule), other_colors(molecule.structure, molecule.color), {}};
   PageWriter page;

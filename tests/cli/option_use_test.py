@@ -19,7 +19,7 @@ PROGRAM = sys.argv.pop(1)
 
 # They say how the work is done or what is told of it, and leave the result as it is.
 HOW = {"--threads", "--jobs", "--serve", "--token-file", "--device", "--require-gpu", "--verify", "--progress", "--warnings", "--quiet", "--help",
-       "--help-all", "--force", "--stats", "--extent", "--trust-scene", "--trust-atom-order", "--link", "--addon"}
+       "--help-all", "--force", "--stats", "--extent", "--trust-scene", "--any-cost", "--trust-atom-order", "--link", "--addon"}
 # They say what to do with something that a file may hold, and are right to be silent where it does not.
 POLICIES = {"--unknown-element", "--missing-color", "--altloc", "--hydrogens", "--keep-water", "--keep-ions", "--whole",
             "--select-once", "--cavities", "--instances", "--min-volume", "--cap-color", "--cap-hatching",
@@ -124,7 +124,7 @@ CONTEXTS = {
     "dry": ["{one.pdb}", "--trajectory", "{dry.pdb}"],
     "curve": ["{run.pdb}", "--frames", "all", "--curve", "{curve.csv}"],
     "assembly": ["{one.pdb}", "--assembly", "1"], "hollow": ["{hollow.pdb}"],
-    "exr": ["{one.pdb}"], "clip": ["{one.pdb}", "--clip", "depth>0.5"], "seen through": ["{one.pdb}", "--opacity", "0.4"],
+    "exr": ["{one.pdb}"], "clip": ["{one.pdb}", "--clip", "depth>0.5"], "clip sticks": ["{one.pdb}", "--sticks", "chain A", "--clip", "depth>0.5"], "seen through": ["{one.pdb}", "--opacity", "0.4"],
     "shapes": ["{one.pdb}", "--sticks", "chain A"], "sticks": ["{one.pdb}", "--sticks", "chain A", "--hide-surface"],
     "ring": ["{rings.pdb}", "--opacity", "0.1"], "covered ring": ["{rings.pdb}"],
     "tube": ["{one.pdb}", "--tube", "protein", "--hide-surface"],
@@ -175,7 +175,7 @@ ROWS = {
     "--stick-radius": ("0.7", "sticks"), "--tube-radius": ("0.9", "tube"),
     "--object": ('{"representation": "surface", "selection": "resname LIG", "probe": 3}', "bare"),
     "--hide-surface": (None, "shapes"), "--opacity": ("0.4", "plain"), "--film-opacity": (None, "seen through"),
-    "--clip": ("depth>0.5", "plain"), "--cap-color": ("red", "clip"), "--cap-hatching": ("1", "clip"),
+    "--clip": ("depth>0.5", "plain"), "--clip-all": (None, "clip sticks"), "--cap-color": ("red", "clip"), "--cap-hatching": ("1", "clip"),
     "--interface": ("A:B", "plain"), "--color": ("chain", "plain"), "--color-by-file": ("{plain.txt}", "plain"),
     "--color-column": ("second", "table"), "--map": ("magma", "number"), "--map-file": ("{ramp.txt}", "number"),
     "--color-range": ("0:99", "number"), "--color-map-file": ("{map.dx}", "range"), "--map-offset": ("2", "volume"),
@@ -214,6 +214,7 @@ RARE = {
     **{option: ("render", "preview") for option in ("--outer-lines", "--inner-lines", "--part-lines", "--linear-alpha")},
     "--legend-place": ("render", "preview", "panels", "film"),
     **{option: ("render",) for option in ("--curve-column", "--stats")},
+    "--any-cost": ("render", "film", "panels"),
     **{option: ("render", "film", "farm bundle") for option in ("--bits", "--chroma")},
     "--map-offset": ("render", "preview", "export povray", "export blender", "export mitsuba", "export pbrt", "export mesh",
                      "export atoms"),

@@ -59,13 +59,15 @@ void write_film(const std::string& path, const FilmFormat& format) {
   film.finish();
 }
 
-/// The first picture again: red, green, blue, alpha in [0, 1].
-std::vector<glm::vec4> first_picture(const std::string& path) {
+/// The first picture again: red, green, blue, alpha in [0, 1]. decoder: of ffmpeg, whose own leaves out alpha of VP9.
+std::vector<glm::vec4> first_picture(const std::string& path, const std::string& decoder = "") {
   const std::string raw = path + ".raw";
-  const ProgramResult result =
-      run_program("/usr/bin/ffmpeg", {"-loglevel", "error", "-i", path, "-frames:v", "1", "-vf",
-                                      "scale=in_color_matrix=bt709:flags=accurate_rnd+full_chroma_int", "-pix_fmt",
-                                      "rgba64le", "-f", "rawvideo", raw});
+  std::vector<std::string> words{"-loglevel", "error"};
+  if (!decoder.empty()) words.insert(words.end(), {"-c:v", decoder});
+  words.insert(words.end(),
+               {"-i", path, "-frames:v", "1", "-vf", "scale=in_color_matrix=bt709:flags=accurate_rnd+full_chroma_int",
+                "-pix_fmt", "rgba64le", "-f", "rawvideo", raw});
+  const ProgramResult result = run_program("/usr/bin/ffmpeg", words);
   EXPECT_EQ(result.exit_code, 0) << result.err;
   const std::string bytes = read_bytes(raw);
   std::vector<glm::vec4> pixels(bytes.size() / 8);
@@ -139,6 +141,28 @@ INSTANTIATE_TEST_SUITE_P(
                     FilmCase{"dnxhr_10", ".mov", {"dnxhr", {}, 10, 0}, "dnxhd", "yuv422p10le"}),
     [](const auto& film) { return film.param.name; });
 
+TEST(FilmFormats, TransparencyIsKeptIfAskedFor) {
+  const TemporaryFolder folder;
+  FilmFormat format;
+  format.transparent = true;
+  const struct {
+    const char *ending, *decoder;
+    float error;
+  } films[] = {
+      {".webm", "libvpx-vp9", 0.02f}, {".mkv", "libvpx-vp9", 0.02f}, {".mov", "", 0.004f}, {".gif", "", 0.51f}};
+  for (const auto& [ending, decoder, error] : films) {
+    const std::string path = (folder.path() / ("film" + std::string(ending))).string();
+    write_film(path, format);
+    EXPECT_EQ(film_fault(path, kPictures), "") << ending;
+    const std::vector<glm::vec4> pixels = first_picture(path, decoder);
+    ASSERT_EQ(pixels.size(), static_cast<std::size_t>(kSize.x * kSize.y)) << ending;
+    float worst = 0.0f;
+    for (int x = 8; x < kSize.x - 8; ++x)
+      worst = std::max(worst, std::abs(pixels[30 * kSize.x + x].w - shown_at(x, 30).w));
+    EXPECT_LT(worst, error) << ending;
+  }
+}
+
 TEST(FilmFormats, RefusedAreToldWhatFits) {
   const auto fault = [](const std::string& path, const FilmFormat& format) {
     try {
@@ -157,6 +181,11 @@ TEST(FilmFormats, RefusedAreToldWhatFits) {
   EXPECT_EQ(fault("a.mp4", {"", 52, 0, 0}), "--crf 52: for h264 give 0 (best) to 51");
   EXPECT_EQ(fault("a.mp4", {"", -1, 0, 0}), "--crf -1: for h264 give 0 (best) to 51");
   EXPECT_EQ(fault("a.mov", {"dnxhr", {}, 0, 444}), "--chroma 444: dnxhr has it with --bits 10 only");
+  const std::string opaque = fault("a.mp4", {"", {}, 0, 0, 25.0, true});
+  EXPECT_NE(opaque.find("a .mp4 film keeps no transparency"), std::string::npos) << opaque;
+  EXPECT_NE(fault("a.mov", {"h264", {}, 0, 0, 25.0, true}).find("h264 keeps no transparency"), std::string::npos);
+  EXPECT_EQ(fault("a.webm", {"", {}, 10, 0, 25.0, true}), "--bits 10: vp9 has 8");
+  EXPECT_EQ(fault("a.webm", {"", {}, 0, 0}), "");
   const FilmEncoder odd = film_encoder("a.mp4", {"", {}, 0, 444});
   EXPECT_NO_THROW(check_film_size(odd, {63, 47}));
   EXPECT_THROW(check_film_size(film_encoder("a.mp4", {}), {64, 47}), UsageError);

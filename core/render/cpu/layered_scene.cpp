@@ -64,9 +64,11 @@ bool is_repeated(const LayerHit& hit, const LayerHit& before, float slack) {
   return SingleRays().is_repeated(hit.t, hit.facing, before.t, before.facing, slack);
 }
 
-/// Where a plane cuts, hidden atoms are seen through: their points tell what is solid.
+/// Where a plane cuts, hidden atoms are seen through, and shapes lie within each other: all points of a ray tell what
+/// is solid.
 bool is_translucent(const PictureObject& object) {
-  return object.coloring->is_translucent() || (!object.clip.empty() && object.coloring->hides_some());
+  return object.coloring->is_translucent() ||
+         (!object.clip.empty() && (object.shapes || object.coloring->hides_some()));
 }
 
 /// Of the planes of an object those through which every ray of the block comes in, moved outwards by more than all
@@ -239,19 +241,19 @@ void LayeredScene::cut(std::uint32_t number, std::size_t first_hit, const TileWo
     cap.point = cap_point(work.task, cap);
     caps.push_back(cap);
   };
-  const bool has_caps = layer.object->surface != nullptr;
   for (std::uint32_t ray = 0; ray < ray_count(work.task); ++ray) {
     const std::span<const std::uint32_t> order = work.place.order_of(ray);
     if (order.empty()) continue;
     const ClippedRay& clipped = work.place.clipped[ray];
     bool hidden = false;  // by a cap
-    if (has_caps && clipped.in_plane != ClippedRay::kNoPlane && hits[order.front()].facing > 0.0f) {
+    if (clipped.in_plane != ClippedRay::kNoPlane && begins_inside(layer, hits, order)) {
       add_cap(ray, clipped.in, clipped.in_plane, -1.0f);
+      caps.back().atom = leaving_hit(hits, order).atom;
       hidden = !layer.translucent;
     }
     std::size_t n = 0;
     while (!hidden && n < order.size() && hits[order[n]].t < clipped.out) ++n;
-    if (n < order.size() && has_caps && layer.translucent && hits[order[n]].facing > 0.0f)
+    if (n < order.size() && layer.object->surface && layer.translucent && hits[order[n]].facing > 0.0f)
       add_cap(ray, clipped.out, clipped.out_plane, 1.0f);
     for (; n < order.size(); ++n) hits[order[n]].t = kFar;  // cut away
   }
@@ -261,6 +263,26 @@ void LayeredScene::cut(std::uint32_t number, std::size_t first_hit, const TileWo
   hits.insert(hits.end(), caps.begin(), caps.end());
   work.kernels.light_points(layer.scene.lanes, work.task, hits.data() + first_cap,
                             static_cast<std::uint32_t>(caps.size()));
+}
+
+const LayerHit& LayeredScene::leaving_hit(std::span<const LayerHit> hits, std::span<const std::uint32_t> order) {
+  return hits[*std::ranges::find_if(order, [&](std::uint32_t n) { return hits[n].facing > 0.0f; })];
+}
+
+/// order: of all points of a ray that lie beyond the plane. Of a surface the first tells. Shapes lie within each other,
+/// so that those count that are left and were not entered; but cylinders are open at their ends, in spheres.
+bool LayeredScene::begins_inside(const Layer& layer, std::span<const LayerHit> hits,
+                                 std::span<const std::uint32_t> order) {
+  if (hits[order.front()].facing > 0.0f || layer.object->surface) return hits[order.front()].facing > 0.0f;
+  int left = 0;
+  const LayerHit* before = nullptr;
+  for (const std::uint32_t n : order) {
+    const bool again = before && is_repeated(hits[n], *before, layer.scene.placement.slack);
+    before = &hits[n];
+    if (again || layer.scene.packed.primitives[hits[n].primitive].kind == ray_cast::kCylinder) continue;
+    left += hits[n].facing > 0.0f ? 1 : -1;
+  }
+  return left > 0;
 }
 
 glm::dvec3 LayeredScene::cap_point(const LaneTile& task, const LayerHit& cap) const {
@@ -273,6 +295,10 @@ glm::dvec3 LayeredScene::cap_point(const LaneTile& task, const LayerHit& cap) co
 /// to the middle of a row are asked for each of its caps.
 void LayeredScene::color_caps(const Layer& layer, std::span<Cap> caps) const {
   if (caps.empty()) return;
+  if (layer.object->shapes) {
+    for (Cap& cap : caps) paint_cap(layer, cap);
+    return;
+  }
   const std::vector<Ball>& balls = layer.object->surface->atoms;
   const auto [middle, reach] = middle_of(caps);
   std::vector<std::uint32_t> around;
@@ -306,7 +332,6 @@ LayeredScene::Middle LayeredScene::middle_of(std::span<const Cap> caps) {
 
 void LayeredScene::color_caps(const Layer& layer, std::span<Cap> caps, double reach,
                               std::span<const NearAtom> near) const {
-  const Coloring& coloring = *layer.object->coloring;
   const std::vector<Ball>& balls = layer.object->surface->atoms;
   for (Cap& cap : caps) {
     NearAtom first{std::numeric_limits<double>::infinity(), 0};
@@ -315,18 +340,23 @@ void LayeredScene::color_caps(const Layer& layer, std::span<Cap> caps, double re
       first = std::min(first, {glm::length(cap.point - balls[a].center) - balls[a].radius, a});
     }
     cap.atom = first.second;
-    cap.color = layer.scene.colors[cap.atom];
-    cap.normal = glm::vec3(layer.object->clip[cap.plane].normal);
-    if (coloring.by_volume(cap.atom)) {
-      const VolumePaint& paint = *coloring.volume;
-      cap.color = glm::vec4(linear_from_srgb(paint.scale.color(paint.grid.sample(cap.point))), cap.color.w);
-    }
-    const CapStyle& style = layer.object->cap;
-    if (style.color) cap.color = glm::vec4(linear_from_srgb(*style.color), cap.color.w);
-    if (style.hatching > 0.0)
-      cap.color = glm::vec4(
-          glm::vec3(cap.color) * hatched(cap.point, layer.object->clip[cap.plane].normal, style.hatching), cap.color.w);
+    paint_cap(layer, cap);
   }
+}
+
+void LayeredScene::paint_cap(const Layer& layer, Cap& cap) {
+  const Coloring& coloring = *layer.object->coloring;
+  cap.color = layer.scene.colors[cap.atom];
+  cap.normal = glm::vec3(layer.object->clip[cap.plane].normal);
+  if (coloring.by_volume(cap.atom)) {
+    const VolumePaint& paint = *coloring.volume;
+    cap.color = glm::vec4(linear_from_srgb(paint.scale.color(paint.grid.sample(cap.point))), cap.color.w);
+  }
+  const CapStyle& style = layer.object->cap;
+  if (style.color) cap.color = glm::vec4(linear_from_srgb(*style.color), cap.color.w);
+  if (style.hatching > 0.0)
+    cap.color = glm::vec4(
+        glm::vec3(cap.color) * hatched(cap.point, layer.object->clip[cap.plane].normal, style.hatching), cap.color.w);
 }
 
 void LayeredScene::order_hits(std::size_t first_hit, const TileWork& work) const {

@@ -91,8 +91,11 @@ class LayeredScene {
   void pack(Layer& layer, const ScenePlacement& placement, const Look& look) const;
   void cast_layer(std::uint32_t number, std::size_t tile, const TileWork& work);
   void cut(std::uint32_t number, std::size_t first_hit, const TileWork& work) const;
+  static bool begins_inside(const Layer& layer, std::span<const LayerHit> hits, std::span<const std::uint32_t> order);
+  static const LayerHit& leaving_hit(std::span<const LayerHit> hits, std::span<const std::uint32_t> order);
   glm::dvec3 cap_point(const LaneTile& task, const LayerHit& cap) const;
   void color_caps(const Layer& layer, std::span<Cap> caps) const;
+  static void paint_cap(const Layer& layer, Cap& cap);
   /// Of caps, and how far from it they lie, Å.
   struct Middle {
     glm::dvec3 point{0.0};

@@ -262,6 +262,8 @@ class SceneValues(SurfaceValues, total=False):
     #: depth runs along the line of sight from 0 (nearest) to 1 (farthest). 'through EXPR' goes through the
     #: middle of these atoms, 'before EXPR' is as deep as it must be for them to be seen. Repeatable; all apply
     clip: Union[Text, Sequence[Text]]
+    #: Cut sticks, balls, tubes and all else beside the surface by --clip, too
+    clip_all: bool
     #: COLOR: Colour of caps: atom (that of the nearest) or a colour (red, #rrggbb) [atom]
     cap_color: Text
     #: Å: Distance of dark lines on caps, in Å; 0: no lines [0]
