@@ -78,12 +78,11 @@ void leave_out_hydrogens(Spheres& spheres) {
 
 Spheres read_spheres(const std::string& file) {
   const TextFile text = read_text_file(file);
-  if (!kXyzrReader.recognizes(text.text))
-    if (const Reader& reader = choose_reader(text); &reader != &kXyzrReader)
+  for (const Reader* reader : readers())
+    if (!kXyzrReader.recognizes(text.text) && reader->recognizes(text.text))
       throw InputError(text.path, 0,
-                       fmt::format("is {}, not a list of spheres; pdb_to_xyzr converts it: meniscus-pdb_to_xyzr {} > "
-                                   "balls.xyzr",
-                                   reader.metadata.name, shell_word(text.path)));
+                       fmt::format("is {}, not a list of spheres; convert it: meniscus-pdb_to_xyzr {} > balls.xyzr",
+                                   reader->metadata.name, shell_word(text.path)));
   FileContents contents = kXyzrReader.read(text, {});
   std::vector<Ball> balls;
   std::vector<std::string> names;

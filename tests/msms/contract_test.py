@@ -105,6 +105,8 @@ class CommandLine(Folder):
                 done = self.refused(3, "-if", "in.xyzr", "-of", "out", "-af", "out")
                 self.assertIn("in.xyzr", done.stderr)
         self.refused(3, "-if", "missing.xyzr", "-of", "out")
+        self.assertIn("is PDB, not a list of spheres; convert it: meniscus-pdb_to_xyzr",
+                      self.refused(3, "-if", str(UBIQUITIN), "-of", "out").stderr)
         self.refused(3, "-if", ".", "-of", "out")
 
     def test_outputs_that_cannot_be_written_are_exit_6(self):
