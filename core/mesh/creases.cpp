@@ -82,10 +82,9 @@ std::array<glm::dvec3, 2> crease_normals(const Surface& surface, const Border& b
     for (int side = 0; side < 2; ++side)
       normal[side] = glm::normalize(surface.concave[surface.faces[border.face[side]].patch].center - x);
   } else if (border.kind == BorderKind::contact && surface.probe_radius == 0.0) {
-    for (const std::uint32_t f : border.face) {
-      if (surface.faces[f].kind != PatchKind::toroidal) continue;
-      const ToroidalPatch& torus = surface.toroidal[surface.faces[f].patch];
-      for (int side = 0; side < 2; ++side) normal[side] = glm::normalize(x - surface.atoms[torus.atom[side]].center);
+    for (int side = 0; side < 2; ++side) {  // tori have no faces
+      const ConvexPatch& patch = surface.convex[surface.faces[border.face[side]].patch];
+      normal[side] = glm::normalize(x - surface.atoms[patch.atom].center);
     }
   }
   return normal;

@@ -44,8 +44,13 @@ std::vector<std::uint32_t> unchecked_triangles(const MeshOnSurface& mesh,
   return unchecked;
 }
 
-/// Triangles that pass through others. Two that did not then, and have not changed since this was asked last, do not.
-std::vector<std::uint32_t> crossing(MeshOnSurface& mesh) {
+struct CrossingTriangles {
+  std::vector<std::uint32_t> triangles;  ///< those that pass through others, ascending
+  bool crumpled = false;                 ///< so many others that single changes lead nowhere
+};
+
+/// Two triangles that did not pass through one another when this was asked last, and have not changed, do not now.
+CrossingTriangles crossing(MeshOnSurface& mesh) {
   const auto all = all_triangles(mesh.links());
   const std::vector<std::uint32_t> unchecked = unchecked_triangles(mesh, all);
   const bool few = unchecked.size() < all.size() / RemeshTuning::few_unchecked;
@@ -54,10 +59,10 @@ std::vector<std::uint32_t> crossing(MeshOnSurface& mesh) {
   std::vector<std::uint8_t> bad(all.size(), 0);
   for (const auto& [a, b] : pairs) bad[a] = bad[b] = 1;
   for (std::uint32_t v = 0; v < mesh.links().vertex_count(); ++v) mesh.vertex(v).unchecked = false;
-  std::vector<std::uint32_t> found;
+  CrossingTriangles found{{}, pairs.size() > RemeshTuning::most_crossings * all.size()};
   for (std::uint32_t t = 0; t < bad.size(); ++t) {
     if (!bad[t]) continue;
-    found.push_back(t);
+    found.triangles.push_back(t);
     for (const std::uint32_t v : all[t]) mesh.vertex(v).unchecked = true;
   }
   return found;
@@ -163,6 +168,7 @@ class EvenMeshing {
         follow_creases_(follow_creases),
         contracted_(beginning == Beginning::contracted),
         attempts_(attempts),
+        creased_(surface.components.size(), false),
         walk_(surface),
         base_(base_mesh(surface, walk_, beginning, RemeshTuning::coarser_base * sizes_.tolerance())),
         nearness_(surface, walk_, sizes_) {}
@@ -176,18 +182,18 @@ class EvenMeshing {
       start(watched);
       if (attempt >= RemeshTuning::first_frozen && !contracted_) freeze_watched();
       std::vector<std::uint32_t> bad = even_out(attempt >= RemeshTuning::first_unmended);
+      if (bad.empty()) bad = of_other_volume();
       if (bad.empty()) bad = crossing_of_all();
       if (bad.empty()) break;
       if (attempt == (contracted_ ? RemeshTuning::contracted_attempts : RemeshTuning::attempts))
-        throw OpenSurfaceError(
-            fmt::format("no even mesh was found: {} triangles still cross others or lie too far from the surface; ask "
-                        "for a finer one",
-                        bad.size()));
+        throw OpenSurfaceError(fmt::format(
+            "no even mesh was found: {} triangles still cross others, lie too far from the surface or bound "
+            "another volume; ask for a finer one",
+            bad.size()));
       for (Ball& place : watched) place.radius *= RemeshTuning::wider;
       for (const std::uint32_t t : bad) watched.push_back(around(mesh_->placed(t)));
     }
     FineMesh even = rows_of(*mesh_, sizes_.by_density() ? 0.0 : options_.tolerance);
-    check_volumes(even.mesh);
     even.attempts = attempts_;
     return even;
   }
@@ -202,7 +208,13 @@ class EvenMeshing {
   }
   std::vector<bool> creases() const {
     if (!follow_creases_) return std::vector<bool>(surface_.borders.size(), false);
-    return creases_to_keep(surface_, [this](const glm::dvec3& x) { return sizes_.crease_edge_at(x); });
+    std::vector<bool> keep =
+        creases_to_keep(surface_, [this](const glm::dvec3& x) { return sizes_.crease_edge_at(x); });
+    for (std::uint32_t b = 0; b < keep.size(); ++b) {
+      const Border& border = surface_.borders[b];
+      if (creased_[surface_.faces[border.face[0]].component] && crease_angle(surface_, border) > 0.0) keep[b] = true;
+    }
+    return keep;
   }
   void freeze_watched() {
     for (std::uint32_t v = 0; v < mesh_->links().vertex_count(); ++v)
@@ -215,18 +227,21 @@ class EvenMeshing {
     Remesher remesher(*mesh_);
     if (sizes_.by_density()) remesher.approach();
     for (int round = 0; round < RemeshTuning::rounds; ++round) {
+      const std::uint32_t before = mesh_->links().triangle_count();
       remesher.even_out(1);
       mesh_->compact();
+      if (sizes_.by_density() && mesh_->links().triangle_count() > RemeshTuning::fastest_growth * before) break;
     }
     const std::uint32_t most =
         RemeshTuning::most_growth * mesh_->links().triangle_count() + RemeshTuning::growth_allowed;
     for (int n = 1;; ++n) {
       if (!sizes_.by_density())
         if (std::vector<std::uint32_t> far = come_near(most); !far.empty()) return far;
-      if (slivers_may_stay && !sizes_.by_density() && crossing(*mesh_).empty() && nearness_.reaches_all(*mesh_))
-        return {};
-      mend(crossing(*mesh_));
-      std::vector<std::uint32_t> bad = crossing(*mesh_);
+      const CrossingTriangles now = crossing(*mesh_);
+      if (now.crumpled) return now.triangles;
+      if (slivers_may_stay && !sizes_.by_density() && now.triangles.empty() && nearness_.reaches_all(*mesh_)) return {};
+      mend(now.triangles);
+      std::vector<std::uint32_t> bad = crossing(*mesh_).triangles;
       if (sizes_.by_density()) bad = part(std::move(bad));
       if (!bad.empty() || sizes_.by_density()) return bad;
       bad = triangles_of(nearness_.too_far(*mesh_));
@@ -238,7 +253,7 @@ class EvenMeshing {
   /// The last word, whatever is known to have changed.
   std::vector<std::uint32_t> crossing_of_all() {
     for (std::uint32_t v = 0; v < mesh_->links().vertex_count(); ++v) mesh_->vertex(v).unchecked = true;
-    return crossing(*mesh_);
+    return crossing(*mesh_).triangles;
   }
 
   MeshMender mender() {
@@ -261,10 +276,12 @@ class EvenMeshing {
          n < RemeshTuning::partings && idle < RemeshTuning::idle_refinements && !bad.empty() && bad.size() <= most;
          ++n) {
       if (guarded) mesh_->guard().watch_around(bad);
+      const std::size_t sane = mesh_->links().triangle_count() + RemeshTuning::most_growth_each * bad.size();
       refine(bad);
+      if (mesh_->links().triangle_count() > sane) return crossing_of_all();
       mender().mend_only(unchecked_triangles(*mesh_, all_triangles(mesh_->links())));
       mesh_->compact();
-      bad = crossing(*mesh_);
+      bad = crossing(*mesh_).triangles;
       const bool helped = bad.size() < fewest;
       idle = helped ? 0 : idle + 1;
       if (!helped) guarded = !guarded;
@@ -300,19 +317,29 @@ class EvenMeshing {
     mesh_->compact();
   }
 
-  /// Splits, collapses and flips keep the topology; that triangles look outwards is seen from the volumes.
-  void check_volumes(const TriangleMesh& mesh) const {
+  /// Splits, collapses and flips keep the topology; that triangles look outwards is seen from the volumes. Returns the
+  /// triangles of components that have another volume than the surface's; from now on they end at all their creases,
+  /// however short these are.
+  std::vector<std::uint32_t> of_other_volume() {
+    TriangleMesh mesh;
+    mesh.positions = mesh_->positions();
+    mesh.triangles = all_triangles(mesh_->links());
+    mesh.component.reserve(mesh.triangles.size());
+    for (const auto& v : mesh.triangles) mesh.component.push_back(surface_.faces[mesh_->vertex(v[0]).face].component);
     const std::vector<MeshSums> sums = component_sums(mesh, surface_.components.size());
-    for (std::uint32_t c = 0; c < sums.size(); ++c) {
+    const auto is_other = [&](std::uint32_t c) {
       const Component& component = surface_.components[c];
-      const bool same = (sums[c].volume > 0.0) == (component.volume > 0.0);
-      const double off = std::abs(sums[c].volume - component.volume);
-      if (same && (mesh.tolerance == 0.0 || options_.tolerance_at || off <= mesh.tolerance * component.area + 1e-9))
-        continue;
-      throw OpenSurfaceError(
-          fmt::format("component {} has {:.6g} Å³, but its even mesh has another volume; ask for a finer one", c,
-                      component.volume));
+      if ((sums[c].volume > 0.0) != (component.volume > 0.0)) return true;
+      if (sizes_.by_density() || options_.tolerance_at) return false;
+      return std::abs(sums[c].volume - component.volume) > options_.tolerance * component.area + 1e-9;
+    };
+    std::vector<std::uint32_t> bad;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      if (!is_other(mesh.component[t])) continue;
+      bad.push_back(t);
+      creased_[mesh.component[t]] = true;
     }
+    return bad;
   }
 
   const Surface& surface_;
@@ -320,6 +347,7 @@ class EvenMeshing {
   EvenSizes sizes_;
   bool follow_creases_, contracted_;
   std::uint32_t& attempts_;
+  std::vector<bool> creased_;  ///< per component
   SurfaceWalk walk_;
   BaseMesh base_;
   MeshNearness nearness_;

@@ -156,6 +156,11 @@ struct RemeshTuning {
   static constexpr std::uint32_t most_parted = 500;
   /// Refinements that make more triangles than these lead nowhere.
   static constexpr std::uint32_t most_growth = 2, growth_allowed = 500;
+  /// Where creases of bare balls crowd, folded triangles make more of their kind with each round. With a density, a
+  /// round that makes more triangles than that is the last one, and so is a parting that makes more of each; with more
+  /// pairs that cross per triangle than that all begins again at once.
+  static constexpr double fastest_growth = 1.1;
+  static constexpr std::size_t most_growth_each = 50, most_crossings = 2;
 
   /// Where fewer than one triangle in so many changed, crossings are searched for at these alone.
   static constexpr std::uint32_t few_unchecked = 4;

@@ -37,7 +37,7 @@ constexpr double kNoHolder = -std::numeric_limits<double>::infinity();
 /// Å between the spheres of an atom and of one that it could swallow, where they are nearest; negative: the other one
 /// sticks out. kNoHolder if it could not swallow it.
 double slack_in(std::span<const Ball> atoms, std::uint32_t by, std::uint32_t held) {
-  if (by == held || !outranks(atoms, by, held)) return kNoHolder;
+  if (!outranks(atoms, by, held)) return kNoHolder;
   return atoms[by].radius - atoms[held].radius - glm::distance(atoms[held].center, atoms[by].center);
 }
 bool holds(double slack) { return slack + kSwallowTolerance >= 0; }
