@@ -186,6 +186,11 @@ std::vector<WrittenCommand> written_commands(const PreviewCommand& command) {
 std::string token_of(const PreviewCommand& command) {
   std::string token;
   if (!command.token_file.empty()) {
+    using enum std::filesystem::perms;
+    std::error_code missing;
+    const auto others = std::filesystem::status(command.token_file, missing).permissions() & (group_all | others_all);
+    if (!missing && others != none)
+      throw InputError(command.token_file, 0, "others can read or change the token; chmod 600 that file");
     std::ifstream stream(command.token_file);
     if (!(stream >> token)) throw InputError(command.token_file, 0, "no token can be read");
   } else if (const char* const given = std::getenv("MENISCUS_TOKEN")) {

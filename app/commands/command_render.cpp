@@ -17,6 +17,7 @@
 #include "app/commands/resumed_run.h"
 #include "app/commands/scene_files.h"
 #include "app/film/film_format.h"
+#include "app/options/named_files.h"
 #include "app/options/numbered_path.h"
 #include "app/options/property_options.h"
 #include "app/options/scene_options.h"
@@ -29,6 +30,7 @@
 #include "core/scene/frame_run.h"
 #include "core/scene/motion_blur.h"
 #include "core/scene/picture_device.h"
+#include "core/scene/scene_paths.h"
 #include "core/scene/scene_picture.h"
 #include "core/scene/scene_values.h"
 #include "core/scene/seen_atoms.h"
@@ -59,7 +61,7 @@ void tell_hue_changes(const RenderCommand& command) {
 }
 
 /// Without -o the picture has the molecule's name, in the current folder.
-void name_output(RenderCommand& command) {
+void name_output(const CLI::App& program, RenderCommand& command) {
   Scene& scene = command.scene;
   if (!scene.output.empty()) return;
   if (scene.frames.asked())
@@ -70,6 +72,10 @@ void name_output(RenderCommand& command) {
   name = name.stem();
   if (name.empty() || name == "-") throw UsageError("-o is missing: name the picture, such as -o picture.png");
   scene.output = name.string() + ".png";
+  NamedFiles files(program);
+  files.write("--output", scene.output);
+  if (!scene.legend.file.empty()) files.write("--legend-file", scene.legend.file);
+  files.check();
   say(command, "the picture goes to " + scene.output + "; -o PATH sends it elsewhere");
 }
 
@@ -215,7 +221,12 @@ bool leave_missing(RenderCommand& command) {
 /// command: a copy, for a scene is saved as it was asked for.
 void run(RenderCommand command) {
   if (command.is_draft) make_draft(command.scene);
+  command.keeps_scene = command.names_program && !command.scene.frames.asked();
   tell_hue_changes(command);
+  if (const std::string fault = scene_fault(command.scene); command.keeps_scene && !fault.empty()) {
+    command.keeps_scene = false;
+    say(command, "note: the picture carries no scene: " + fault);
+  }
   check_scene(command);
   check_files(command);
   tell_memory(command);
@@ -232,7 +243,7 @@ ImageSettings image_settings(const RenderCommand& command) {
   settings.dots_per_inch = scene.picture.dots_per_inch;
   settings.names_program = command.names_program;
   if (command.provenance) settings.command = command_line();
-  if (command.names_program && !scene.frames.asked()) settings.scene = scene_text(scene, "", *command.added);
+  if (command.keeps_scene) settings.scene = scene_text(scene, "", *command.added);
   settings.made_of = command.made_of;
   return settings;
 }
@@ -267,9 +278,9 @@ void add_render(CLI::App& command) {
   options.add("picture.resume", state.resumes);
   CLI::Option* const provenance = options.add("picture.provenance", state.provenance);
   options.add_switch("picture.no_provenance", [&state] { state.names_program = false; })->excludes(provenance);
-  command.callback([declared] {
+  command.callback([declared, &command] {
     declared->options.take();
-    name_output(declared->state);
+    name_output(command, declared->state);
     run_and_save_scene(declared->state, [&] { run(declared->state); });
   });
 }

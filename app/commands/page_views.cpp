@@ -59,7 +59,6 @@ NamedViews::NamedViews(const std::vector<std::string>& texts, const SceneCommand
     if (view.name.empty() || file.empty()) refuse(text, "write NAME=FILE, such as 'Active site=site.json'");
     if (std::ranges::any_of(views_, [&](const View& other) { return other.name == view.name; }))
       refuse(text, "there is a view of this name before it; choose another");
-    if (!file.starts_with('{')) protect_input(path_of_text(file));
     if (is_scene(file)) {
       std::vector<std::string> words{page.scene.molecule.file};
       if (trusts_scenes) words.push_back("--trust-scene");

@@ -22,6 +22,7 @@
 #include "core/base/text.h"
 #include "core/queries/cavity_tracks.h"
 #include "core/scene/molecule_pockets.h"
+#include "core/scene/scene_paths.h"
 #include "core/scene/settled_selections.h"
 #include "exporters/mesh_files/file_object.h"
 #include "exporters/mesh_files/mesh_formats.h"
@@ -155,6 +156,8 @@ class PocketTables {
 void print_pockets(const PocketsCommand& asked) {
   PocketsCommand command = asked;
   settle_selections(command.scene.molecule, command.scene.frames, {.of_atoms = {&command.ligand}});
+  if (const std::string fault = scene_fault(command.scene); !fault.empty() && !command.figure.empty())
+    throw UsageError("--figure: " + fault);
   PocketTables(command).make();
 }
 

@@ -15,6 +15,7 @@
 #include "app/commands/preview_command.h"
 #include "app/farm/child_process.h"
 #include "app/options/scene_words.h"
+#include "app/process/stop_signals.h"
 #include "core/base/error.h"
 #include "core/base/system_file.h"
 #include "core/base/text.h"
@@ -99,6 +100,7 @@ void make_film(Scene scene, const ExportTarget& target, const ExportWatch& watch
   words.front() = system_file::program().string();
   words.insert(words.end(), {"-q", "--progress", "json"});
   if (target.existing == Existing::replace) words.emplace_back("--force");
+  const StopHandler handler([] { farm::stop_children(); }, std::nullopt);
   farm::ChildProcess child(words, ".");
   std::uint64_t frames = 0, done = 0;
   std::string fault = "the film was not made";

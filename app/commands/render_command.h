@@ -11,6 +11,7 @@ namespace meniscus {
 struct RenderCommand : SceneCommand {
   bool provenance = false;    ///< the command line is in the picture
   bool names_program = true;  ///< the program's version is, and of single pictures the scene
+  bool keeps_scene = false;   ///< the scene is
   bool stats = false;
   bool is_draft = false;
   bool resumes = false;  ///< pictures of a run that are there stay

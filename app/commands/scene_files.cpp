@@ -38,8 +38,8 @@ SceneCommand read_scene_file(const std::string& path, std::vector<std::string> w
   CLI::App app("", "render");
   DeclaredCommand<RenderCommand> read(app, for_render);
   read.state.reporting.quiet = true;
-  // What the scene's own output was is not written, so it may be there.
-  words.insert(words.begin(), {"--scene", path, "-o", "picture.png"});
+  // What the scene's own output was is not written, so it may be there, and may be read.
+  words.insert(words.begin(), {"--scene", path, "-o", "-"});
   std::ranges::reverse(words);
   app.parse(words);
   read.state.reporting.quiet = true;  // an option that does nothing in one scene may do something in another

@@ -3,7 +3,9 @@
 // with.
 #include "app/commands/surface_command.h"
 
+#include <cerrno>
 #include <chrono>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -94,7 +96,7 @@ class LastingTable {
 
  private:
   void check() const {
-    if (!file_) throw OutputError(part_, "cannot be written; is there room, and may you write here?");
+    if (!file_) throw OutputError(part_, std::string("cannot be written: ") + std::strerror(errno));
   }
 
   std::string path_, part_, note_, header_;
@@ -271,12 +273,14 @@ void check_summary(const SurfaceCommand& command) {
   for (const auto& [is_given, option] : others)
     if (is_given)
       throw UsageError(fmt::format("--csv-summary is for many molecules, one row each; leave {} out", option));
-  for (const std::string& path : {command.summary_csv, command.atom_csv, command.residue_csv})
+  for (const std::string& path : {command.summary_csv, command.atom_csv, command.residue_csv}) {
     if (path == "-")
       throw UsageError(
           "--csv-summary and the tables beside it are files, which --resume can continue; name one instead of -");
-    else if (!path.empty())
-      check_output(path, command.existing());
+    if (path.empty()) continue;
+    check_output(path, command.existing());
+    check_output(path + ".part", Existing::replace);
+  }
 }
 
 }  // namespace

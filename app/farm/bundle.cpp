@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -35,10 +36,12 @@ Maker maker_of(const std::string& word) {
 }
 
 // A whole number; the library would make any number one.
-std::uint64_t whole_number(const Json& json, std::uint64_t most) {
+template <typename Key>
+std::uint64_t whole_number(const Json& part, const Key& key, std::uint64_t most) {
+  const Json& json = part.at(key);
   if (!json.is_number_unsigned() || json.get<std::uint64_t>() > most)
-    throw RequestError(
-        fmt::format("is damaged: {} is not a whole number up to {}", shortened(json.dump(), kLongestShown), most));
+    throw RequestError(fmt::format("is damaged: \"{}\" is {}, not a whole number up to {}", key,
+                                   shortened(json.dump(), kLongestShown), most));
   return json.get<std::uint64_t>();
 }
 
@@ -105,28 +108,28 @@ Json whole_json(const Bundle& bundle, bool measured) {
 }
 
 void read_references(const Json& json, Bundle& bundle) {
-  for (const auto& [path, source] : json.items()) {
+  for (const auto& [path, source] : json.get<std::map<std::string, std::string>>()) {
     const auto input = std::ranges::find(bundle.inputs, path, &Input::path);
     if (input == bundle.inputs.end()) throw RequestError(fmt::format("{} is no input of it", in_quotes(path)));
-    input->source = source.get<std::string>();
+    input->source = source;
   }
 }
 
 Chunking read_chunking(const Json& json) {
   Chunking chunking;
-  if (json.contains("frames")) chunking.asked_frames = whole_number(json.at("frames"), kMostFrames);
+  if (json.contains("frames")) chunking.asked_frames = whole_number(json, "frames", kMostFrames);
   if (json.contains("minutes")) chunking.asked_minutes = json.at("minutes").get<double>();
   if (json.contains("seconds_per_frame")) chunking.seconds_per_frame = json.at("seconds_per_frame").get<double>();
-  chunking.cores = whole_number(json.at("cores"), kAnyNumber);
-  if (json.contains("memory")) chunking.asked_memory = whole_number(json.at("memory"), kAnyNumber);
-  if (json.contains("peak_memory")) chunking.peak_memory = whole_number(json.at("peak_memory"), kAnyNumber);
-  chunking.count = whole_number(json.at("count"), kMostChunks);
+  chunking.cores = whole_number(json, "cores", kAnyNumber);
+  if (json.contains("memory")) chunking.asked_memory = whole_number(json, "memory", kAnyNumber);
+  if (json.contains("peak_memory")) chunking.peak_memory = whole_number(json, "peak_memory", kAnyNumber);
+  chunking.count = whole_number(json, "count", kMostChunks);
   return chunking;
 }
 
 Film read_film(const Json& json) {
   constexpr std::uint64_t kMost = 1000;
-  const auto number = [&](const char* key) { return static_cast<int>(whole_number(json.at(key), kMost)); };
+  const auto number = [&](const char* key) { return static_cast<int>(whole_number(json, key, kMost)); };
   Film film{json.at("file").get<std::string>(), json.at("frames_per_second").get<double>(), {}};
   if (json.contains("codec")) film.format.codec = json.at("codec").get<std::string>();
   if (json.contains("crf")) film.format.rate_factor = number("crf");
@@ -146,24 +149,24 @@ Bundle bundle_from_json(const Json& json) {
   bundle.program_version = json.at("program_version").get<std::string>();
   bundle.command = json.at("command").get<std::vector<std::string>>();
   bundle.frames = parse_frame_list("frames", json.at("frames").get<std::string>(), kMostFrames);
-  if (whole_number(json.at("frame_count"), kMostFrames) != bundle.frames.size())
+  if (whole_number(json, "frame_count", kMostFrames) != bundle.frames.size())
     throw RequestError(fmt::format("is damaged: \"frame_count\" is {}, and there are {} frames in \"frames\"",
                                    json.at("frame_count").dump(), bundle.frames.size()));
-  bundle.width = static_cast<int>(whole_number(json.at("size").at(0), kLargestSide));
-  bundle.height = static_cast<int>(whole_number(json.at("size").at(1), kLargestSide));
+  bundle.width = static_cast<int>(whole_number(json.at("size"), 0, kLargestSide));
+  bundle.height = static_cast<int>(whole_number(json.at("size"), 1, kLargestSide));
   for (const Json& step : json.at("steps"))
     bundle.steps.push_back({step.at("name").get<std::string>(), maker_of(step.at("maker").get<std::string>()),
                             step.at("arguments").get<std::vector<std::string>>()});
   for (const Json& input : json.at("inputs"))
     bundle.inputs.push_back({input.at("path").get<std::string>(),
-                             whole_number(input.at("bytes"), kAnyNumber),
+                             whole_number(input, "bytes", kAnyNumber),
                              input.at("sha256").get<std::string>(),
                              {}});
   if (json.contains("references")) read_references(json.at("references"), bundle);
   if (json.contains("film")) bundle.film = read_film(json.at("film"));
   bundle.chunking = read_chunking(json.at("chunks"));
   if (json.contains("tries"))
-    bundle.tries = {whole_number(json.at("tries").at("most"), Tries::kMost),
+    bundle.tries = {whole_number(json.at("tries"), "most", Tries::kMost),
                     json.at("tries").at("wait_seconds").get<double>()};
   return bundle;
 }
@@ -224,7 +227,13 @@ Bundle parse_bundle(const std::string& text) {
     if (is_nested_too_deep(text)) throw RequestError("is damaged: it is nested too deep");
     return bundle_from_json(Json::parse(text));
   } catch (const nlohmann::json::exception& error) {
-    throw RequestError("is damaged: " + shortened(error.what(), kLongestShown));
+    // "[json.exception.type_error.302] (/film/file) type must be string, but is number"
+    constexpr std::string_view kOwnWords = "cannot use at() with ";
+    std::string text(error.what());
+    text.erase(0, text.find("] ") + 2);
+    if (const std::size_t at = text.find(kOwnWords); at != std::string::npos)
+      text.replace(at, kOwnWords.size(), "should be an object or a list, but is ");
+    throw RequestError("is damaged: " + shortened(text, kLongestShown));
   }
 }
 

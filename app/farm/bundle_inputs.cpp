@@ -3,10 +3,12 @@
 #include "app/farm/bundle_inputs.h"
 
 #include <algorithm>
+#include <fstream>
 
 #include <fmt/format.h>
 
 #include "app/farm/checksum.h"
+#include "app/farm/child_process.h"
 #include "app/farm/inner_path.h"
 #include "core/base/error.h"
 #include "core/base/output_file.h"
@@ -28,6 +30,16 @@ std::string plain(std::string name) {
   if (name.starts_with('.') || name.starts_with('-')) name.front() = '_';
   constexpr std::size_t kLongest = 100;
   return name.size() > kLongest ? name.substr(name.size() - kLongest) : name;
+}
+
+/// By our own writes, which tell of a full disk as what it is.
+void copy(const fs::path& source, OutputFile& file) {
+  constexpr std::size_t kPiece = std::size_t{1} << 20;
+  std::string piece(kPiece, '\0');
+  std::ifstream stream(source, std::ios::binary);
+  while (stream.read(piece.data(), kPiece) || stream.gcount() > 0)
+    file.write(std::string_view(piece.data(), static_cast<std::size_t>(stream.gcount())));
+  if (!stream.eof()) throw InputError(source.string(), 0, "cannot be read");
 }
 
 }  // namespace
@@ -80,25 +92,37 @@ std::vector<Input> BundleInputs::measured(InputTransfer how) const {
   return inputs;
 }
 
+void BundleInputs::refuse_within(const fs::path& folder) const {
+  std::error_code failed;
+  const fs::path place = fs::weakly_canonical(folder, failed);
+  for (const Item& item : items_) {
+    const fs::path inside = item.source.lexically_relative(place);
+    if (item.is_users && !inside.empty() && *inside.begin() != "..")
+      throw OutputError(folder.string(),
+                        fmt::format("holds {}, which this command reads; choose another folder", inside.string()));
+  }
+}
+
 void BundleInputs::transfer(const fs::path& folder, InputTransfer how) const {
   for (const Item& item : items_) {
+    const StopBarrier barrier;
     const fs::path target = folder / item.inside;
-    std::error_code error;
-    fs::create_directories(target.parent_path(), error);
-    if (item.source.empty()) {
-      OutputFile file(target, Existing::refuse);
-      file.write(item.text);
-      file.commit();
-    } else if (how == InputTransfer::reference && item.is_users) {
-      continue;
-    } else if (how == InputTransfer::link) {
+    make_folders_of(target);
+    if (how == InputTransfer::reference && item.is_users) continue;
+    if (how == InputTransfer::link && !item.source.empty()) {
+      std::error_code error;
       fs::create_hard_link(item.source, target, error);
-      if (error)
-        throw OutputError(target.string(), fmt::format("cannot be a link to {}: {}; leave --link out to copy",
-                                                       item.source.string(), error.message()));
-    } else if (!fs::copy_file(item.source, target, error)) {
-      throw OutputError(target.string(), fmt::format("cannot be copied: {}", error.message()));
+      if (!error) continue;
+      throw OutputError(target.string(), fmt::format("cannot be a link to {}: {}; leave --link out to copy",
+                                                     item.source.string(), error.message()));
     }
+    OutputFile file(target, Existing::refuse);
+    if (item.source.empty()) {
+      file.write(item.text);
+    } else {
+      copy(item.source, file);
+    }
+    file.commit();
   }
 }
 

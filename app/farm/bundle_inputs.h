@@ -32,6 +32,8 @@ class BundleInputs {
   /// Sizes and checksums, in the order they were added. Reads every file. Throws InputError, and RequestError for a
   /// path that a bundle cannot name.
   std::vector<Input> measured(InputTransfer how) const;
+  /// Throws OutputError if a file of the user's lies in this folder, which is about to be replaced.
+  void refuse_within(const std::filesystem::path& folder) const;
   /// Puts them into the bundle. Throws OutputError, InputError.
   void transfer(const std::filesystem::path& folder, InputTransfer how) const;
 

@@ -3,6 +3,8 @@
 #include "app/farm/check_scene.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <optional>
 #include <regex>
@@ -281,7 +283,7 @@ std::string checked_text(const fs::path& folder, const fs::path& inner, std::str
 void write_bytes(const fs::path& path, const std::string& bytes) {
   std::ofstream file(path, std::ios::binary);
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush();
-  if (!file) throw OutputError(path.string(), "cannot be written; is the disk full?");
+  if (!file) throw OutputError(path.string(), std::string("cannot be written: ") + std::strerror(errno));
 }
 
 constexpr const char* kSettings = "surface.ini";

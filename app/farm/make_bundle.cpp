@@ -27,6 +27,7 @@
 #include "app/reports/notes.h"
 #include "core/base/output_file.h"
 #include "core/base/text.h"
+#include "core/base/utf8.h"
 #include "core/camera/camera_json.h"
 #include "core/color/color_key.h"
 #include "core/render/image_output.h"
@@ -121,12 +122,14 @@ std::vector<std::string> bundled_words(const BundledCommand& command, const std:
   return words;
 }
 
-/// A folder under a hidden name beside its final one; it vanishes unless renamed.
+/// A folder under a hidden name beside its final one; it vanishes unless renamed, on a signal, too. What is made in it
+/// is made while there is a StopBarrier, or by children.
 class Staging {
  public:
   explicit Staging(const fs::path& target)
       : target_(target),
         path_(target.parent_path() / fmt::format(".{}.{}.part", target.filename().string(), ::getpid())) {
+    const StopBarrier barrier;
     std::error_code error;
     fs::create_directories(path_, error);
     if (error) throw OutputError(target.string(), fmt::format("cannot be made: {}", error.message()));
@@ -136,12 +139,9 @@ class Staging {
   Staging& operator=(const Staging&) = delete;
 
   const fs::path& path() const { return path_; }
-  void remove() const {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
   /// An older bundle under that name goes away.
   void become_target() {
+    const StopBarrier barrier;
     std::error_code error;
     if (fs::exists(target_ / "bundle.json")) fs::remove_all(target_, error);
     if (!error) fs::rename(path_, target_, error);
@@ -149,7 +149,19 @@ class Staging {
   }
 
  private:
+  /// Again and again, for another thread may be about to write into it.
+  void remove() const {
+    std::error_code failed;
+    constexpr int kMostTries = 100;
+    for (int tries = 0; tries < kMostTries && fs::exists(path_, failed); ++tries) fs::remove_all(path_, failed);
+  }
+
   fs::path target_, path_;
+  StopHandler stop_{[this] {
+                      stop_children();
+                      remove();
+                    },
+                    std::nullopt};
 };
 
 /// In MiB, of the largest child that this process has had.
@@ -161,12 +173,6 @@ std::uint64_t peak_memory_of_children() {
 
 /// Makes the first frame and takes it away again: the farm's machines should make all of them alike.
 void make_trial(const Bundle& bundle, const Staging& staging, Chunking& measured) {
-  const StopHandler handler(
-      [&] {
-        stop_children();
-        staging.remove();
-      },
-      std::nullopt);
   Assignment assignment;
   for (const Step& step : bundle.steps) assignment.steps.push_back(step.name);
   assignment.frames = {bundle.frames.front()};
@@ -180,12 +186,14 @@ void make_trial(const Bundle& bundle, const Staging& staging, Chunking& measured
   double slowest = 0.0;
   for (const std::string& step : assignment.steps)
     slowest = std::max(slowest, records.read(step, assignment.frames.front()).value().seconds);
+  const StopBarrier barrier;
   for (const char* made : {"state", "images", "scene"}) fs::remove_all(staging.path() / made);
   measured.seconds_per_frame = std::max(slowest, 1e-3);
   measured.peak_memory = peak_memory_of_children();
 }
 
 void write_engine_files(const BundleOptions& options, const Bundle& bundle, const fs::path& folder) {
+  const StopBarrier barrier;
   for (const Engine& engine : options.engines) {
     for (const EngineFile& text : engine.emit({bundle, options.farm_path})) {
       const fs::path path = folder / text.path;
@@ -258,6 +266,8 @@ Bundle described(const BundleOptions& options, const BundledCommand& asked, Bund
   const std::optional<std::array<double, 2>> range = measured_range(scene, shown);
   legend = legend_of(scene, frames);
   bundle.command = bundled_words(asked, default_camera(scene, cameras, shown), range, inputs);
+  for (const std::string& word : bundle.command)
+    if (!is_utf8(word)) throw UsageError(fmt::format("after --: {} is not UTF-8, as a bundle is", in_quotes(word)));
   if (bundle.steps.back().maker == Maker::blender) add_addon(options.addon, inputs);
   bundle.inputs = inputs.measured(options.transfer);
   bundle.chunking = options.chunking;
@@ -300,6 +310,7 @@ MadeBundle make_bundle(const BundleOptions& given, const BundledCommand& command
   }
   const Existing existing = options.force ? Existing::replace : Existing::refuse;
   if (legend) check_output(command.command.scene.legend.file, existing);
+  inputs.refuse_within(options.folder);
   Staging staging(options.folder);
   inputs.transfer(staging.path(), options.transfer);
   Chunking& chunking = made.bundle.chunking;
@@ -307,9 +318,12 @@ MadeBundle make_bundle(const BundleOptions& given, const BundledCommand& command
   chunking.decide(made.bundle.frames.size());
   note_larger_tasks(made.bundle, made.notes);
   write_engine_files(options, made.bundle, staging.path());
-  OutputFile file(staging.path() / "bundle.json", Existing::refuse);
-  file.write(bundle_json(made.bundle));
-  file.commit();
+  {
+    const StopBarrier barrier;
+    OutputFile file(staging.path() / "bundle.json", Existing::refuse);
+    file.write(bundle_json(made.bundle));
+    file.commit();
+  }
   staging.become_target();
   if (legend) write_legend(command, *legend, existing);
   return made;

@@ -207,6 +207,13 @@ std::string in_one_line(std::string_view text) {
   return line;
 }
 
+/// Its number stays taken.
+void await_end(pid_t process) {
+  siginfo_t ended{};
+  while (::waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
+  }
+}
+
 }  // namespace
 
 void check_film_size(const FilmEncoder& encoder, glm::ivec2 size) {
@@ -239,11 +246,15 @@ FilmWriter::FilmWriter(const std::string& path, Existing existing, glm::ivec2 si
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
-  const int error = ::posix_spawnp(&encoder_, "ffmpeg", &actions, nullptr, argv.data(), environ);
+  int error = 0;
+  {
+    const auto held = hold_stops();
+    error = ::posix_spawnp(&encoder_, "ffmpeg", &actions, nullptr, argv.data(), environ);
+    if (error != 0) encoder_ = -1;
+  }
   posix_spawn_file_actions_destroy(&actions);
   ::close(ends[1]);
   if (error == 0) return;
-  encoder_ = -1;
   ::close(pictures_);
   ::close(complaints_);
   throw OutputError(path, fmt::format("films need the program ffmpeg, which cannot be started: {}; install it, or "
@@ -252,15 +263,23 @@ FilmWriter::FilmWriter(const std::string& path, Existing existing, glm::ivec2 si
 }
 
 FilmWriter::~FilmWriter() {
-  if (encoder_ >= 0) ::kill(encoder_, SIGKILL);  // given up: nobody wants what it has
+  kill_encoder();  // given up: nobody wants what it has
   end_pictures();
   ::close(complaints_);
 }
 
+void FilmWriter::kill_encoder() const {
+  if (encoder_ < 0) return;
+  ::kill(encoder_, SIGKILL);
+  await_end(encoder_);
+}
+
 void FilmWriter::wait() {
   if (encoder_ < 0) return;
-  while (::waitpid(encoder_, &status_, 0) < 0 && errno == EINTR) {
-  }
+  await_end(encoder_);
+  // Its number is given back under the lock, lest a signal kills another process that got it meanwhile.
+  const auto held = hold_stops();
+  ::waitpid(encoder_, &status_, 0);
   encoder_ = -1;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include <glm/vec2.hpp>
 
 #include "app/film/film_format.h"
+#include "app/process/stop_signals.h"
 #include "core/base/output_file.h"
 
 namespace meniscus {
@@ -45,6 +47,8 @@ class FilmWriter {
   void finish();
 
  private:
+  /// Kills the encoder, so that its file does not appear again once it is removed.
+  void kill_encoder() const;
   void wait();
   void end_pictures();
   std::string fault() const;  ///< why what the encoder has written is not a film; empty if it is one
@@ -56,6 +60,7 @@ class FilmWriter {
   int complaints_ = -1;  ///< what it writes on standard error
   int status_ = 0;
   std::uint64_t added_ = 0;  ///< pictures
+  StopHandler stop_{[this] { kill_encoder(); }, std::nullopt};
 };
 
 }  // namespace meniscus

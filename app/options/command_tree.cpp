@@ -8,6 +8,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "core/properties/properties.h"
+
 namespace meniscus {
 namespace {
 
@@ -37,8 +39,9 @@ OptionEntry entry_of(const CLI::Option& option) {
   return entry;
 }
 
+/// Of options and arguments that are no property.
 bool names_path(std::string_view word) {
-  constexpr std::array<std::string_view, 7> kPaths{"FILE", "TRAJECTORY", "PATH", "FOLDER", "NUMBERS", "BUNDLE", "DIR"};
+  constexpr std::array<std::string_view, 6> kPaths{"FILE", "FOLDER", "BUNDLE", "DIR", "INTO", "FROM"};
   return std::ranges::any_of(kPaths, [&](std::string_view path) { return word.starts_with(path); });
 }
 
@@ -67,7 +70,13 @@ CommandEntry read_command(const CLI::App& app, const std::string& parent) {
 }  // namespace
 
 bool OptionEntry::takes_path() const {
-  return names_path(value.empty() && !names.empty() ? std::string_view(names.front()) : value);
+  const auto is_path_of = [&](const Property* property) {
+    using enum ValueType;
+    return (property->type == file || property->type == new_file || property->type == camera) &&
+           std::ranges::find(names, property->long_option()) != names.end();
+  };
+  return std::ranges::any_of(properties(), is_path_of) ||
+         names_path(value.empty() && !names.empty() ? std::string_view(names.front()) : value);
 }
 
 bool takes_path(const CLI::Option& option) { return entry_of(option).takes_path(); }

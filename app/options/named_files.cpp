@@ -3,15 +3,20 @@
 #include "app/options/named_files.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "app/options/command_tree.h"
+#include "app/options/numbered_path.h"
 #include "app/process/program_error.h"
+#include "core/base/error.h"
 #include "core/base/output_file.h"
+#include "core/base/system_file.h"
 #include "core/base/text.h"
 #include "core/properties/properties.h"
 
@@ -20,49 +25,73 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool names_output(const std::string& option) {
+bool is_output(const Property& property) { return property.type == ValueType::new_file; }
+bool names_input(const Property& property) { return property.value.ends_with("=FILE"); }
+
+bool is_one(const CLI::Option& option, bool (*such)(const Property& property)) {
   return std::ranges::any_of(properties(), [&](const Property* property) {
-    return property->type == ValueType::new_file && property->long_option() == option;
+    return property->long_option() == option.get_name() && such(*property);
   });
 }
 
-/// Of a bundle the files that it was made of, too.
-void protect(const fs::path& path) {
-  protect_input(path);
-  std::error_code ignored;
-  if (!fs::exists(path / "bundle.json", ignored)) return;
-  protect_input(path / "bundle.json");
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path / "inputs", ignored))
-    protect_input(entry.path());
-}
-
-bool are_one_file(const std::string& a, const std::string& b) {
+/// Where # stands for numbers, whether any frame of one would be the other.
+bool can_be_one_file(const std::string& a, const std::string& b) {
   std::error_code failed, ignored;
   // Absolute first: a path of which nothing is there yet stays relative.
-  const auto place = [&](const std::string& path) { return fs::weakly_canonical(fs::absolute(path, failed), failed); };
-  return place(a) == place(b) || fs::equivalent(a, b, ignored);
+  const auto place = [&](const std::string& path) {
+    return fs::weakly_canonical(fs::absolute(path, failed), failed).string();
+  };
+  const auto has_frame_in = [](const std::string& numbered, const std::string& other) {
+    constexpr std::uint64_t kSomeFrame = 987654321;  // of two patterns: it has as many digits as either asks for
+    const std::optional<NumberedPath> frames = NumberedPath::parse(numbered), others = NumberedPath::parse(other);
+    return frames && frames->names(others ? others->at(kSomeFrame) : other);
+  };
+  const std::string first = place(a), second = place(b);
+  return first == second || fs::equivalent(a, b, ignored) || has_frame_in(first, second) || has_frame_in(second, first);
 }
 
 }  // namespace
 
 NamedFiles::NamedFiles(const CLI::App& command) {
   for (const CLI::Option* const option : command.get_options()) {
-    if (option->empty() || !takes_path(*option)) continue;
-    const bool writes = names_output(option->get_name());
-    for (const std::string& path : option->results()) writes ? write(option->get_name(), path) : read(path);
+    for (const std::string& path : option->results())
+      if (is_one(*option, is_output))
+        write(option->get_name(), path);
+      else if (is_one(*option, names_input))
+        read(path.substr(path.find('=') + 1));
+      else if (takes_path(*option))
+        read(path);
   }
 }
 
-void NamedFiles::read(const std::string& path) { protect(path); }
+void NamedFiles::protect(const fs::path& path) {
+  protect_input(path);
+  const std::optional<system_file::State> state = system_file::state_of(path);
+  if (state && state->kind == system_file::State::Kind::file) inputs_.insert(state->identity);
+}
+
+void NamedFiles::read(const std::string& text) {
+  const fs::path path = path_of_text(text);
+  protect(path);
+  std::error_code ignored;
+  if (!fs::exists(path / "bundle.json", ignored)) return;
+  protect(path / "bundle.json");
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path / "inputs", ignored))
+    protect(entry.path());
+}
 
 void NamedFiles::write(const std::string& option, const std::string& path) {
   if (path != "-") outputs_.emplace_back(option, path);
 }
 
 void NamedFiles::check() const {
+  for (const auto& [option, path] : outputs_)
+    if (const std::optional<system_file::State> state = system_file::state_of(path_of_text(path));
+        state && inputs_.contains(state->identity))
+      throw OutputError(path, "is one of the files that this command reads; choose another name");
   for (std::size_t a = 0; a < outputs_.size(); ++a)
     for (std::size_t b = 0; b < a; ++b)
-      if (outputs_[a].first != outputs_[b].first && are_one_file(outputs_[a].second, outputs_[b].second))
+      if (outputs_[a].first != outputs_[b].first && can_be_one_file(outputs_[a].second, outputs_[b].second))
         throw UsageError(fmt::format("{} and {} name the same file, {}; choose two", outputs_[b].first,
                                      outputs_[a].first, in_quotes(outputs_[a].second)));
 }

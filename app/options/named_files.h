@@ -2,6 +2,9 @@
 // The files that a command names: what it reads is never replaced, and no two outputs are the same file.
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,10 +23,14 @@ class NamedFiles {
   void read(const std::string& path);
   void write(const std::string& option, const std::string& path);
 
-  /// Throws UsageError for two outputs that are the same file.
+  /// Throws OutputError for an output that is read, and UsageError for two outputs that are the same file, or would be
+  /// in some frame of a run.
   void check() const;
 
  private:
+  void protect(const std::filesystem::path& path);
+
+  std::set<std::pair<std::uint64_t, std::uint64_t>> inputs_;  ///< as system_file::State has them
   std::vector<std::pair<std::string, std::string>> outputs_;  ///< option, path
 };
 

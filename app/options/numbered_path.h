@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace meniscus {
 
@@ -15,6 +16,8 @@ class NumberedPath {
 
   /// With zeros before the number, at least as many digits as there are #.
   std::string at(std::uint64_t number) const;
+  /// Whether at() gives this path for some number.
+  bool names(std::string_view path) const;
 
  private:
   std::string before_, behind_;

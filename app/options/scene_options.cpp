@@ -296,7 +296,8 @@ void SceneOptions::take_setting(const SceneSetting& setting) {
 }
 
 void SceneOptions::take(const std::vector<std::string>& named) {
-  const std::vector<SceneSetting> settings = read_scene_file(named), typed_by_key = typed_settings();
+  std::vector<SceneSetting> settings = read_scene_file(named);
+  const std::vector<SceneSetting> typed_by_key = typed_settings();
   for (const Property* property : properties()) {
     if (!is_scene_value(*property)) continue;
     const bool is_overruled = !typed(property->key) && std::ranges::any_of(properties(), [&](const Property* other) {
@@ -321,7 +322,8 @@ void SceneOptions::take(const std::vector<std::string>& named) {
   } catch (const ValueError& error) {
     refuse(error.key(), error.what());
   }
-  guard_scene_files(command_, file_, settings);
+  settings.insert(settings.end(), typed_by_key.begin(), typed_by_key.end());
+  guard_files(command_, file_, settings);
   for (const std::string& sentence :
        idle_options({command_, into_.scene, [this](std::string_view key) { return is_given(key); }}))
     if (!into_.reporting.quiet) std::cerr << "meniscus: " << escaped(sentence) << std::endl;
@@ -368,6 +370,7 @@ SceneOutput::SceneOutput(const SceneCommand& command) : command_(command) {
   if (command.save_scene.empty()) return;
   if (command.scene.molecule.file == "-")
     throw UsageError("--save-scene: a scene names its molecule's file, which standard input is not");
+  if (const std::string fault = scene_fault(command.scene); !fault.empty()) throw UsageError("--save-scene: " + fault);
   file_.emplace(command.save_scene, command.existing());
 }
 

@@ -24,10 +24,9 @@ std::string read_scene_text(const std::string& file) {
   return std::string(read_text_file(file, kLargestScene).text);
 }
 
-void guard_scene_files(const CLI::App& command, const std::string& file, std::span<const SceneSetting> settings) {
-  if (file.empty()) return;
+void guard_files(const CLI::App& command, const std::string& file, std::span<const SceneSetting> settings) {
   NamedFiles files(command);
-  files.read(file);
+  if (!file.empty()) files.read(file);
   for (const SceneSetting& setting : settings)
     for (const std::string& text : setting.texts) {
       if (setting.property->type == ValueType::new_file)

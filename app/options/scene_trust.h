@@ -14,8 +14,8 @@ namespace meniscus {
 /// The JSON of a scene file, or of the picture that carries it. Throws InputError.
 std::string read_scene_text(const std::string& file);
 
-/// file: of the scene; empty: there is none. Files that the scene names are inputs that no output replaces; outputs
-/// that it names are not those of options. Throws UsageError.
-void guard_scene_files(const CLI::App& command, const std::string& file, std::span<const SceneSetting> settings);
+/// Has no output replace what the command reads, or another output: neither by options nor by settings of a scene or of
+/// --set. file: of the scene; empty: there is none. Throws as NamedFiles::check().
+void guard_files(const CLI::App& command, const std::string& file, std::span<const SceneSetting> settings);
 
 }  // namespace meniscus

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
+#include <filesystem>
 #include <iterator>
 #include <ostream>
 #include <span>
@@ -25,6 +28,10 @@ bool is_one_of(std::span<const std::string_view> words, const std::string& word)
 
 bool are_numbers(const nlohmann::json& a, const nlohmann::json& b, const char* key) {
   return a.contains(key) && b.contains(key) && a[key].is_number() && b[key].is_number();
+}
+
+void check_written(const std::ofstream& stream, const std::string& path) {
+  if (!stream) throw OutputError(path, std::string("cannot be written: ") + std::strerror(errno));
 }
 
 }  // namespace
@@ -99,13 +106,14 @@ bool merge_commands(nlohmann::json& first, const nlohmann::json& second) {
 
 CommandLog::CommandLog(const std::filesystem::path& path, Existing existing) : path_(path.string()) {
   check_output(path, existing);
+  std::filesystem::remove(path);  // what other names of it hold stays
   stream_.open(path, std::ios::trunc);
-  if (!stream_) throw OutputError(path_, "cannot be written");
+  check_written(stream_, path_);
 }
 
 void CommandLog::write(const nlohmann::json& command) {
   stream_ << json_line(command) << std::endl;
-  if (!stream_) throw OutputError(path_, "cannot be written");
+  check_written(stream_, path_);
 }
 
 std::vector<WrittenCommand> read_commands(const std::string& path) {

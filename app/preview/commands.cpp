@@ -82,6 +82,11 @@ std::vector<Command> all_commands() {
   };
 }
 
+const std::vector<Command>& command_table() {
+  static const std::vector<Command> all = all_commands();
+  return all;
+}
+
 /// The figure that undo or redo brings back, in place of the state's.
 Outcome restored(PreviewState state, const PreviewFigure& figure, std::size_t undo_steps, std::size_t redo_steps) {
   static_cast<PreviewFigure&>(state) = figure;
@@ -90,12 +95,17 @@ Outcome restored(PreviewState state, const PreviewFigure& figure, std::size_t un
 
 }  // namespace
 
+std::string said_by(const std::string& word, const std::string& error) {
+  for (const Command& known : command_table())
+    if (error.starts_with(std::string(known.word) + ": ")) return word + error.substr(known.word.size());
+  return error;
+}
+
 const Command& row_of(const CommandReader& command) {
-  static const std::vector<Command> table = all_commands();
-  const auto row = std::ranges::find(table, command.word(), &Command::word);
-  if (row == table.end()) {
+  const auto row = std::ranges::find(command_table(), command.word(), &Command::word);
+  if (row == command_table().end()) {
     std::vector<std::string_view> words;
-    for (const Command& known : table) words.push_back(known.word);
+    for (const Command& known : command_table()) words.push_back(known.word);
     throw RequestError(
         fmt::format("{} is not a command; the commands are {}", in_quotes(command.word()), fmt::join(words, ", ")));
   }

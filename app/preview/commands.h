@@ -2,6 +2,7 @@
 // The table of all commands of a preview: their words, their keys, their undo, and the functions that run them.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -75,6 +76,9 @@ struct Command {
 
 /// The row of a command. Throws RequestError for an unknown word or key.
 const Command& row_of(const CommandReader& command);
+
+/// An error that was thrown in carrying out a command, with that command's word before it where there was another's.
+std::string said_by(const std::string& word, const std::string& error);
 
 /// The pixel of the picture at rest that "x" and "y" name.
 glm::ivec2 pixel_of(const CommandReader& command, const PreviewState& state);

@@ -19,6 +19,7 @@
 #include "core/properties/properties.h"
 #include "core/render/image_output.h"
 #include "core/scene/scene_json.h"
+#include "core/scene/scene_paths.h"
 
 namespace meniscus {
 namespace {
@@ -128,7 +129,8 @@ Scene shown_scene(const CommandReader& command, const Surroundings& around) {
 std::string scene_of(const CommandReader& command, const Surroundings& around) {
   if (!around.exporter.context.scene || around.molecule.has_trajectory()) return {};  // frames of a run carry none
   try {
-    return scene_text(shown_scene(command, around), "", around.molecule.structure().added);
+    const Scene scene = shown_scene(command, around);
+    return scene_fault(scene).empty() ? scene_text(scene, "", around.molecule.structure().added) : "";
   } catch (const RequestError&) {
     return {};  // render cannot make this view
   }
@@ -208,9 +210,10 @@ Json save_scene(const CommandReader& command, const Surroundings& around) {
   if (!name.ends_with(".json"))
     throw RequestError(fmt::format("save: \"path\" is {}; a scene's name must end in .json", in_quotes(name)));
   const ExportTarget target = target_of(command, exporter.folder);
+  const Scene scene = shown_scene(command, around);
+  if (const std::string fault = scene_fault(scene); !fault.empty()) throw RequestError("save: " + fault);
   OutputFile file(target.path, target.existing);
-  file.write(
-      scene_text(shown_scene(command, around), target.path.parent_path().string(), around.molecule.structure().added));
+  file.write(scene_text(scene, target.path.parent_path().string(), around.molecule.structure().added));
   file.commit();
   around.exporter.saved = around.state.edition;
   return {{"path", target.path.string()}};

@@ -39,7 +39,9 @@ PreviewSession::PreviewSession(std::unique_ptr<ViewRenderer> renderer, Structure
 }
 
 Json PreviewSession::apply(const Json& command) {
-  const auto failed = [](const std::string& error) { return Json{{"ok", false}, {"error", escaped(error)}}; };
+  const auto failed = [&](const std::string& error) {
+    return Json{{"ok", false}, {"error", escaped(said_by(command_word(command), error))}};
+  };
   try {
     return carry_out(command);
   } catch (const GpuError&) {

@@ -3,6 +3,8 @@
 #include "app/process/program_main.h"
 
 #include <atomic>
+#include <cerrno>
+#include <cstring>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -100,8 +102,11 @@ ExitCode report_current_error() noexcept {
 }  // namespace
 
 void finish_standard_output() {
+  errno = 0;
   std::cout.flush();
-  if (!std::cout) throw OutputError("standard output", "cannot be written");
+  if (!std::cout)
+    throw OutputError("standard output",
+                      std::string("cannot be written") + (errno != 0 ? std::string(": ") + std::strerror(errno) : ""));
 }
 
 int program_main(const char* name, const std::function<ExitCode()>& work) {

@@ -2,9 +2,9 @@
 // Runs the thread that waits for a stop, and calls what was registered.
 #include "app/process/stop_signals.h"
 
-#include <mutex>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "app/process/system_process.h"
 #include "core/base/output_file.h"
@@ -12,10 +12,15 @@
 namespace meniscus {
 namespace {
 
-struct Handling {
-  std::mutex mutex;  // held from the signal to the end of the program, so that a handler outlives its call
+struct Registered {
+  const StopHandler* handler;
   std::function<void()> stop;
   std::optional<int> exit_code;
+};
+
+struct Handling {
+  std::mutex mutex;  // held from the signal to the end of the program, so that a handler outlives its call
+  std::vector<Registered> all;
 };
 
 Handling& handling() {
@@ -24,26 +29,30 @@ Handling& handling() {
 }
 
 void stop(int signal) {
-  const std::lock_guard lock(handling().mutex);
-  if (handling().stop) handling().stop();
+  const auto held = hold_stops();
+  std::optional<int> exit_code;
+  for (auto one = handling().all.rbegin(); one != handling().all.rend(); ++one) {
+    one->stop();
+    if (!exit_code) exit_code = one->exit_code;
+  }
   remove_unfinished_outputs();
-  system_process::end(handling().exit_code.value_or(128 + signal));
+  system_process::end(exit_code.value_or(128 + signal));
 }
 
 }  // namespace
 
 void clean_up_on_signals() { system_process::await_stop(stop); }
 
+std::unique_lock<std::mutex> hold_stops() { return std::unique_lock(handling().mutex); }
+
 StopHandler::StopHandler(std::function<void()> stop, std::optional<int> exit_code) {
-  const std::lock_guard lock(handling().mutex);
-  handling().stop = std::move(stop);
-  handling().exit_code = exit_code;
+  const auto held = hold_stops();
+  handling().all.push_back({this, std::move(stop), exit_code});
 }
 
 StopHandler::~StopHandler() {
-  const std::lock_guard lock(handling().mutex);
-  handling().stop = nullptr;
-  handling().exit_code.reset();
+  const auto held = hold_stops();
+  std::erase_if(handling().all, [this](const Registered& one) { return one.handler == this; });
 }
 
 }  // namespace meniscus

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <mutex>
 #include <optional>
 
 namespace meniscus {
@@ -13,7 +14,7 @@ namespace meniscus {
 void clean_up_on_signals();
 
 /// While this lives, these signals call `stop` first, on a thread of its own, and the program ends with `exit_code`,
-/// if there is one. One at a time.
+/// if there is one. Of several the youngest is called first, and the youngest exit code counts.
 class StopHandler {
  public:
   StopHandler(std::function<void()> stop, std::optional<int> exit_code);
@@ -21,5 +22,9 @@ class StopHandler {
   StopHandler(const StopHandler&) = delete;
   StopHandler& operator=(const StopHandler&) = delete;
 };
+
+/// While the lock is held no handler is called, so that what a handler looks at changes as a whole. From a signal on it
+/// is never given again.
+std::unique_lock<std::mutex> hold_stops();
 
 }  // namespace meniscus

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "app/process/program_main.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/structure/element_tables.h"
@@ -186,8 +187,8 @@ std::string cavity_csv_row(const FrameNote& note, const CavityStep& step, const 
 }
 
 void print_now(const std::string& text) {
-  std::cout << text << std::flush;
-  if (!std::cout) throw OutputError("standard output", "cannot be written");
+  std::cout << text;
+  finish_standard_output();
 }
 
 GrowingTable::GrowingTable(const std::string& path, Existing existing) : prints_(path == "-") {

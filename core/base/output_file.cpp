@@ -68,11 +68,16 @@ void refuse_unsuitable_target(const fs::path& target, Existing existing) {
 /// is done under the lock needs no memory and no other lock, so that a signal handler may go through them.
 class Unfinished {
  public:
-  void add(const fs::path& path) {
+  /// Has `make` make a file or folder of this path, and notes it where that says true: under one lock, so that nothing
+  /// is made behind unlink_all().
+  template <typename Make>
+  void add(const fs::path& path, const Make& make) {
     auto entry = std::make_unique<Entry>(Entry{path, nullptr});
     lock();
-    entry->older = newest_;
-    newest_ = entry.release();
+    if (make()) {
+      entry->older = newest_;
+      newest_ = entry.release();
+    }
     unlock();
   }
   void remove(const fs::path& path) noexcept {
@@ -83,7 +88,8 @@ class Unfinished {
     if (found) *place = found->older;
     unlock();
   }
-  /// Files go before the folder they are in, for it is older; a folder that others use meanwhile stays.
+  /// Files go before the folder they are in, for it is older; a folder that others use meanwhile stays. The lock is
+  /// kept, for the program ends.
   void unlink_all() noexcept {
     // The program may be ending because of an error under this very lock.
     constexpr int kMostWaits = 1000;
@@ -92,19 +98,18 @@ class Unfinished {
       system_file::wait_a_millisecond();
     }
     for (const Entry* entry = newest_; entry; entry = entry->older) system_file::remove(entry->path);
-    unlock();
   }
+
+  void lock() noexcept {
+    while (locked_.test_and_set(std::memory_order_acquire)) std::this_thread::yield();
+  }
+  void unlock() noexcept { locked_.clear(std::memory_order_release); }
 
  private:
   struct Entry {
     fs::path path;
     Entry* older;
   };
-
-  void lock() noexcept {
-    while (locked_.test_and_set(std::memory_order_acquire)) std::this_thread::yield();
-  }
-  void unlock() noexcept { locked_.clear(std::memory_order_release); }
 
   std::atomic_flag locked_;
   Entry* newest_ = nullptr;
@@ -120,25 +125,20 @@ OutputFile::OutputFile(fs::path target, Existing existing) : target_(std::move(t
   refuse_unsuitable_target(target_, existing_);
   static std::atomic<unsigned> serial{0};
   // Our own exclusive name instead of mkstemp: mkstemp's mode 0600 would outlive the rename.
-  for (int attempt = 0; descriptor_ < 0 && attempt < 1000; ++attempt) {
+  int error = EEXIST;
+  for (int attempt = 0; descriptor_ < 0 && error == EEXIST && attempt < 1000; ++attempt) {
     temporary_ = folder_of(target_) /
                  path_of_text(fmt::format(".{}.{}-{}.part{}", text_of_path(target_.stem()), system_file::process(),
                                           serial++, text_of_path(target_.extension())));
-    descriptor_ = system_file::create(temporary_);
-    if (descriptor_ < 0 && errno != EEXIST) break;
+    unfinished.add(temporary_, [&] {
+      descriptor_ = system_file::create(temporary_);
+      error = errno;
+      return descriptor_ >= 0;
+    });
   }
-  if (descriptor_ < 0) {
-    const int error = errno;
-    temporary_.clear();
-    fail(fmt::format("cannot be written in {}: {}", text_of_path(folder_of(target_)), reason(error)));
-  }
-  try {
-    unfinished.add(temporary_);
-  } catch (...) {
-    system_file::close(descriptor_);
-    system_file::remove(temporary_);
-    throw;
-  }
+  if (descriptor_ >= 0) return;
+  temporary_.clear();
+  fail(fmt::format("cannot be written in {}: {}", text_of_path(folder_of(target_)), reason(error)));
 }
 
 OutputFile::~OutputFile() {
@@ -187,14 +187,14 @@ void OutputFile::rename_to_target() {
   } else if (!system_file::rename_over(temporary_, target_)) {
     fail("cannot get its final name: " + reason(errno));
   }
-  unfinished.remove(temporary_);
-  temporary_.clear();
 }
 
 void OutputFile::commit() {
   const fs::path folder = folder_of(target_);  // nothing may fail once the file has its name
   sync();
   rename_to_target();
+  unfinished.remove(temporary_);
+  temporary_.clear();
   system_file::sync_folder(folder);
 }
 
@@ -225,7 +225,9 @@ OutputFolder::OutputFolder(fs::path folder, Existing existing) : folder_(std::mo
   try {
     created_folders_.reserve(missing.size());
     for (fs::path& path : missing) {
-      if (fs::create_directory(path, error)) unfinished.add(created_folders_.emplace_back(std::move(path)));
+      bool made = false;
+      unfinished.add(path, [&] { return made = fs::create_directory(path, error); });
+      if (made) created_folders_.push_back(std::move(path));
       if (error) break;
     }
   } catch (...) {
@@ -266,6 +268,7 @@ void OutputFolder::commit() {
   for (const auto& file : files_) file->sync();
   std::size_t renamed = 0;
   try {
+    const std::lock_guard whole(unfinished);  // a program that ends leaves all of them or none
     for (; renamed < files_.size(); ++renamed) files_[renamed]->rename_to_target();
   } catch (...) {
     for (std::size_t n = 0; n < renamed; ++n) {

@@ -8,27 +8,28 @@
 
 #include <fmt/format.h>
 
+#include "core/base/utf8.h"
+
 namespace meniscus {
 
 std::string escaped(std::string_view text) {
-  const auto byte_at = [&](std::size_t n) { return n < text.size() ? static_cast<unsigned char>(text[n]) : 0x20U; };
   std::string result;
-  for (std::size_t n = 0; n < text.size(); ++n) {
-    const unsigned byte = byte_at(n), next = byte_at(n + 1);
-    if (byte < 0x20 || byte == 0x7f) {
-      result += fmt::format("\\x{:02x}", byte);
-    } else if (byte == 0xc2 && next >= 0x80 && next < 0xa0) {
-      result += fmt::format("\\x{:02x}\\x{:02x}", byte, next);
-      ++n;
-    } else {
-      result += text[n];
-    }
+  while (!text.empty()) {
+    const Character character = first_character(text);
+    const std::string_view bytes = text.substr(0, std::max<std::size_t>(character.bytes, 1));
+    if (character.bytes > 0 && !is_control(character.code))
+      result += bytes;
+    else
+      for (const char byte : bytes) result += fmt::format("\\x{:02x}", static_cast<unsigned char>(byte));
+    text.remove_prefix(bytes.size());
   }
   return result;
 }
 
 std::string shortened(std::string_view text, std::size_t bytes) {
-  return escaped(text.substr(0, bytes)) + (text.size() > bytes ? "..." : "");
+  if (text.size() <= bytes) return escaped(text);
+  while (bytes > 0 && (text[bytes] & 0xc0) == 0x80) --bytes;  // no character is parted
+  return escaped(text.substr(0, bytes)) + "...";
 }
 
 std::string in_quotes(std::string_view text) {
@@ -81,17 +82,22 @@ std::string shell_word(std::string_view text) {
 
 std::string markup_text(std::string_view text) {
   std::string result;
-  for (const char c : text) {
-    if (c == '&')
+  while (!text.empty()) {
+    const Character character = first_character(text);
+    const std::string_view bytes = text.substr(0, std::max<std::size_t>(character.bytes, 1));
+    if (bytes == "&")
       result += "&amp;";
-    else if (c == '<')
+    else if (bytes == "<")
       result += "&lt;";
-    else if (c == '>')
+    else if (bytes == ">")
       result += "&gt;";
-    else if (c == '"')
+    else if (bytes == "\"")
       result += "&quot;";
-    else if ((static_cast<unsigned char>(c) >= 0x20 && c != 0x7f) || c == '\n' || c == '\t')
-      result += c;
+    else if (character.bytes == 0)
+      result += "\xef\xbf\xbd";
+    else if (!is_control(character.code) || bytes == "\n" || bytes == "\t")
+      result += bytes;
+    text.remove_prefix(bytes.size());
   }
   return result;
 }

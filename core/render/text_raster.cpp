@@ -13,6 +13,7 @@
 #include "core/base/error.h"
 #include "core/base/system_file.h"
 #include "core/base/text.h"
+#include "core/base/utf8.h"
 
 namespace meniscus {
 namespace {
@@ -41,25 +42,6 @@ const FontFile* find_font() {
   return found == kFonts.end() ? nullptr : found;
 }
 
-/// A character and the bytes it takes; 0 bytes where the text does not begin with UTF-8.
-struct Character {
-  char32_t code = 0;
-  std::size_t length = 0;
-};
-
-Character first_character(std::string_view text) {
-  const auto byte = [&](std::size_t n) { return static_cast<unsigned char>(text[n]); };
-  if (byte(0) < 0x80) return {byte(0), 1};
-  const std::size_t length = byte(0) >> 5 == 6 ? 2 : byte(0) >> 4 == 14 ? 3 : byte(0) >> 3 == 30 ? 4 : 0;
-  if (length == 0 || length > text.size()) return {};
-  char32_t code = byte(0) & (0x7fu >> length);
-  for (std::size_t n = 1; n < length; ++n) {
-    if (byte(n) >> 6 != 2) return {};
-    code = code << 6 | (byte(n) & 0x3fu);
-  }
-  return {code, length};
-}
-
 }  // namespace
 
 struct Font::Face {
@@ -82,8 +64,8 @@ struct Font::Face {
     long x = 0;
     while (!text.empty()) {
       const Character character = first_character(text);
-      text.remove_prefix(std::max<std::size_t>(character.length, 1));
-      const char32_t letter = character.length == 0 ? U'?' : character.code;
+      text.remove_prefix(std::max<std::size_t>(character.bytes, 1));
+      const char32_t letter = character.bytes == 0 ? U'?' : character.code;
       if (FT_Load_Char(face, letter, FT_LOAD_RENDER) != 0) continue;
       const long advance = face->glyph->advance.x;
       visit(static_cast<int>(x / 64), letter);
@@ -210,9 +192,9 @@ std::string drawable(std::string_view text, int most_characters) {
   int count = 0;
   for (std::string_view rest = safe; !rest.empty(); ++count) {
     if (count == most_characters) return result + "…";
-    const std::size_t length = first_character(rest).length;
-    result += length == 0 ? "?" : rest.substr(0, length);
-    rest.remove_prefix(std::max<std::size_t>(length, 1));
+    const std::size_t bytes = first_character(rest).bytes;
+    result += rest.substr(0, bytes);
+    rest.remove_prefix(bytes);
   }
   return result.find_first_not_of(' ') == std::string::npos ? "(blank)" : result;
 }

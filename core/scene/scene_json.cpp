@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -65,8 +66,18 @@ class SceneParser {
   Json json_of(std::string_view text) const {
     if (is_nested_too_deep(text)) throw InputError(file_, 0, "scene: the JSON is nested too deep");
     Json scene;
+    std::vector<std::set<std::string>> keys;  // of the objects that are open
     try {
-      scene = Json::parse(text);
+      scene = Json::parse(text, [&](int, Json::parse_event_t event, const Json& parsed) {
+        using enum Json::parse_event_t;
+        if (event == object_start) keys.emplace_back();
+        if (event == object_end) keys.pop_back();
+        const std::string word = parsed.is_string() ? parsed.get<std::string>() : "";
+        if (word.find('\0') != std::string::npos) fail(in_quotes(word), "holds a NUL, which no text of a scene has");
+        if (event == key && !keys.back().insert(word).second)
+          fail(in_quotes(word), "is there twice in one object; leave one of them out");
+        return true;
+      });
     } catch (const Json::parse_error& error) {
       const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
       throw InputError(file_, static_cast<std::size_t>(1 + std::count(text.begin(), end, '\n')),

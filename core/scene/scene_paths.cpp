@@ -10,6 +10,8 @@
 #include "core/base/error.h"
 #include "core/base/system_file.h"
 #include "core/base/text.h"
+#include "core/base/utf8.h"
+#include "core/scene/scene_values.h"
 
 namespace meniscus {
 namespace {
@@ -32,6 +34,7 @@ bool SceneTrust::has(const std::string& path) const {
 
 std::string SceneTrust::path(const Property& property, const std::string& text, const std::string& place) const {
   const fs::path given = path_of_text(text);
+  if (text == "-") fail(file, place, "is \"-\", standard input or output; a scene names files");
   std::error_code ignored;
   std::string path = text_of_path(given.is_absolute() ? given : path_of_text(file).parent_path() / given);
   // A picture in a folder of its own names its molecule as the command did that made it.
@@ -50,11 +53,24 @@ std::string SceneTrust::path(const Property& property, const std::string& text, 
   if (given != given.filename())
     fail(file, place,
          fmt::format("is {}; a scene cannot choose the folder of its picture: {}", in_quotes(text), own_advice));
+  if (text.starts_with('-') || text.starts_with('.') || escaped(text) != text)
+    fail(file, place,
+         fmt::format("is {}; the name of an output begins with neither - nor a dot, and has no control characters: {}",
+                     in_quotes(text), own_advice));
   if (replaces && fs::exists(fs::symlink_status(path_of_text(path), ignored)))
     fail(file, place,
          fmt::format("is {}, which exists already; --force replaces what is named on the command line: {}",
                      in_quotes(text), own_advice));
   return path;
+}
+
+std::string scene_fault(const Scene& scene) {
+  for (const Property* property : properties()) {
+    if (!property->has(in_scene) || property->key == "output.file") continue;
+    for (const std::string& text : value_texts(scene, *property))
+      if (!is_utf8(text)) return fmt::format("a scene is UTF-8, which {} {} is not", property->key, in_quotes(text));
+  }
+  return {};
 }
 
 }  // namespace meniscus

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which files a scene may name, because it may come from anyone.
+// Which files a scene may name, because it may come from anyone, and which its text can name.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "core/properties/properties.h"
+#include "core/scene/scene.h"
 
 namespace meniscus {
 
@@ -27,5 +28,9 @@ struct SceneTrust {
  private:
   bool has(const std::string& path) const;
 };
+
+/// A sentence about a value that is not UTF-8, such as the name of a file, which would be another in the text of the
+/// scene; empty: there is none.
+std::string scene_fault(const Scene& scene);
 
 }  // namespace meniscus

@@ -84,9 +84,9 @@ class Files(Workplace):
         os.symlink(name, soft)
         return [hard.name, soft.name] + ([name] if not ending or name.endswith(ending) else [])
 
-    def check_kept(self, done, name):
+    def check_kept(self, done, name, before=None):
         self.assertIn(done.returncode, (2, 6), done.stderr)
-        self.assertEqual((self.folder / name).read_text(), INPUTS[name], done.stderr)
+        self.assertEqual((self.folder / name).read_bytes(), before or INPUTS[name].encode(), done.stderr)
 
     def test_no_output_replaces_the_molecule(self):
         for words in WRITING:
@@ -124,6 +124,29 @@ class Files(Workplace):
                 done = self.run_program(*words, *ON_CPU)
                 self.assertEqual(done.returncode, 2, done.stderr)
                 self.assertFalse([name for name in os.listdir(self.folder) if name.startswith("a.")])
+
+    def test_names_that_nobody_typed_count_too(self):
+        """That of a picture without -o, values of --set, and the unfinished table of many molecules."""
+        self.assertEqual(self.run_program("render", "one.pdb", *SMALL, "-o", "one.png").returncode, 0)
+        picture = (self.folder / "one.png").read_bytes()
+        self.check_kept(self.run_program("render", "one.pdb", "--scene", "one.png", *SMALL, "--force"), "one.png", picture)
+        large = ["--size", "200x150", "--samples", "1", "--color", "bfactor", "--force", *ON_CPU]
+        for words in (["--legend-file", "run.png"], ["--set", "legend.file=run.png"],
+                      ["--frames", "0-1", "-o", "f_#.png", "--set", "legend.file=f_1.png"]):
+            done = self.run_program("render", "run.pdb", *large, *words)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn("name the same file", done.stderr)
+        self.assertFalse([*self.folder.glob("f_*"), *self.folder.glob("run.png")])
+        shutil.copy(self.folder / "one.pdb", self.folder / "sum.csv.part")
+        done = self.run_program("surface", "one.pdb", "sum.csv.part", "--csv-summary", "sum.csv", "--force")
+        self.check_kept(done, "sum.csv.part", INPUTS["one.pdb"].encode())
+
+    def test_a_record_replaces_a_link_not_what_it_leads_to(self):
+        (self.folder / "notes.txt").write_text("mine")
+        os.symlink("notes.txt", self.folder / "record.jsonl")
+        done = self.run_program("preview", "one.pdb", "--commands", "quit.json", "--serve", "--record", "record.jsonl", "--force")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((self.folder / "notes.txt").read_text(), "mine")
 
     def test_replacing_other_files_works(self):
         (self.folder / "old.png").write_text("old")
@@ -208,6 +231,79 @@ class ScenesOfOthers(Workplace):
         done = self.run_program("render", "--scene", "a.png", "-o", "b.png")
         self.assertEqual(done.returncode, 3)
         self.assertIn("a.png: is a picture that carries no scene", done.stderr)
+
+
+    def test_their_json_means_one_thing(self):
+        for text, what in (('{"meniscus_scene": 1, "molecule": {"file": "one.pdb", "file": "two.pdb"}}', "'file' is there twice"),
+                           ('{"meniscus_scene": 1, "molecule": {"file": "one.pdb"}, "molecule": {}}', "'molecule' is there twice"),
+                           ('{"meniscus_scene": 1, "molecule": {"file": "one.pdb"}, "objects": [{"color": "a", "color": "b"}]}',
+                            "'color' is there twice"),
+                           (r'{"meniscus_scene": 1, "molecule": {"file": "one.pdb\u0000.x"}}', "holds a NUL"),
+                           (r'{"meniscus_scene": 1, "molecule": {"file\u0000": "one.pdb"}}', "holds a NUL")):
+            (self.inner / "evil.json").write_text(text)
+            done = self.run_program("render", "--scene", self.inner / "evil.json", "-o", "a.png")
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertIn(what, done.stderr)
+            self.assertEqual(done.stderr.count("\n"), 1)
+
+    def test_they_make_no_files_with_misleading_names(self):
+        for name in ("-o.png", "--force.png", ".hidden.png", "a\n.png", "a\x1b[2J.png", "a\u202egnp.png"):
+            for section, key in (("output", "file"), ("legend", "file")):
+                done = self.run_program("render", "--scene", self.scene(**{section: {key: name}}), *([] if section == "output" else ["-o", "y.png"]))
+                self.refused(done, f"{section}.{key}", "the name of an output begins with neither")
+        self.assertEqual(sorted(os.listdir(self.inner)), ["evil.json", "one.pdb"])
+
+    def test_standard_input_is_no_file_of_theirs(self):
+        for sections in ({"molecule": {"file": "-"}}, {"camera": {"from": "-"}}, {"molecule": {"file": "one.pdb", "radii_file": "-"}}):
+            for trust in ([], ["--trust-scene"]):
+                self.scene(**sections)
+                done = self.run_program("render", "--scene", "evil.json", "-o", "a.png", *trust, folder=self.inner)
+                self.assertEqual(done.returncode, 3, done.stderr)
+                self.assertIn('is "-", standard input', done.stderr)
+
+
+class NamesInBytes(Workplace):
+    """Names that are not UTF-8, or that turn a line around."""
+
+    def setUp(self):
+        super().setUp()
+        self.name = b"a\xff.pdb".decode(errors="surrogateescape")
+        shutil.copy(self.folder / "one.pdb", self.folder / self.name)
+
+    def run_program(self, *words, **more):
+        return super().run_program(*words, errors="surrogateescape", **more)
+
+    def test_a_scene_that_could_not_be_read_again_is_not_written(self):
+        for words in (["render", self.name, *SMALL, "-o", "b.png", "--save-scene", "s.json"],
+                      ["export", "ply", self.name, "-o", "b.ply", "--save-scene", "s.json"],
+                      ["render", "one.pdb", *SMALL, "-o", "b.png", "--title", self.name, "--save-scene", "s.json"],
+                      ["pockets", self.name, "--figure", "s.json"]):
+            done = self.run_program(*words, *ON_CPU)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertRegex(done.stderr, r"--(save-scene|figure): a scene is UTF-8, which \S+ 'a\\xff.pdb' is not\n\Z")
+            self.assertFalse([name for name in os.listdir(self.folder) if name.startswith(("b.", "s."))])
+
+    def test_a_picture_carries_no_such_scene_and_says_so(self):
+        done = self.run_program("render", self.name, *SMALL, "-o", "b.png", *ON_CPU)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stderr.count("note: the picture carries no scene: a scene is UTF-8"), 1)
+        self.assertNotIn(b"meniscus_scene", (self.folder / "b.png").read_bytes())
+        for words in (["-o", "c.png", "--no-provenance"], ["--frames", "0", "-o", "c_#.png"]):
+            self.assertNotIn("carries no scene", self.run_program("render", self.name, *SMALL, *words, *ON_CPU).stderr)
+        done = self.run_program("render", "one.pdb", *SMALL, "-o", self.name.replace(".pdb", ".png"), *ON_CPU)
+        self.assertNotIn("carries no scene", done.stderr)
+
+    def test_tables_and_terminals_escape_them_alike(self):
+        turned = "b\u202e\n.pdb"
+        shutil.copy(self.folder / "one.pdb", self.folder / turned)
+        done = self.run_program("surface", self.name, turned, "--csv-summary", "sum.csv", *ON_CPU)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows = (self.folder / "sum.csv").read_bytes().decode().splitlines()
+        self.assertEqual([row.split(",")[0] for row in rows[1:]], [r"a\xff.pdb", r"b\xe2\x80\xae\x0a.pdb"])
+        for command in ("info", "surface"):
+            done = self.run_program(command, turned)
+            self.assertNotIn("\u202e", done.stdout + done.stderr)
+            self.assertIn(r"b\xe2\x80\xae\x0a.pdb", done.stdout + done.stderr)
 
 
 class SameBytes(Workplace):

@@ -75,6 +75,39 @@ class Bundle(FarmCase):
         self.meniscus("farm", "bundle", foreign, "--force", "--chunk-frames", "5", "--", *self.render(), code=6)
         self.assertEqual((foreign / "thesis.tex").read_text(), "years")
 
+    def test_a_bundle_that_holds_an_input_is_not_replaced(self):
+        folder = self.bundle("held", *self.render())
+        inner = folder / "inputs" / "run.pdb"
+        before = self.files(folder)
+        result = self.meniscus("farm", "bundle", folder, "--force", "--chunk-frames", "5", "--", "render", inner, "--frames", "0-1",
+                               code=6)
+        self.assertIn("holds inputs/run.pdb, which this command reads", result.stderr)
+        self.assertEqual(self.files(folder), before)
+
+    def test_a_legend_replaces_no_input(self):
+        camera = self.folder / "camera.png"
+        camera.write_text("{}")
+        result = self.meniscus("farm", "bundle", self.folder / "legend", "--force", "--", *self.render(
+            "--color", "chain", "--camera", camera, "--legend-file", camera), code=6)
+        self.assertIn("camera.png: is one of the files that this command reads", result.stderr)
+
+    def test_a_full_disk_is_named(self):
+        """On a file system that has no room for the input."""
+        room = self.folder / "room"
+        room.mkdir()
+        script = 'mount -t tmpfs -o size=16k none "$1" || exit 77; shift; "$@"; code=$?; ls -A "$0"; exit $code'
+        result = subprocess.run(["unshare", "-rm", "sh", "-c", script, room, room, MENISCUS, "farm", "bundle", room / "b",
+                                 "--chunk-frames", "5", "--", *self.render()], capture_output=True, text=True, timeout=60)
+        if result.returncode in (1, 77):
+            self.skipTest("file systems cannot be mounted here")
+        self.assertEqual((result.returncode, result.stdout), (6, ""), result.stderr)
+        self.assertIn("No space left on device", result.stderr)
+
+    def test_words_that_are_not_utf_8_are_refused(self):
+        result = self.meniscus("farm", "bundle", self.folder / "bytes", "--", *self.render("--title", b"\xff".decode(errors="surrogateescape")),
+                               code=2)
+        self.assertIn("is not UTF-8", result.stderr)
+
     def test_a_trial_frame_decides_the_chunks_and_leaves_no_trace(self):
         folder = self.bundle("trial", *self.render(), options=("--chunk-minutes", "0.01"))
         chunks = json.loads((folder / "bundle.json").read_text())["chunks"]

@@ -101,6 +101,31 @@ class Hostile(FarmCase):
             self.assert_refused(self.edited(self.render, change), "bundle.json")
         self.assert_refused(self.edited(self.render, change), "bundle.json", (("farm", "verify"), ("farm", "status")))
 
+    def test_a_damaged_manifest_says_where(self):
+        for keys, value, what in (
+                (("frames",), None, '/frames'), (("size",), [1], '/size'), (("size",), None, '/size'), (("film",), 5, '/film'),
+                (("film", "file"), 5, '/film/file'), (("film", "frames_per_second"), "x", '/film/frames_per_second'),
+                (("film", "crf"), -1, '"crf" is -1'), (("command",), "render", '/command'), (("command",), [1], '/command'),
+                (("tries",), 3, '/tries'), (("inputs",), [5], '/inputs/0'), (("inputs", 0, "bytes"), -1, '"bytes" is -1'),
+                (("steps",), ["render"], '/steps/0'), (("chunks",), [], '/chunks'), (("chunks", "count"), 1.5, '"count" is 1.5'),
+                (("frame_count",), "5", '"frame_count"'), (("references",), "x", '/references')):
+            def change(manifest, _):
+                part = manifest
+                for key in keys[:-1]:
+                    part = part[key]
+                part[keys[-1]] = value
+            folder = self.edited(self.render, change)
+            error = self.meniscus("work", folder, code=3).stderr
+            self.assertIn(what, error, keys)
+            self.assertNotIn("json.exception", error)
+            self.assertEqual(error.count("\n"), 1)
+        folder = self.copy(self.render)
+        whole = (folder / "bundle.json").read_text()
+        for text in ("", "{", whole[:-20], "[1e999]", "null", "[]"):
+            (folder / "bundle.json").write_text(text)
+            error = self.meniscus("work", folder, code=3).stderr
+            self.assertRegex(error, r"bundle\.json: is (damaged: parse error|damaged: number overflow|damaged: should be an object|not a farm)")
+
     def test_options_of_renderers(self):
         for words in (["+O/x"], ["+L/etc"], ["+I/x.pov"], ["other.ini"], ["/tmp/x.ini"], ["+GA/x"], ["+GI/x"],
                       ["+HI/x"], ["Pre_Scene_Command=id"], ["Post_Frame_Command=id"], ["Library_Path=/"], ["+C"],

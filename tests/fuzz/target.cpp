@@ -16,9 +16,11 @@ std::vector<Target>& list() {
   return all;
 }
 
-/// A control character of ASCII but the line end, or one of U+0080 to U+009F in UTF-8.
+/// A control character of ASCII but the line end, one of U+0080 to U+009F in UTF-8, or U+2028 to U+202E, which turn a
+/// line around or break it.
 bool begins_with_control(std::string_view text) {
   const auto byte = static_cast<unsigned char>(text[0]);
+  if (text.size() > 2 && text.starts_with("\xe2\x80") && text[2] >= '\xa8' && text[2] <= '\xae') return true;
   if (byte == 0xc2 && text.size() > 1) return (static_cast<unsigned char>(text[1]) & 0xe0) == 0x80;
   return (byte < 0x20 && byte != '\n') || byte == 0x7f;
 }

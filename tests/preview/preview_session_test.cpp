@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <memory>
+#include <regex>
 #include <thread>
 
 #include <glm/geometric.hpp>
@@ -95,12 +96,18 @@ TEST_P(PreviewSessionTest, BadCommandsAreAnsweredAndChangeNothing) {
            R"({"command":"export","format":"stl","path":"x.stl"})",
            R"({"command":"export","format":"png","path":"x.gif"})",
            R"({"command":"play","fps":0})",
+           R"({"command":"paint","selection":"name O","color":"component"})",
+           R"({"command":"show","selection":"chain Z"})",
+           R"({"command":"press","key":"no key"})",
        }) {
     const Json reply = apply(command);
     EXPECT_FALSE(reply["ok"]) << command;
     const std::string error = reply.value("error", "");
     EXPECT_GT(error.size(), 10u) << command;
     EXPECT_EQ(error.find('\n'), std::string::npos) << command;
+    const std::string word = Json::parse(command).value("command", "");
+    static const std::regex kAnyWord("^[a-z_]+: ");
+    EXPECT_TRUE(error.starts_with(word + ": ") || !std::regex_search(error, kAnyWord)) << command << error;
   }
   EXPECT_EQ(state(), before);
   EXPECT_EQ(folder_.entries(), std::vector<std::string>{"two.pdb"});

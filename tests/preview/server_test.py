@@ -98,6 +98,19 @@ class Server(unittest.IsolatedAsyncioTestCase):
         self.assertEqual(self.get(Host=f"example.org:{self.preview.port}")[0], 403)
         self.assertEqual(self.get(Host=f"localhost:{self.preview.port}")[0], 200)
 
+    def test_a_header_that_counts_is_there_once(self):
+        host, origin = f"127.0.0.1:{self.preview.port}", f"http://127.0.0.1:{self.preview.port}"
+        path = f"/{self.preview.url.split('/')[3]}/"
+        for headers, status in (([("Host", host)], 200), ([("Host", host), ("Host", host)], 400),
+                                ([("Host", host), ("host", "example.org")], 400), ([("Host", "example.org"), ("Host", host)], 403),
+                                ([("Host", host), ("Origin", origin), ("Origin", "http://example.org")], 400)):
+            connection = http.client.HTTPConnection("127.0.0.1", self.preview.port, timeout=20)
+            connection.putrequest("GET", path, skip_host=True, skip_accept_encoding=True)
+            for name, value in headers:
+                connection.putheader(name, value)
+            connection.endheaders()
+            self.assertEqual(connection.getresponse().status, status, headers)
+
     async def test_a_page_is_told_what_is_read_and_then_served(self):
         preview = Preview(PROGRAM, "-", "--output-dir", self.folder.name, stdin=subprocess.PIPE)
         self.addCleanup(preview.end)
@@ -130,10 +143,28 @@ class Server(unittest.IsolatedAsyncioTestCase):
             self.assertIn("standard input", ended["error"])
         self.assertEqual(preview.process.wait(timeout=30), 3)
 
+    async def test_messages_begin_with_the_command_that_they_are_about(self):
+        async with self.preview.socket() as client:
+            for command in ({"command": "save", "path": "../x.json"}, {"command": "open", "path": "../x.json"},
+                            {"command": "save", "path": "x.png"}, {"command": "export", "format": "png", "path": "../x.png"},
+                            {"command": "undo"}, {"command": "press", "key": "Ctrl+z"}):
+                reply = await ask(client, command)
+                if command["command"] != "press":
+                    self.assertFalse(reply["ok"], command)
+                if not reply["ok"]:
+                    self.assertTrue(reply["error"].startswith(command["command"] + ": "), reply)
+
     def test_a_token_of_the_users_own(self):
         token = "my-token_0123456789"
         with open(self.path("token"), "w") as file:
             file.write(token + "\n")
+        for mode in (0o644, 0o640, 0o604, 0o620, 0o602):
+            os.chmod(self.path("token"), mode)
+            result = subprocess.run([PROGRAM, "preview", self.file, "--serve", "--token-file", self.path("token")],
+                                    capture_output=True, text=True, timeout=60)
+            self.assertEqual((result.returncode, result.stdout), (3, ""))
+            self.assertRegex(result.stderr, r"\A\S*: error: .*/token: others can read or change the token; .*\n\Z")
+        os.chmod(self.path("token"), 0o600)
         for options in ({"env": {**os.environ, "MENISCUS_TOKEN": token}}, {}):
             arguments = [] if options else ["--token-file", self.path("token")]
             self.preview = self.serve(*arguments, **options)

@@ -166,6 +166,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void answer() {
     const auto& request = parser_.get();
     const std::string_view host = view(request[http::field::host]), target = view(request.target());
+    // Of two the first would count here, and the second perhaps in a proxy.
+    for (const http::field header : {http::field::host, http::field::origin})
+      if (request.count(header) > 1) return refuse(http::status::bad_request, "a header is there twice");
     if (!is_own_host(host, clients_->port)) return refuse(http::status::forbidden, "this is not the host asked for");
     const Admission admission = admit(target, clients_->token);
     if (!admission.admitted)

@@ -75,7 +75,9 @@ meniscus_status meniscus_scene_json(const meniscus_scene* scene, const char* fol
   return guarded([&] {
     require(scene, "scene");
     require(json, "json");
-    *json = scene->kept(meniscus::scene_text(scene->copy(), folder && *folder ? folder : "."));
+    const meniscus::Scene copy = scene->copy();
+    if (const std::string fault = meniscus::scene_fault(copy); !fault.empty()) throw meniscus::RequestError(fault);
+    *json = scene->kept(meniscus::scene_text(copy, folder && *folder ? folder : "."));
   });
 }
 

@@ -6,7 +6,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <chrono>
 #include <csignal>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -118,14 +121,51 @@ TEST(OutputFile, AFullDiskIsAnErrorAndLeavesNothing) {
   EXPECT_EQ(folder.entries(), Names{});
 }
 
-TEST(OutputFile, StoppingRemovesUnfinishedFiles) {
+/// Work in a process of its own, which ends as one does that is stopped: its last word is stop(folder, names), which
+/// looks whether the folder holds these names then.
+template <typename Work>
+void expect_stopped_well(const Work& work) {
   const TemporaryFolder folder;
-  OutputFile file(folder.path() / "a", Existing::refuse);
-  OutputFile done(folder.path() / "b", Existing::refuse);
-  done.commit();
+  EXPECT_EXIT(work(folder), testing::ExitedWithCode(0), "");
+}
+
+void stop(const TemporaryFolder& folder, const Names& names) {
   remove_unfinished_outputs();
-  EXPECT_EQ(folder.entries(), Names{"b"});
-  EXPECT_THROW(file.commit(), OutputError);
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  ::_exit(folder.entries() == names ? 0 : 1);
+}
+
+TEST(OutputFile, StoppingRemovesUnfinishedFiles) {
+  expect_stopped_well([](const TemporaryFolder& folder) {
+    OutputFile file(folder.path() / "a", Existing::refuse);
+    OutputFile done(folder.path() / "b", Existing::refuse);
+    done.commit();
+    stop(folder, {"b"});
+  });
+}
+
+TEST(OutputFile, NothingIsBegunOnceStoppingHasBegun) {
+  expect_stopped_well([](const TemporaryFolder& folder) {
+    std::atomic<int> begun{0};
+    const auto begin_files = [&] {
+      for (;; ++begun) OutputFile file(folder.path() / "a", Existing::refuse);
+    };
+    for (int n = 0; n < 4; ++n) std::thread(begin_files).detach();
+    while (begun < 100) std::this_thread::yield();
+    stop(folder, {});
+  });
+}
+
+TEST(OutputFile, AnInputIsKnownByAnyName) {
+  const TemporaryFolder folder;
+  const fs::path input = folder.file("in", "1"), hard = folder.path() / "hard", soft = folder.path() / "soft";
+  fs::create_hard_link(input, hard);
+  fs::create_symlink(input, soft);
+  protect_input(soft);
+  for (const fs::path& name : {input, hard, soft}) {
+    EXPECT_THROW(OutputFile(name, Existing::replace), OutputError) << name;
+  }
+  EXPECT_NO_THROW(OutputFile(folder.path() / "free", Existing::replace));
 }
 
 TEST(OutputFolder, AllFilesOrNone) {
@@ -145,11 +185,11 @@ TEST(OutputFolder, AllFilesOrNone) {
 }
 
 TEST(OutputFolder, StoppingRemovesItToo) {
-  const TemporaryFolder folder;
-  OutputFolder scene(folder.path() / "a" / "b", Existing::refuse);
-  scene.file("scene.pov").write("2");
-  remove_unfinished_outputs();
-  EXPECT_EQ(folder.entries(), Names{});
+  expect_stopped_well([](const TemporaryFolder& folder) {
+    OutputFolder scene(folder.path() / "a" / "b", Existing::refuse);
+    scene.file("scene.pov").write("2");
+    stop(folder, {});
+  });
 }
 
 TEST(OutputFolder, TakesNewFilesBackWhenALaterOneFails) {

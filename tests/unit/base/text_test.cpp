@@ -6,6 +6,7 @@
 
 #include "core/base/progress.h"
 #include "core/base/text.h"
+#include "core/base/utf8.h"
 
 namespace meniscus {
 namespace {
@@ -13,13 +14,33 @@ namespace {
 TEST(Text, EscapesWhatWouldSteerATerminal) {
   EXPECT_EQ(escaped("a\x1b[2Jb\nc\x7f"), "a\\x1b[2Jb\\x0ac\\x7f");
   EXPECT_EQ(escaped("1.4 Å"), "1.4 Å");
-  EXPECT_EQ(escaped("\u009b2J\u0080\u009f\u00a0\xc2"), "\\xc2\\x9b2J\\xc2\\x80\\xc2\\x9f\u00a0\xc2");
+  EXPECT_EQ(escaped("\u009b2J\u0080\u009f\u00a0\xc2"), "\\xc2\\x9b2J\\xc2\\x80\\xc2\\x9f\u00a0\\xc2");
   EXPECT_EQ(in_quotes(std::string(41, 'x')), "'" + std::string(40, 'x') + "...'");
+}
+
+TEST(Text, EscapesMarksOfDirectionAndSeparatorsOfLines) {
+  EXPECT_EQ(escaped("a\u202eb\u2028"), "a\\xe2\\x80\\xaeb\\xe2\\x80\\xa8");
+  for (const std::string_view mark : {"\u061c", "\u200e", "\u200f", "\u2029", "\u202a", "\u2066", "\u2069"})
+    EXPECT_EQ(escaped(mark).substr(0, 2), "\\x") << escaped(mark);
+  for (const std::string_view letter : {"א", "\u2027", "\u202f", "\u2065", "\u206a", "–", "𝒜"})
+    EXPECT_EQ(escaped(letter), letter);
+}
+
+TEST(Text, EscapesBytesThatAreNotUtf8) {
+  EXPECT_EQ(escaped("a\xff\n"), "a\\xff\\x0a");
+  EXPECT_EQ(escaped("\xe2\x82z"), "\\xe2\\x82z");
+  for (const std::string_view bad :
+       {"\xc0\xaf", "\xe0\x80\xaf", "\xed\xa0\x80", "\xf0\x8f\xbf\xbf", "\xf4\x90\x80\x80", "\x80"}) {
+    EXPECT_FALSE(is_utf8(bad)) << escaped(bad);
+    EXPECT_EQ(escaped(bad).size(), 4 * bad.size()) << escaped(bad);
+  }
+  EXPECT_TRUE(is_utf8("Åא€𝒜\x7f"));
 }
 
 TEST(Text, ShortensBeforeItEscapes) {
   EXPECT_EQ(shortened("a\x7f", 2), "a\\x7f");
   EXPECT_EQ(shortened("a\x7f z", 2), "a\\x7f...");
+  EXPECT_EQ(shortened("a€b", 3), "a...");
 }
 
 TEST(Text, PointsAtCharactersNotIntoThem) {
@@ -27,11 +48,12 @@ TEST(Text, PointsAtCharactersNotIntoThem) {
   EXPECT_EQ(pointed_at("aÅ", 2), "aÅ\n ^");
   EXPECT_EQ(pointed_at("a\u009b", 2), "a\\xc2\\x9b\n ^");
   const std::string middles(100, '\x80');
-  EXPECT_EQ(pointed_at(middles, 60), middles + "\n^");
+  EXPECT_EQ(pointed_at(middles, 60), escaped(middles) + "\n^");
 }
 
 TEST(Text, IsSafeBetweenTagsAndInAttributes) {
-  EXPECT_EQ(markup_text("</script> \"a\" & b\x01\n\xc3\xa5"), "&lt;/script&gt; &quot;a&quot; &amp; b\n\xc3\xa5");
+  EXPECT_EQ(markup_text("</script> \"a\" & b\x01\u202e\n\xc3\xa5\xff"),
+            "&lt;/script&gt; &quot;a&quot; &amp; b\n\xc3\xa5\ufffd");
 }
 
 // The examples of RFC 4648, section 10.
