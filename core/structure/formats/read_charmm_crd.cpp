@@ -97,7 +97,7 @@ FileContents read(const TextFile& file, const ModelChoice& models) {
   if (!lines.only_blanks_left())
     throw InputError(file.path, lines.number() + 1,
                      fmt::format("comes after the {} atoms of the count; correct it", with_thousands(atoms)));
-  classify_atoms(contents.atoms, contents.warnings);
+  contents.sites = classify_atoms(contents.atoms, contents.warnings);
   return contents;
 }
 
