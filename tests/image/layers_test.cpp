@@ -292,17 +292,24 @@ TEST(Layers, ASphereIsTheBallThatItIs) {
   EXPECT_TRUE(same_bits(shape.picture(), ball.picture()));
 }
 
-TEST(Layers, ACutSphereShowsItsLitInside) {
-  ShapeSubject subject;
-  subject.shapes.spheres = {{{0.0, 0.0, 0.0}, 1.5, 0}};
-  PictureObject object;
-  object.shapes = &subject.shapes;
-  object.coloring = &subject.coloring;
-  object.clip.push_back({{0.0, 0.0, 1.0}, 0.0});  // the viewer's half is gone
-  const Framebuffer picture = CpuRenderer().render({&object, 1}, subject.camera, subject.settings);
-  const std::size_t middle = 120 * 320 + 160;
-  EXPECT_NEAR(picture.position[middle].z, -1.5f, 1e-3f);
-  EXPECT_GT(picture.color[middle].x, 0.1f);
+TEST(Layers, CutShapesAreSolid) {
+  const auto is_capped = [](const std::vector<SphereShape>& spheres) {
+    ShapeSubject subject;
+    subject.shapes.spheres = spheres;
+    PictureObject object;
+    object.shapes = &subject.shapes;
+    object.coloring = &subject.coloring;
+    object.clip.push_back({{0.0, 0.0, 1.0}, 0.0});  // the viewer's half is gone
+    const Framebuffer picture = CpuRenderer().render({&object, 1}, subject.camera, subject.settings);
+    const std::size_t middle = 120 * 320 + 160;
+    return std::abs(picture.position[middle].z) < 1e-3f && picture.kind[middle] == Framebuffer::kCap &&
+           picture.color[middle].x > 0.1f;
+  };
+  EXPECT_TRUE(is_capped({{{0.0, 0.0, 0.0}, 1.5, 0}}));
+  // Beyond the plane the ray enters one sphere within the other, or leaves one and enters another.
+  EXPECT_TRUE(is_capped({{{0.0, 0.0, 0.0}, 1.5, 0}, {{0.0, 0.0, -0.8}, 0.5, 0}}));
+  EXPECT_TRUE(is_capped({{{0.0, 0.0, 0.0}, 1.5, 0}, {{0.0, 0.0, -4.0}, 1.0, 0}}));
+  EXPECT_FALSE(is_capped({{{0.0, 0.0, -2.0}, 1.5, 0}}));
 }
 
 TEST(Layers, ACylinderIsRoundAndOfTwoColors) {
