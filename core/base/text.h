@@ -12,8 +12,8 @@
 
 namespace meniscus {
 
-/// The text with control characters as \xNN, so that a foreign file cannot steer a terminal: those of ASCII, and U+0080
-/// to U+009F, which steer some terminals as well. All other UTF-8 passes.
+/// The text with the bytes of control characters (is_control() in utf8.h) and those that are not UTF-8 as \xNN, so that
+/// a foreign file cannot steer a terminal, nor turn words around. All other UTF-8 passes.
 std::string escaped(std::string_view text);
 
 /// At most `bytes` bytes of the text, escaped, and "..." in place of the rest.
@@ -32,8 +32,8 @@ std::string with_thousands(std::uint64_t count);
 /// One word of a POSIX shell, whatever the text holds.
 std::string shell_word(std::string_view text);
 
-/// Text between the tags of XML and HTML, or in a double-quoted attribute. Control characters, which XML does not have,
-/// are left out; new lines and tabs stay.
+/// Text between the tags of XML and HTML, or in a double-quoted attribute. Control characters are left out but for new
+/// lines and tabs, and U+FFFD stands for bytes that are not UTF-8.
 std::string markup_text(std::string_view text);
 
 /// Three bytes as four letters (RFC 4648).

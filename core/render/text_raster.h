@@ -52,8 +52,8 @@ class Font {
   int capital_height_ = 0;
 };
 
-/// Text of a foreign file made fit to be drawn: control characters escaped, bytes that are not UTF-8 as '?', at most so
-/// many characters and then an ellipsis; "(blank)" for nothing.
+/// Text of a foreign file made fit to be drawn: escaped, at most so many characters and then an ellipsis; "(blank)" for
+/// nothing.
 std::string drawable(std::string_view text, int most_characters = 24);
 
 }  // namespace meniscus
