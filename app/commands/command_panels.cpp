@@ -141,6 +141,7 @@ void run(const DeclaredPanels& declared) {
   for (const std::string& file : page.files) panels.push_back(read_panel(file, words_of_panels(declared), page));
   const PanelArrangement arrangement = arrangement_of(declared, panels.front().scene);
   PanelPage made(read_panels(page, panels), arrangement);
+  if (!made.conflicts().empty()) say(page, "warning: " + made.conflicts());
   SurfaceRequest request = panels.front().scene.molecule.surface;
   for (const SceneCommand& panel : panels) request.cpu = request.cpu || picture_request(panel.scene).cpu;
   PictureDevice device(request);

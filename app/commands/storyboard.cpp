@@ -14,6 +14,7 @@
 #include "app/reports/notes.h"
 #include "core/base/parse_number.h"
 #include "core/base/text.h"
+#include "core/color/color_key.h"
 
 namespace meniscus {
 namespace {
@@ -72,7 +73,8 @@ std::vector<SceneCommand> read_scenes(const DeclaredFilm& declared) {
 
 FilmScene::FilmScene(const SceneCommand& command, bool extent)
     : run(command),
-      layout(std::make_shared<const PictureLayout>(run.scene(), run.key())),
+      key(run.key()),
+      layout(std::make_shared<const PictureLayout>(run.scene(), key)),
       annotations(run.scene(), run.is_run() ? &run.frames() : nullptr) {
   run.aim(layout->size, extent);
 }
@@ -87,6 +89,7 @@ Storyboard::Timing::Timing(const FilmCommand& film) {
 }
 
 Storyboard::Storyboard(const DeclaredFilm& declared) : command_(with_scenes(declared.state)), timing_(command_) {
+  std::vector<ColorKey> keys;
   for (SceneCommand& command : read_scenes(declared)) {
     if (command_.is_draft) make_draft(command.scene);
     titles_.push_back(command.scene.annotations.title);
@@ -97,7 +100,10 @@ Storyboard::Storyboard(const DeclaredFilm& declared) : command_(with_scenes(decl
       command.scene.annotations = {};
     }
     scenes_.push_back(std::make_unique<FilmScene>(command, is_exported()));
+    keys.push_back(scenes_.back()->key);
   }
+  const std::string conflicts = color_conflicts(keys, "scene");
+  if (!conflicts.empty()) say(command_, "warning: " + conflicts);
 }
 
 std::uint64_t Storyboard::pictures() const {
