@@ -15,6 +15,7 @@
 #include "core/mesh/velocity.h"
 #include "core/queries/copies.h"
 #include "core/scene/copied_atoms.h"
+#include "core/scene/figure_key.h"
 #include "exporters/mesh_files/vertex_numbers.h"
 
 namespace meniscus {

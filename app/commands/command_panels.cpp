@@ -146,6 +146,7 @@ void run(const DeclaredPanels& declared) {
   }
   check_output(page.scene.output, page.existing());
   PanelPage made(read_panels(page, panels), arrangement);
+  if (!made.conflicts().empty()) say(page, "warning: " + made.conflicts());
   SurfaceRequest request = panels.front().scene.molecule.surface;
   for (const SceneCommand& panel : panels) request.cpu = request.cpu || picture_request(panel.scene).cpu;
   PictureDevice device(request);

@@ -11,6 +11,7 @@
 #include "app/reports/notes.h"
 #include "core/base/text.h"
 #include "core/queries/copies.h"
+#include "core/scene/figure_key.h"
 #include "core/scene/settled_selections.h"
 #include "exporters/blender/mns_file.h"
 #include "exporters/blender/sequence_manifest.h"

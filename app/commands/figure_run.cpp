@@ -12,6 +12,7 @@
 #include "core/camera/camera_json.h"
 #include "core/queries/copies.h"
 #include "core/scene/copied_atoms.h"
+#include "core/scene/figure_key.h"
 #include "core/scene/scene_values.h"
 #include "core/scene/settled_selections.h"
 #include "core/scene/surface_kind.h"
@@ -104,7 +105,7 @@ void FigureRun::measure(ColorScheme& color) {
 }
 
 ColorKey FigureRun::key() const {
-  return frames_ ? color_key(numbered_reach(*frames_), color_of(scene().molecule), {}) : key_of(figure_->molecule);
+  return frames_ ? key_of(*frames_, scene()) : key_of(figure_->molecule, scene().figure, figure_->beside);
 }
 
 void FigureRun::make(const FigureWork& work, const std::function<Sink()>& make_sink) {

@@ -19,9 +19,9 @@
 #include "core/base/error.h"
 #include "core/base/system_file.h"
 #include "core/base/text.h"
-#include "core/color/color_key.h"
 #include "core/queries/surface_object.h"
 #include "core/render/legend.h"
+#include "core/scene/figure_key.h"
 #include "core/scene/frame_run.h"
 #include "core/scene/molecule.h"
 #include "core/scene/scene_picture.h"
@@ -62,10 +62,10 @@ Structure ShownReader::operator()(const FigureRequest& figure, std::size_t frame
 Camera aimed_camera(const Scene& scene, const std::optional<Camera>& given, const ColorScheme& color,
                     const Structure& structure) {
   ViewRequest layout = scene.picture;
-  if (scene.legend.within && (color.by != ColorScheme::By::fixed || !color.rules.empty())) {
-    const std::string names[] = {"surface"};
-    const Legend legend(color_key(structure, color, names), layout.size(),
-                        legend_style(scene.legend.style, scene.annotations.letters));
+  if (scene.legend.within) {
+    const ColorKey colors = figure_key(structure, color, {std::vector<bool>(structure.atoms.size(), true)},
+                                       scene.figure, make_beside(structure, scene.figure, color));
+    const Legend legend(colors, layout.size(), legend_style(scene.legend.style, scene.annotations.letters));
     layout.width = legend.molecule_size().x;
     layout.height = legend.molecule_size().y;
   }

@@ -27,6 +27,7 @@
 #include "core/render/picture.h"
 #include "core/render/picture_file.h"
 #include "core/render/renderer.h"
+#include "core/scene/figure_key.h"
 #include "core/scene/hidden_atoms.h"
 #include "core/scene/molecule.h"
 #include "core/scene/run_cameras.h"
@@ -136,7 +137,10 @@ struct Viewed {
   }
 
   ColorKey key(const Scene& scene) const {
-    return run ? color_key(numbered_reach(*run), color_of(scene.molecule), {}) : key_of(atoms.molecule);
+    if (run) return key_of(*run, scene);
+    DrawnAtoms drawn;
+    for (std::uint32_t a = 0; a < atoms.balls.size(); ++a) drawn.atoms.push_back(atoms.coloring.shows(a));
+    return color_key(atoms.molecule.structure, atoms.molecule.color, drawn);
   }
 
   std::vector<Camera> cameras(const Scene& scene, const ViewRequest& size) {

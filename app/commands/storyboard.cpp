@@ -14,6 +14,7 @@
 #include "app/reports/notes.h"
 #include "core/base/parse_number.h"
 #include "core/base/text.h"
+#include "core/color/color_key.h"
 
 namespace meniscus {
 namespace {
@@ -81,7 +82,8 @@ void of_scene(const std::string& file, const std::function<void()>& work) {
 
 FilmScene::FilmScene(const SceneCommand& command, bool extent)
     : run(command),
-      layout(std::make_shared<const PictureLayout>(run.scene(), run.key())),
+      key(run.key()),
+      layout(std::make_shared<const PictureLayout>(run.scene(), key)),
       annotations(run.scene(), run.is_run() ? &run.frames() : nullptr) {
   run.aim(layout->size, extent);
   if (!extent) annotations.check(*layout, run.framing().cameras, run.structure());
@@ -111,8 +113,14 @@ Storyboard::Storyboard(const DeclaredFilm& declared)
     format_.transparent = format_.transparent || command.scene.film.transparent;
   }
   if (!is_exported()) check_pictures_of(read);
+  std::vector<ColorKey> keys;
   for (std::size_t n = 0; n < read.size(); ++n)
-    of_scene(command_.files[n], [&] { scenes_.push_back(std::make_unique<FilmScene>(read[n], is_exported())); });
+    of_scene(command_.files[n], [&] {
+      scenes_.push_back(std::make_unique<FilmScene>(read[n], is_exported()));
+      keys.push_back(scenes_.back()->key);
+    });
+  const std::string conflicts = color_conflicts(keys, "scene");
+  if (!conflicts.empty()) say(command_, "warning: " + conflicts);
 }
 
 void Storyboard::check_pictures_of(const std::vector<SceneCommand>& scenes) const {

@@ -35,6 +35,7 @@ using DeclaredFilm = DeclaredCommand<FilmCommand>;
 /// A scene on its way into the film.
 struct FilmScene {
   FigureRun run;
+  ColorKey key;
   std::shared_ptr<const PictureLayout> layout;
   FrameAnnotations annotations;
 

@@ -29,11 +29,11 @@
 #include "core/base/text.h"
 #include "core/base/utf8.h"
 #include "core/camera/camera_json.h"
-#include "core/color/color_key.h"
 #include "core/render/image_output.h"
 #include "core/render/legend.h"
 #include "core/render/picture_file.h"
 #include "core/scene/annotations.h"
+#include "core/scene/figure_key.h"
 #include "core/scene/frame_run.h"
 #include "core/scene/run_cameras.h"
 #include "core/scene/run_framing.h"
@@ -75,8 +75,8 @@ std::optional<std::array<double, 2>> measured_range(Scene& scene, ShownFrames& f
 /// That of --legend-file, which is the same for all frames.
 std::optional<Legend> legend_of(const Scene& scene, const FrameRun& frames) {
   if (scene.legend.file.empty()) return {};
-  const ColorKey key = color_key(numbered_reach(frames), color_of(scene.molecule), {});
-  return Legend(key, scene.picture.size(), legend_style(scene.legend.style, scene.annotations.letters));
+  return Legend(key_of(frames, scene), scene.picture.size(),
+                legend_style(scene.legend.style, scene.annotations.letters));
 }
 
 void write_legend(const BundledCommand& command, const Legend& legend, Existing existing) {

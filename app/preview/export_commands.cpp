@@ -16,6 +16,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/color/color_maps.h"
+#include "core/color/color_scale.h"
 #include "core/properties/properties.h"
 #include "core/render/image_output.h"
 #include "core/scene/scene_json.h"
@@ -120,7 +121,8 @@ Scene shown_scene(const CommandReader& command, const Surroundings& around) {
                       command.word(), in_quotes(scheme_word(state.color))));
     view.model = molecule.structure().atoms[molecule.atoms().front()].model;
     // A model alone would have a scale of its own.
-    if (state.color.has_scale()) view.range = color_scale(molecule.structure(), state.color).range;
+    if (state.color.has_scale() && !(state.color.takes_file() && state.color.file.of_colors))
+      view.range = color_scale(molecule.structure(), state.color).range;
   }
   return rendered_scene(around.exporter.context.scene.value_or(Scene{}), view);
 }
@@ -174,7 +176,7 @@ Json export_view(const CommandReader& command, const Surroundings& around) {
   Annotations annotations;
   if (exporter.context.annotations) annotations = exporter.context.annotations(molecule.annotated_structure());
   auto view = std::make_shared<const ExportedView>(ExportedView{
-      molecule.structure(), molecule.atoms(), molecule.balls(), molecule.coloring(state), state.told_scheme(), state,
+      molecule.structure(), molecule.atoms(), molecule.balls(), molecule.coloring(state), molecule.key(state), state,
       molecule.beside(), std::move(annotations), wishes.size, wishes.samples, wishes.transparent,
       format == Format::png ? scene_of(command, around) : "", state.wishes.dots_per_inch});
   const auto write = [view, target, format, make_device](const ExportWatch& watch) {

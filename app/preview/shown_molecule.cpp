@@ -21,6 +21,7 @@
 #include "core/reduced_surface/cpu/exhaustive.h"
 #include "core/scene/annotations.h"
 #include "core/scene/copied_atoms.h"
+#include "core/scene/figure_key.h"
 #include "core/scene/hidden_atoms.h"
 #include "core/scene/molecule.h"
 #include "core/scene/surface_objects.h"
@@ -240,15 +241,25 @@ void ShownMolecule::place_balls(const PreviewFigure& figure) {
   if (!structure_.instances.empty()) reach_ = reaching_balls(balls_, structure_.instances);
 }
 
+ColorKey ShownMolecule::key(const PreviewFigure& figure) const {
+  const Structure& structure = marked_ ? *marked_ : structure_;
+  DrawnAtoms drawn{std::vector<bool>(structure.atoms.size(), true), {{"surface", atoms()}}};
+  const std::vector<bool> shown = part_shown(figure, marked_.get());
+  for (std::size_t n = 0; n < shown.size(); ++n)
+    if (!shown[n]) drawn.atoms[marked_ ? n : atoms()[n]] = false;
+  return figure_key(structure, figure.told_scheme(), std::move(drawn), figure.figure,
+                    beside_ ? *beside_ : BesideSurface());
+}
+
 void ShownMolecule::lay_out_legend(const PreviewState& state) {
   legend_.reset();
   legend_fault_.clear();
-  const ColorScheme color = state.told_scheme();
-  if (!state.legend || (color.by == ColorScheme::By::fixed && color.rules.empty())) return;
-  const std::string names[] = {"surface"};
+  if (!state.legend) return;
+  const ColorKey colors = key(state);
+  if (colors.empty()) return;
   try {
-    legend_ = std::make_shared<const LegendStrip>(color_key(structure_, color, names), state.size,
-                                                  legend_style(state.legend_style, state.letters), state.background);
+    legend_ = std::make_shared<const LegendStrip>(colors, state.size, legend_style(state.legend_style, state.letters),
+                                                  state.background);
   } catch (const RequestError& error) {  // no room for it in this size
     legend_fault_ = error.what();
   }
@@ -290,6 +301,7 @@ Structure ShownMolecule::frame_structure() const {
   Structure frame;
   frame.file = structure_.file;
   frame.frame = structure_.frame;
+  frame.chains = structure_.chains;
   for (const std::uint32_t a : atoms()) frame.atoms.push_back(structure_.atoms[a]);
   return frame;
 }

@@ -105,6 +105,8 @@ class ShownMolecule {
   const Atom& atom_in_view(std::uint32_t atom) const;
   std::vector<Atom> atoms_in_view() const;
 
+  /// What the figure's colours mean, of all models.
+  ColorKey key(const PreviewFigure& figure) const;
   /// nullptr: none.
   const std::shared_ptr<const LegendStrip>& legend() const { return legend_; }
   /// Why there is none though it is wanted; else empty.

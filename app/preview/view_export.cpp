@@ -170,11 +170,6 @@ std::pair<std::vector<SurfaceObject>, std::string> complete_surfaces(const Expor
   return {std::move(objects), computer.device()};
 }
 
-ColorKey colors_of(const ExportedView& view) {
-  const std::string names[] = {"surface"};
-  return color_key(view.structure, view.color, names);
-}
-
 }  // namespace
 
 void export_picture(const ExportedView& view, const MakePictureDevice& make_device, const ExportTarget& target,
@@ -185,8 +180,8 @@ void export_picture(const ExportedView& view, const MakePictureDevice& make_devi
   std::optional<glm::vec3> background = figure.background;
   if (view.transparent) background.reset();
   std::optional<Legend> legend;
-  if (figure.legend && (view.color.by != ColorScheme::By::fixed || !view.color.rules.empty()))
-    legend.emplace(colors_of(view), view.size, legend_style(figure.legend_style, figure.letters));
+  if (figure.legend && !view.colors.empty())
+    legend.emplace(view.colors, view.size, legend_style(figure.legend_style, figure.letters));
   Figure whole;
   whole.molecule.objects = complete_surfaces(view, watch).first;
   if (view.beside) whole.beside = *view.beside;
@@ -222,7 +217,7 @@ std::string export_povray(const ExportedView& view, const ExportTarget& target, 
   options.existing = target.existing;
   options.shadows = view.figure.look.shadows.value_or(0.0f);
   options.shadow_softness = view.figure.look.shadow_softness.value_or(0.0f);
-  options.colors = colors_of(view);
+  options.colors = view.colors;
   if (view.beside) options.shapes = &view.beside->shapes;
   options.film = figure.thickens;
   options.cut.style = figure.cap;
@@ -244,7 +239,7 @@ void export_blender(const ExportedView& view, const ExportTarget& target, const 
         {surfaces[n], std::move(meshes[n]), blender::atom_attributes(view.structure, surfaces[n].atom), {}});
   watch("writing", 0.0);
   const blender::Provenance provenance{std::filesystem::path(view.structure.file).filename().string(),
-                                       view.structure.radii_set, device, colors_of(view)};
+                                       view.structure.radii_set, device, view.colors};
   write_objects(target.path.string(), target.existing, objects,
                 blender::Shot{view.figure.camera, view.size.x, view.size.y, view.figure.look.shadows.value_or(0.0f),
                               view.figure.look.shadow_softness.value_or(0.0f)},

@@ -68,7 +68,7 @@ struct ExportedView {
   std::vector<std::uint32_t> atoms;  ///< those shown, into structure.atoms
   std::vector<Ball> balls;           ///< theirs, grown by growth_of() the kind of surface
   Coloring coloring;                 ///< theirs
-  ColorScheme color;                 ///< what the colours mean
+  ColorKey colors;                   ///< what the colours mean
   PreviewFigure figure;
   std::shared_ptr<const BesideSurface> beside;  ///< the surface; nullptr: nothing
   Annotations annotations;                      ///< written into pictures

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -118,7 +119,7 @@ std::optional<glm::dvec3> axis_of(const glm::dmat3& r) {
   for (int column = 1; column < 3; ++column)
     if (glm::length(outer[column]) > glm::length(axis)) axis = outer[column];
   axis = glm::normalize(axis);
-  constexpr double kZero = 1e-6;
+  constexpr double kZero = 1e-4;
   const double sign = std::abs(axis.z) > kZero ? axis.z : std::abs(axis.y) > kZero ? axis.y : axis.x;
   return sign < 0.0 ? -axis : axis;
 }
@@ -165,10 +166,13 @@ std::optional<glm::dvec3> symmetry_axis(std::span<const RigidMotion> motions) {
     }
   }
   if (axes.empty()) return {};
-  const auto best = std::ranges::max_element(axes, [](const AxisCount& a, const AxisCount& b) {
-    return a.count != b.count ? a.count < b.count : a.axis.z < b.axis.z;
-  });
-  return best->axis;
+  // Of axes that are alike the one nearest to z, then y, then -x: coordinates are compared as rounded, for motions of a
+  // file and those of its copies differ in their last digits.
+  const auto rank = [](const AxisCount& axis) {
+    const auto rounded = [](double x) { return std::lround(x * 1e4); };
+    return std::tuple(axis.count, rounded(axis.axis.z), rounded(axis.axis.y), -rounded(axis.axis.x));
+  };
+  return std::ranges::max_element(axes, {}, rank)->axis;
 }
 
 std::optional<Turn> parse_turn(std::string_view text) {

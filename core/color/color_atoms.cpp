@@ -12,7 +12,7 @@
 #include <tuple>
 #include <vector>
 
-#include "core/color/color_key.h"
+#include "core/color/color_scale.h"
 #include "core/color/color_maps.h"
 #include "core/color/coloring.h"
 #include "core/color/lipophilicity.h"
@@ -25,18 +25,15 @@ namespace {
 
 using By = ColorScheme::By;
 
-/// Chains in order of appearance, so that colours follow the file.
-std::vector<glm::vec3> by_chain(const Structure& structure, const ColorScheme& scheme) {
-  std::map<std::string, std::size_t> order;
-  for (const std::string& chain : scheme.chains) order.try_emplace(chain, order.size());
+std::vector<glm::vec3> by_chain(const Structure& structure) {
+  const std::map<std::string, std::size_t> places = places_of_chains(structure);
   std::vector<glm::vec3> colors;
-  for (const Atom& atom : structure.atoms)
-    colors.push_back(categorical_color(order.try_emplace(chain_of_file(atom), order.size()).first->second));
+  for (const Atom& atom : structure.atoms) colors.push_back(categorical_color(places.at(chain_of_file(atom))));
   return colors;
 }
 
 std::vector<glm::vec3> colors_of(const Structure& structure, const ColorScheme& scheme) {
-  if (scheme.by == By::chain) return by_chain(structure, scheme);
+  if (scheme.by == By::chain) return by_chain(structure);
   std::vector<glm::vec3> colors;
   colors.reserve(structure.atoms.size());
   if (has_ordered_classes(scheme.by)) {

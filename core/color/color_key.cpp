@@ -1,274 +1,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the numbers, ranges and class names by which a structure is coloured.
+// Lists what the colours of the atoms drawn mean: scales, and classes by name.
 #include "core/color/color_key.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
-#include <map>
+#include <cstdint>
 #include <set>
-#include <tuple>
+#include <span>
+#include <utility>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 
-#include "core/base/error.h"
 #include "core/base/system_file.h"
 #include "core/base/text.h"
-#include "core/color/color_maps.h"
+#include "core/color/color_atoms.h"
+#include "core/color/color_scale.h"
+#include "core/color/coloring.h"
 #include "core/color/lipophilicity.h"
 #include "core/color/named_colors.h"
+#include "core/color/ordered_classes.h"
 #include "core/structure/element_tables.h"
-#include "core/structure/structure.h"
 
 namespace meniscus {
 namespace {
 
 using By = ColorScheme::By;
 
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-constexpr std::array<double, 2> kPlaces{0.0, 1.0}, kGrades{1.0, 9.0};  // in a chain, or of what can be; of ConSurf
-
-[[noreturn]] void no_atom_named(const Structure& structure, const NumberFile& file, const char* what,
-                                std::size_t count) {
-  throw InputError(file.path, 0,
-                   fmt::format("names {} {}, none of which is among the atoms used of {}", with_thousands(count), what,
-                               structure.file));
-}
-
-/// The only chain of polymers, or of all atoms where there are none, for numbers of residues without chains.
-std::string only_chain(const Structure& structure, const NumberFile& file) {
-  std::set<std::string> chains;
-  const bool polymers =
-      std::ranges::any_of(structure.atoms, [](const Atom& a) { return a.kind == AtomClass::polymer; });
-  for (const Atom& atom : structure.atoms)
-    if (!polymers || atom.kind == AtomClass::polymer) chains.insert(chain_of_file(atom));
-  if (chains.size() != 1)
-    throw InputError(
-        file.path, 0,
-        fmt::format("names residues without their chains, but the atoms used of {} are of {} chains, such "
-                    "as {} and {}; add a column chain",
-                    structure.file, chains.size(), in_quotes(*chains.begin()), in_quotes(*std::next(chains.begin()))));
-  return *chains.begin();
-}
-
-std::vector<double> numbers_by_name(const Structure& structure, const NumberFile& file) {
-  std::vector<double> numbers(structure.atoms.size(), kMissing);
-  bool found = false;
-  const std::string chain = file.without_chains ? only_chain(structure, file) : std::string();
-  const auto take = [&](const auto& table, const auto& key, double& number) {
-    const auto entry = table.find(key);
-    if (entry == table.end()) return;
-    number = entry->second;
-    found = true;
-  };
-  for (std::size_t a = 0; a < numbers.size(); ++a) {
-    const Atom& atom = structure.atoms[a];
-    if (!file.by_atom.empty())
-      take(file.by_atom, atom.index, numbers[a]);
-    else if (!file.without_chains)
-      take(file.by_residue, ResidueName{chain_of_file(atom), atom.residue_number, atom.insertion_code}, numbers[a]);
-    else if (chain_of_file(atom) == chain)
-      take(file.by_residue, ResidueName{{}, atom.residue_number, atom.insertion_code}, numbers[a]);
-  }
-  if (!found && !file.by_atom.empty()) no_atom_named(structure, file, "atoms", file.by_atom.size());
-  if (!found) no_atom_named(structure, file, "residues", file.by_residue.size());
-  return numbers;
-}
-
-/// The numbers of a file for the atoms in use: by name, or given for each of these, or for each atom of the molecule's
-/// file.
-std::vector<double> numbers_of_file(const Structure& structure, const NumberFile& file) {
-  if (file.numbers.empty() && !file.empty()) return numbers_by_name(structure, file);
-  const auto other_models = structure.report.excluded.find(kExcludedModel);
-  const std::size_t read =
-      structure.report.read - (other_models == structure.report.excluded.end() ? 0 : other_models->second);
-  const std::size_t used = structure.atoms.size(), given = file.numbers.size();
-  if (given == used) return file.numbers;
-  std::vector<double> numbers;
-  for (const Atom& atom : structure.atoms) {
-    if (given == read && atom.index < given) numbers.push_back(file.numbers[atom.index]);
-  }
-  if (numbers.size() != used) {
-    throw InputError(file.path, 0,
-                     fmt::format("holds {} numbers; {} holds {} atoms, of which {} are used; {}", with_thousands(given),
-                                 structure.file, with_thousands(read), with_thousands(used), kNumberLayouts));
-  }
-  return numbers;
-}
-
-std::vector<glm::dvec3> positions_of(const Structure& structure) {
-  std::vector<glm::dvec3> positions;
-  positions.reserve(structure.atoms.size());
-  for (const Atom& atom : structure.atoms) positions.push_back(atom.position);
-  return positions;
-}
-
-/// Grades of conservation, which are from 1 to 9.
-std::vector<double> grades_of(const Structure& structure, const NumberFile& file) {
-  std::vector<double> grades = numbers_of_file(structure, file);
-  for (const double grade : grades)
-    if (grade < kGrades[0] || grade > kGrades[1])
-      throw InputError(file.path, 0,
-                       fmt::format("holds {:g}; --color conservation takes ConSurf's grades, from 1 (variable) to 9 "
-                                   "(conserved); --color file takes any numbers",
-                                   grade));
-  return grades;
-}
-
-/// From 0, of the first residue of each chain of polymers, to 1, of its last; of atoms beside the surface, too, so that
-/// sticks and cartoons have the same. NaN: not of a polymer.
-std::vector<double> places_in_chains(const Structure& structure) {
-  using Chain = std::tuple<std::int32_t, std::uint32_t, std::string_view>;
-  std::map<Chain, std::set<std::uint32_t>> residues;
-  const auto chain_of = [](const Atom& atom) { return Chain(atom.model, atom.copy, atom.chain); };
-  for (const std::vector<Atom>* atoms : {&structure.atoms, &structure.beside})
-    for (const Atom& atom : *atoms)
-      if (atom.kind == AtomClass::polymer) residues[chain_of(atom)].insert(atom.residue);
-  std::map<std::pair<Chain, std::uint32_t>, double> places;
-  for (const auto& [chain, of_chain] : residues) {
-    const double last = of_chain.size() > 1 ? static_cast<double>(of_chain.size() - 1) : 1.0;
-    double place = 0.0;
-    for (const std::uint32_t residue : of_chain) places[{chain, residue}] = place++ / last;
-  }
-  std::vector<double> numbers;
-  for (const Atom& atom : structure.atoms)
-    numbers.push_back(atom.kind == AtomClass::polymer ? places[{chain_of(atom), atom.residue}] : kMissing);
-  return numbers;
-}
-
-/// What the first and the last residue of these chains are called.
-std::array<std::string, 2> ends_of_chains(const Structure& structure) {
-  const auto any = [&](auto is_of) { return std::ranges::any_of(structure.atoms, is_of); };
-  const bool protein = any([](const Atom&atom) { return atom.kind == AtomClass::polymer && atom.name == "CA"; }),
-             nucleic = any([](const Atom&atom) {
-               return atom.kind == AtomClass::polymer && (atom.name == "C4'" || atom.name == "C4*");
-             });
-  if (protein && nucleic) return {"N or 5′", "C or 3′"};
-  return nucleic ? std::array<std::string, 2>{"5′", "3′"} : std::array<std::string, 2>{"N", "C"};
-}
-
-/// One number an atom, NaN where there is none.
-std::vector<double> numbers_of(const Structure& structure, const ColorScheme& scheme) {
-  if (scheme.by == By::file) return numbers_of_file(structure, scheme.file.of_frame(structure.frame));
-  if (scheme.by == By::conservation) return grades_of(structure, scheme.file.of_frame(structure.frame));
-  if (scheme.by == By::rainbow) return places_in_chains(structure);
-  if (scheme.by == By::radial) return distances_from_middle(positions_of(structure));
-  if (scheme.is_measured()) return numbers_of_file(structure, scheme.file);
-  const auto number = [&](const Atom& atom) -> double {
-    switch (scheme.by) {
-      case By::bfactor:
-        return atom.b_factor;
-      case By::occupancy:
-        return atom.occupancy;
-      case By::charge:
-        return atom.charge;
-      case By::hydrophobicity:
-        return hydropathy(atom.residue_name);
-      default:
-        return atom.index;
-    }
-  };
-  std::vector<double> numbers;
-  numbers.reserve(structure.atoms.size());
-  for (const Atom& atom : structure.atoms) numbers.push_back(number(atom));
-  return numbers;
-}
-
-struct ScaleWords {
-  std::string_view title, unit;
-};
-
-ScaleWords words_of(By by) {
-  switch (by) {
-    case By::bfactor:
-      return {"B-factor", "Å²"};
-    case By::occupancy:
-      return {"occupancy", ""};
-    case By::charge:
-      return {"partial charge", "e"};
-    case By::hydrophobicity:
-      return {"hydrophobicity (Kyte & Doolittle 1982)", ""};
-    case By::index:
-      return {"place in the file", ""};
-    case By::radial:
-      return {"distance from the middle", "Å"};
-    case By::rainbow:
-      return {"place in the chain", ""};
-    case By::conservation:
-      return {"conservation", ""};
-    case By::buried:
-      return {"buried area", "Å²"};
-    case By::rmsf:
-      return {"fluctuation (RMSF)", "Å"};
-    case By::accessibility:
-      return {"relative accessibility (Tien et al. 2013)", ""};
-    default:
-      return {"number from file", ""};
-  }
-}
-
-[[noreturn]] void no_numbers(const Structure& structure, const ColorScheme& scheme) {
-  switch (scheme.by) {
-    case By::bfactor:
-      throw InputError(structure.file, 0, "has no B-factors to colour by; choose another --color");
-    case By::occupancy:
-      throw InputError(structure.file, 0, "has no occupancies to colour by; choose another --color");
-    case By::charge:
-      throw InputError(structure.file, 0, "has no partial charges to colour by; PQR files have them");
-    case By::rmsf:
-      throw RequestError("--color rmsf measures fluctuations over frames; add --frames all");
-    case By::buried:
-      throw RequestError("buried areas colour the whole surface; choose --color buried, or another colour for EXPR");
-    case By::accessibility:
-      throw InputError(structure.file, 0,
-                       "has no complete amino acids, so there is no relative accessibility; choose another --color");
-    case By::rainbow:
-      throw InputError(structure.file, 0,
-                       "has no chains of amino acids or nucleotides to colour along; choose another --color");
-    case By::hydrophobicity:
-      throw InputError(structure.file, 0,
-                       "has no amino acids, so the hydrophobicity scale does not apply; choose another --color");
-    default:
-      throw InputError(scheme.file.path, 0, "all numbers are missing; there is nothing to colour by");
-  }
-}
-
-ColorMap default_map(By by) {
-  if (by == By::charge) return ColorMap::red_white_blue;
-  if (by == By::rainbow) return ColorMap::rainbow;
-  if (by == By::conservation) return ColorMap::consurf;
-  if (by == By::buried || by == By::rmsf) return ColorMap::ylorrd;
-  return by == By::hydrophobicity ? ColorMap::blue_white_red : ColorMap::viridis;
-}
-
-std::array<double, 2> automatic_range(const std::vector<double>& defined, By by) {
-  if (by == By::hydrophobicity) return {-4.5, 4.5};
-  if (by == By::rainbow || by == By::accessibility) return kPlaces;
-  if (by == By::conservation) return kGrades;
-  const auto [low, high] = std::ranges::minmax(defined);
-  if (by == By::buried || by == By::rmsf) return {0.0, high};
-  if (by != By::charge) return {low, high};
-  const double largest = std::max(std::abs(low), std::abs(high));
-  return {-largest, largest};
-}
-
-void count_classes(ColorScale& scale, const std::vector<double>& defined, const std::string& file) {
-  const std::set<double> different(defined.begin(), defined.end());
-  if (different.size() > kCategoricalCount) {
-    throw InputError(
-        file, 0,
-        fmt::format("has {} different numbers, but the categorical map has {} colours; choose another --map",
-                    with_thousands(different.size()), kCategoricalCount));
-  }
-  scale.classes.assign(different.begin(), different.end());
-}
-
 std::string class_title(By by) {
   return by == By::element || by == By::element_cpk ? "element"
          : by == By::chain                          ? "chain"
          : by == By::copy                           ? "copy"
          : by == By::model                          ? "model"
+         : by == By::kind                           ? "kind of patch"
+         : by == By::component                      ? "component"
                                                     : "residue type";
 }
 
@@ -280,117 +45,236 @@ std::string model_name(const Structure& structure, std::int32_t model) {
   return file ? text_of_path(path_of_text(*file).filename()) : fmt::format("model {}", model);
 }
 
-/// Adds a class unless it is there already.
-class ClassList {
- public:
-  explicit ClassList(ColorKey& key) : key_(key) {}
-  void add(const std::string& name, const glm::vec3& color) {
-    if (seen_.insert(name).second) key_.classes.push_back({name, color});
+std::string class_name(const Structure& structure, const Atom& atom, By by) {
+  switch (by) {
+    case By::chain:
+      return chain_of_file(atom);
+    case By::copy:
+      return fmt::format("copy {}", atom.copy + 1);
+    case By::model:
+      return model_name(structure, atom.model);
+    case By::residue:
+      return std::string(residue_group(atom.residue_name).name);
+    default:
+      return atom.element == 0 ? "unknown" : element_symbol(atom.element);
   }
-  /// In the colour of its place in the order, if it has one, else behind that.
-  void add_chain(const std::string& name, const std::vector<std::string>& order) {
-    const auto place = std::ranges::find(order, name);
-    const bool known = place != order.end();
-    if (seen_.contains(name)) return;
-    add(name, categorical_color(known ? static_cast<std::size_t>(place - order.begin()) : order.size() + others_));
-    if (!known) ++others_;
-  }
+}
 
- private:
-  ColorKey& key_;
-  std::set<std::string> seen_;
-  std::size_t others_ = 0;
-};
+void add_class(ColorKey& key, const std::string& name, const glm::vec3& color) {
+  if (std::ranges::find(key.classes, ColorClass{name, color}) == key.classes.end())
+    key.classes.push_back({name, color});
+}
 
-/// Whether some atom has no rule.
-bool leaves_some(const Structure& structure, std::span<const ColorRule> rules) {
-  std::vector<bool> named(structure.atoms.size(), false);
-  for (const ColorRule& rule : rules) {
-    const std::vector<bool> meant = rule.atoms.evaluate(structure.atoms);
-    for (std::size_t a = 0; a < named.size(); ++a) named[a] = named[a] || meant[a];
+bool any_of(const std::vector<bool>& atoms) { return std::ranges::find(atoms, true) != atoms.end(); }
+
+/// Per painter the atoms drawn that have its colours: first those of the scheme itself, then of each rule. In a run
+/// several may have an atom.
+std::vector<std::vector<bool>> painted_atoms(const Structure& structure, const std::vector<ColorRule>& rules,
+                                             const DrawnAtoms& drawn) {
+  std::vector<std::vector<bool>> painted(rules.size() + 1);
+  std::vector<bool>& left = painted[0];
+  left = drawn.atoms.empty() ? std::vector<bool>(structure.atoms.size(), true) : drawn.atoms;
+  for (std::size_t rule = rules.size(); rule-- > 0;) {
+    const Selection& atoms = rules[rule].atoms;
+    const bool changes = drawn.in_a_run && atoms.uses_positions();
+    std::vector<bool>& own = painted[rule + 1];
+    own = changes ? atoms.reach(structure.atoms).selected : atoms.evaluate(structure.atoms);
+    for (std::size_t a = 0; a < own.size(); ++a) {
+      own[a] = own[a] && left[a];
+      if (!changes) left[a] = left[a] && !own[a];
+    }
   }
-  return std::ranges::find(named, false) != named.end();
+  return painted;
+}
+
+/// Leaves the numbers of these atoms.
+void keep_numbers(ColorScale& scale, const std::vector<bool>& atoms) {
+  std::vector<double> kept;
+  for (std::size_t a = 0; a < scale.value.size(); ++a)
+    if (atoms[a]) kept.push_back(scale.value[a]);
+  scale.value = std::move(kept);
+  scale.missing = static_cast<std::size_t>(std::ranges::count_if(scale.value, [](double v) { return std::isnan(v); }));
+  std::erase_if(scale.classes, [&](double v) { return std::ranges::find(scale.value, v) == scale.value.end(); });
+}
+
+std::string missing_text(std::size_t atoms) { return fmt::format("none ({} atoms)", with_thousands(atoms)); }
+
+ColorKey scale_key(const Structure& structure, const ColorScheme& scheme, const std::vector<bool>& atoms) {
+  ColorKey key;
+  ColorScale scale = color_scale(structure, scheme);
+  if (!scheme.of_points()) {
+    keep_numbers(scale, atoms);
+  } else if (scheme.by == By::lipophilicity) {
+    for (std::size_t a = 0; a < atoms.size(); ++a)
+      scale.missing += atoms[a] && std::isnan(lipophilicity(structure.atoms[a].residue_name, structure.atoms[a].name));
+  }
+  const bool has_numbers = scheme.of_points() || scale.missing < scale.value.size();
+  key.scale = std::move(scale);
+  if (has_numbers) return key;
+  key.title = key.heading();
+  key.classes = {{missing_text(key.scale->missing), key.scale->missing_color}};
+  key.scale.reset();
+  return key;
+}
+
+ColorKey ordered_key(const Structure& structure, const ColorScheme& scheme, const std::vector<bool>& atoms) {
+  ColorKey key;
+  key.title = scheme.by == By::secondary ? "secondary structure"
+              : scheme.by == By::plddt   ? "confidence (pLDDT)"
+              : scheme.by == By::snfg    ? "sugar"
+                                         : "bead";
+  const ClassedAtoms classed = ordered_classes(structure, scheme.by);
+  std::vector<std::size_t> counts(classed.classes.size(), 0);
+  for (std::size_t a = 0; a < atoms.size(); ++a)
+    if (atoms[a]) ++counts[classed.of_atom[a]];
+  for (std::size_t n = 0; n < counts.size(); ++n) {
+    if (counts[n] == 0) continue;
+    const ColorClass& entry = classed.classes[n];
+    key.classes.push_back({entry.name == kWithoutConfidence ? missing_text(counts[n]) : entry.name, entry.color});
+  }
+  return key;
+}
+
+/// Of a scheme without its rules, for these atoms.
+ColorKey key_of_scheme(const Structure& structure, const ColorScheme& scheme, const std::vector<bool>& atoms,
+                       std::span<const AtomGroup> objects) {
+  if (scheme.has_scale()) return scale_key(structure, scheme, atoms);
+  if (has_ordered_classes(scheme.by)) return ordered_key(structure, scheme, atoms);
+  ColorKey key;
+  if (scheme.by == By::fixed) return key;
+  key.title = class_title(scheme.by);
+  if (scheme.by == By::kind) {
+    constexpr std::array<const char*, 3> kNames{"convex", "toroidal", "concave"};
+    for (std::size_t n = 0; n < kNames.size(); ++n) add_class(key, kNames[n], kPatchKindColors[n]);
+  }
+  for (std::size_t n = 0; scheme.by == By::component && n < objects.size(); ++n)
+    if (std::ranges::any_of(objects[n].atoms, [&](std::uint32_t a) { return atoms[a]; }))
+      add_class(key, objects[n].name, categorical_color(n));
+  if (scheme.by == By::kind || scheme.by == By::component) return key;
+  ColorScheme bare;
+  bare.by = scheme.by;
+  const std::vector<glm::vec3> colors = color_atoms(structure, bare).atom;
+  std::set<std::pair<std::string, std::size_t>> seen;
+  for (std::size_t a = 0; a < atoms.size(); ++a) {
+    if (!atoms[a]) continue;
+    const Atom& atom = structure.atoms[a];
+    const std::string name = class_name(structure, atom, scheme.by);
+    const auto file = static_cast<std::size_t>(scheme.by == By::model ? atom.model : 0);  // files may have one name
+    if (seen.emplace(name, file).second) add_class(key, name, colors[a]);
+  }
+  return key;
+}
+
+/// Whether both can be told by one key: no name has two colours, and no numbers two scales.
+bool agree(const ColorKey& one, const ColorKey& more) {
+  if (one.scale || more.scale) return false;
+  return std::ranges::none_of(more.classes, [&](const ColorClass& added) {
+    const auto known = std::ranges::find(one.classes, added.name, &ColorClass::name);
+    return known != one.classes.end() && known->color != added.color;
+  });
+}
+
+/// What is left over is no thing of its own.
+bool is_a_thing(const ColorClass& entry) { return entry.name != "other" && !entry.name.starts_with("none ("); }
+
+/// Adds a sentence for each difference in what both show under one title, or under none.
+void compare(const ColorKey& a, const ColorKey& b, const std::string& in_a, const std::string& in_b,
+             std::vector<std::string>& found) {
+  const auto has = [](const ColorKey& key, const ColorClass& entry) {
+    return std::ranges::find(key.classes, entry) != key.classes.end();
+  };
+  const auto text = [](const ColorKey& key, const ColorClass& entry) {
+    return key.title + (key.title.empty() ? "" : " ") + in_quotes(entry.name);
+  };
+  if (a.scale && b.scale && a.scale->title == b.scale->title && !is_same_scale(a.scale, b.scale))
+    found.push_back(fmt::format("the colours of {} are of {:g} to {:g} in {} and of {:g} to {:g} in {}", a.scale->title,
+                                a.scale->range[0], a.scale->range[1], in_a, b.scale->range[0], b.scale->range[1],
+                                in_b));
+  if (a.title != b.title && !a.title.empty() && !b.title.empty()) return;
+  for (const ColorClass& one : a.classes)
+    for (const ColorClass& other : b.classes) {
+      if (!is_a_thing(one) || !is_a_thing(other) || has(b, one) || has(a, other)) continue;
+      if (one.name == other.name)
+        found.push_back(fmt::format("{} is {} in {} and {} in {}", text(a, one), hex_color(one.color), in_a,
+                                    hex_color(other.color), in_b));
+      else if (one.color == other.color)
+        found.push_back(
+            fmt::format("{} is {} in {} and {} in {}", hex_color(one.color), text(a, one), in_a, text(b, other), in_b));
+    }
 }
 
 }  // namespace
 
-std::vector<double> distances_from_middle(std::span<const glm::dvec3> points) {
-  glm::dvec3 middle(0.0);
-  for (const glm::dvec3& point : points) middle += point / static_cast<double>(points.size());
-  std::vector<double> distances;
-  distances.reserve(points.size());
-  for (const glm::dvec3& point : points) distances.push_back(glm::distance(point, middle));
-  return distances;
+std::string ColorKey::heading() const {
+  return scale ? scale->title + (scale->unit.empty() ? "" : " (" + scale->unit + ")") : title;
 }
 
-ColorScale color_scale(const Structure& structure, const ColorScheme& scheme) {
-  if (scheme.by == By::volume) return scheme.volume->scale;
-  if (scheme.by == By::lipophilicity) return lipophilicity_scale(scheme);
-  ColorScale scale;
-  const ScaleWords words = words_of(scheme.by);
-  scale.title = scheme.by == By::file && !scheme.file.column.empty() ? scheme.file.column : std::string(words.title);
-  scale.unit = std::string(words.unit);
-  if (!scheme.title.empty()) scale.title = scheme.title;
-  if (!scheme.unit.empty()) scale.unit = scheme.unit;
-  scale.map = scheme.map.value_or(default_map(scheme.by));
-  scale.own_map = scheme.own_map;
-  scale.missing_color = scheme.missing.value_or(default_missing_color(scale.map));
-  if (scheme.is_measured() && scheme.file.numbers.empty()) no_numbers(structure, scheme);
-  scale.value = numbers_of(structure, scheme);
-  std::vector<double> defined;
-  std::ranges::copy_if(scale.value, std::back_inserter(defined), [](double number) { return !std::isnan(number); });
-  if (defined.empty()) no_numbers(structure, scheme);
-  scale.missing = scale.value.size() - defined.size();
-  scale.range = scheme.range          ? *scheme.range
-                : scheme.frames_range ? *scheme.frames_range
-                                      : automatic_range(defined, scheme.by);
-  if (scheme.by == By::rainbow && scale.range == kPlaces) scale.ends = ends_of_chains(structure);
-  if (scheme.by == By::conservation && scale.range == kGrades) scale.ends = {"variable", "conserved"};
-  if (scale.map == ColorMap::categorical) count_classes(scale, defined, structure.file);
-  return scale;
+std::vector<const ColorKey*> ColorKey::parts() const {
+  std::vector<const ColorKey*> parts{this};
+  for (const ColorKey& other : others) parts.push_back(&other);
+  return parts;
 }
 
-ColorKey color_key(const Structure& structure, const ColorScheme& scheme, std::span<const std::string> object_names) {
-  ColorKey key;
-  ClassList classes(key);
-  if (scheme.has_scale()) {
-    key.scale = color_scale(structure, scheme);
-  } else if (scheme.by == By::kind) {
-    key.title = "kind of patch";
-    constexpr std::array<const char*, 3> kNames{"convex", "toroidal", "concave"};
-    for (std::size_t n = 0; n < kNames.size(); ++n) classes.add(kNames[n], kPatchKindColors[n]);
-  } else if (scheme.by == By::component) {
-    key.title = "component";
-    for (std::size_t n = 0; n < object_names.size(); ++n)
-      key.classes.push_back({object_names[n], categorical_color(n)});
-  } else if (has_ordered_classes(scheme.by)) {
-    key.title = scheme.by == By::secondary ? "secondary structure"
-                : scheme.by == By::plddt   ? "confidence (pLDDT)"
-                : scheme.by == By::snfg    ? "sugar"
-                                           : "bead";
-    key.classes = ordered_classes(structure, scheme.by).classes;
-  } else if (scheme.by != By::fixed) {
-    key.title = class_title(scheme.by);
-    for (const Atom& atom : structure.atoms) {
-      if (scheme.by == By::element || scheme.by == By::element_cpk)
-        classes.add(atom.element == 0 ? "unknown" : element_symbol(atom.element),
-                    scheme.by == By::element ? element_color(atom.element) : cpk_color(atom.element));
-      else if (scheme.by == By::chain)
-        classes.add_chain(chain_of_file(atom), scheme.chains);
-      else if (scheme.by == By::copy)
-        classes.add(fmt::format("copy {}", atom.copy + 1), categorical_color(atom.copy));
-      else if (scheme.by == By::model)
-        classes.add(model_name(structure, atom.model), categorical_color(static_cast<std::size_t>(atom.model) - 1));
-      else
-        classes.add(std::string(residue_group(atom.residue_name).name),
-                    color_from_hex(residue_group(atom.residue_name).color));
-    }
+void add_key(ColorKey& key, ColorKey more, const std::string& whose) {
+  for (ColorKey& other : std::exchange(more.others, {})) add_key(key, std::move(other), whose);
+  if (more.empty()) return;
+  const auto has_title = [&](const ColorKey& part) { return !part.empty() && part.heading() == more.heading(); };
+  const auto other = std::ranges::find_if(key.others, has_title);
+  ColorKey* const known = has_title(key) ? &key : other != key.others.end() ? &*other : nullptr;
+  if (known && agree(*known, more)) {
+    for (const ColorClass& added : more.classes) add_class(*known, added.name, added.color);
+    return;
   }
-  for (const ColorRule& rule : scheme.rules)
+  if (known) (more.scale ? more.scale->title : more.title) += ", " + whose;
+  key.others.push_back(std::move(more));
+}
+
+bool is_same_scale(const std::optional<ColorScale>& one, const std::optional<ColorScale>& other) {
+  if (!one || !other) return one.has_value() == other.has_value();
+  return one->title == other->title && one->unit == other->unit && one->map == other->map &&
+         one->own_map == other->own_map && one->range == other->range && one->missing_color == other->missing_color &&
+         one->ends == other->ends && one->classes == other->classes;
+}
+
+std::string color_conflicts(std::span<const ColorKey> keys, std::string_view picture) {
+  std::vector<std::string> found;
+  for (std::size_t n = 0; n < keys.size(); ++n)
+    for (std::size_t m = n + 1; m < keys.size(); ++m)
+      for (const ColorKey* const a : keys[n].parts())
+        for (const ColorKey* const b : keys[m].parts())
+          compare(*a, *b, fmt::format("{} {}", picture, n + 1), fmt::format("{} {}", picture, m + 1), found);
+  if (found.empty()) return {};
+  return found.front() + (found.size() > 1 ? fmt::format("; {} more colours differ", found.size() - 1) : "");
+}
+
+void add_other(ColorKey& key, const std::string& name, const glm::vec3& color) {
+  if (!key.empty()) add_class(key, name, color);
+}
+
+ColorKey color_key(const Structure& structure, const ColorScheme& scheme, const DrawnAtoms& drawn) {
+  std::vector<std::vector<bool>> painted = painted_atoms(structure, scheme.rules, drawn);
+  if (scheme.by == By::kind) return key_of_scheme(structure, scheme, painted[0], {});  // rules say nothing of patches
+  // Rules that colour by the same thing as others are told together with them.
+  std::vector<const ColorScheme*> painters{&scheme};
+  for (const ColorRule& rule : scheme.rules) painters.push_back(&rule.paint);
+  for (std::size_t n = 0; n < painters.size(); ++n)
+    for (std::size_t more = n + 1; more < painters.size(); ++more) {
+      if (painters[n]->by == By::fixed || painters[more]->by != painters[n]->by) continue;
+      for (std::size_t a = 0; a < painted[n].size(); ++a) painted[n][a] = painted[n][a] || painted[more][a];
+      painted[more].clear();
+    }
+  ColorKey key;
+  if (any_of(painted[0])) key = key_of_scheme(structure, scheme, painted[0], drawn.objects);
+  for (std::size_t n = 0; n < scheme.rules.size(); ++n) {
+    if (!any_of(painted[n + 1])) continue;
+    const ColorRule& rule = scheme.rules[n];
+    const std::string name = rule.name.empty() ? rule.atoms.text() : rule.name;
     if (rule.paint.by == By::fixed)
-      key.classes.push_back({rule.name.empty() ? rule.atoms.text() : rule.name, rule.paint.fixed});
-  if (scheme.by == By::fixed && !key.classes.empty() && leaves_some(structure, scheme.rules))
-    key.classes.push_back({"other", scheme.fixed});
+      add_class(key, name, rule.paint.fixed);
+    else
+      add_key(key, key_of_scheme(structure, rule.paint, painted[n + 1], {}), name);
+  }
+  if (scheme.by == By::fixed && any_of(painted[0])) add_other(key, "other", scheme.fixed);
   return key;
 }
 

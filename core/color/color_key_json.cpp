@@ -21,6 +21,7 @@ nlohmann::ordered_json color_key_json(const ColorKey& key) {
   if (!key.classes.empty()) json["classes"] = Json::array();
   for (const ColorClass& entry : key.classes)
     json["classes"].push_back({{"name", escaped(entry.name)}, {"color", triple(entry.color)}});
+  for (const ColorKey& other : key.others) json["others"].push_back(color_key_json(other));
   return json;
 }
 

@@ -8,7 +8,7 @@
 
 namespace meniscus {
 
-/// title, and unit, map, range, missing, missing_color or classes.
+/// title, and unit, map, range, missing, missing_color or classes; others, each the same.
 nlohmann::ordered_json color_key_json(const ColorKey& key);
 
 }  // namespace meniscus

@@ -138,6 +138,7 @@ glm::vec3 ColorRamp::color(double t) const {
 
 glm::vec3 ColorScale::color(double number) const {
   if (std::isnan(number)) return missing_color;
+  if (of_colors) return color_from_hex(static_cast<std::uint32_t>(number));
   if (map == ColorMap::categorical) {
     return categorical_color(static_cast<std::size_t>(std::ranges::lower_bound(classes, number) - classes.begin()));
   }

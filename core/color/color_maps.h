@@ -81,7 +81,8 @@ struct ColorScale {
   std::shared_ptr<const ColorRamp> own_map;  ///< instead of `map`, if there is one
   std::array<double, 2> range{0.0, 1.0};     ///< at the ends of the map; equal if all numbers are
   std::array<std::string, 2> ends{};         ///< what the ends mean, in words; empty: just their numbers
-  std::vector<double> classes;               ///< categorical map only: the different numbers, ascending
+  std::vector<double> classes;               ///< categorical map and colours only: the different numbers, ascending
+  bool of_colors = false;                    ///< numbers are colours, 0xrrggbb
   glm::vec3 missing_color{0.5f};
   std::size_t missing = 0;    ///< atoms without a number
   std::vector<double> value;  ///< per atom of the structure; NaN: missing

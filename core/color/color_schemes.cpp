@@ -75,18 +75,11 @@ constexpr ColorSchemeMetadata kSchemes[] = {
 
 }  // namespace
 
-std::string chain_of_file(const Atom& atom) {
-  const std::string suffix = "-" + std::to_string(atom.copy + 1);
-  if (atom.copy == 0 || !atom.chain.ends_with(suffix)) return atom.chain;
-  return atom.chain.substr(0, atom.chain.size() - suffix.size());
-}
-
-std::vector<std::string> chains_of(const Structure& structure) {
-  std::vector<std::string> chains;
-  for (const std::vector<Atom>* atoms : {&structure.atoms, &structure.beside})
-    for (const Atom& atom : *atoms)
-      if (std::ranges::find(chains, chain_of_file(atom)) == chains.end()) chains.push_back(chain_of_file(atom));
-  return chains;
+std::map<std::string, std::size_t> places_of_chains(const Structure& structure) {
+  std::map<std::string, std::size_t> places;
+  for (const std::vector<std::string>& chains : {structure.chains, chains_of(structure.atoms)})
+    for (const std::string& chain : chains) places.try_emplace(chain, places.size());
+  return places;
 }
 
 std::span<const ColorSchemeMetadata> color_schemes() { return kSchemes; }
@@ -111,6 +104,9 @@ bool ColorScheme::changes_with_frames() const {
 }
 
 void ColorScheme::set_numbers(const NumberFile& numbers) {
+  if (numbers.of_colors && takes_file() && (map || range))
+    throw RequestError(fmt::format("{} has colours of its own; leave {} and {} out", escaped(numbers.path),
+                                   option_name("map"), option_name("color-range")));
   if (numbers.by_frame && map == ColorMap::categorical && !own_map)
     throw RequestError(
         "--map categorical gives each number of a picture its own colour, which would change from frame to frame; "

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -20,7 +21,6 @@
 
 namespace meniscus {
 
-struct Atom;
 struct Structure;
 
 /// How much of what lies behind them some atoms cover.
@@ -64,10 +64,9 @@ struct ColorScheme {
     lipophilicity    ///< the potential of the atoms, likewise
   };
   By by = By::element;
-  glm::vec3 fixed{0.8f};                     ///< sRGB in [0, 1], for By::fixed
-  std::vector<std::string> chains{};         ///< chain_of_file, in the order of their colours; others come behind them
-  std::optional<ColorMap> map;               ///< nothing: that of the scheme (color_scale)
-  std::shared_ptr<const ColorRamp> own_map;  ///< instead of `map`, if there is one
+  glm::vec3 fixed{0.8f};                       ///< sRGB in [0, 1], for By::fixed
+  std::optional<ColorMap> map;                 ///< nothing: that of the scheme (color_scale)
+  std::shared_ptr<const ColorRamp> own_map;    ///< instead of `map`, if there is one
   std::optional<std::array<double, 2>> range;  ///< numbers at both ends of the map; nothing: automatic (color_scale)
   /// Of numbers that change from frame to frame of a run the least and the greatest of all frames, instead of an
   /// automatic range.
@@ -142,13 +141,11 @@ std::vector<std::string> rules_without_atoms(const Structure& structure, const C
 /// SelectionError.
 OpacityRule parse_opacity_rule(std::string_view text);
 
+/// The place of each chain among those of the file, which has its colour by it; chains that the file does not list come
+/// behind, as in a structure that is of no file.
+std::map<std::string, std::size_t> places_of_chains(const Structure& structure);
+
 /// Reads "lo:hi" with lo < hi and a finite difference; nothing for any other text.
 std::optional<std::array<double, 2>> parse_color_range(std::string_view text);
-
-/// The chain as the file names it: in an assembly copies of A are called, ... and keep its colour.
-std::string chain_of_file(const Atom& atom);
-
-/// The chains of the structure, in order of appearance; those of atoms beside it come behind.
-std::vector<std::string> chains_of(const Structure& structure);
 
 }  // namespace meniscus

@@ -83,8 +83,7 @@ ClassedAtoms confidence_classes(const Structure& structure) {
     throw InputError(structure.file, 0,
                      "has neither B-factors nor a table _ma_qa_metric_local, so no pLDDT to colour by; choose another "
                      "--color");
-  if (without > 0)
-    result.classes.push_back({fmt::format("none ({} atoms)", with_thousands(without)), color_from_hex(kWithout)});
+  if (without > 0) result.classes.push_back({std::string(kWithoutConfidence), color_from_hex(kWithout)});
   return result;
 }
 

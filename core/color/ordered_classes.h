@@ -21,6 +21,7 @@ struct Structure;
 struct ColorClass {
   std::string name;  ///< may come from a molecule file
   glm::vec3 color{0.0f};
+  bool operator==(const ColorClass&) const = default;
 };
 
 /// The classes in their order, and of each atom which one it is in.
@@ -31,11 +32,13 @@ struct ClassedAtoms {
   const glm::vec3& color(std::size_t atom) const { return classes[of_atom[atom]].color; }
 };
 
+inline constexpr std::string_view kWithoutConfidence = "none";
+
 /// Helix, strand, coil, as secondary_structure() has them, and "other" for all that is no amino acid; those that occur.
 ClassedAtoms secondary_classes(const Structure& structure);
 
 /// The four classes of the AlphaFold database, all of them, by pLDDT above 90, 70 and 50; a number on a limit is in
-/// the class below. After them "none (12 atoms)", if some atoms have no number. Throws InputError where none has one.
+/// the class below. After them kWithoutConfidence, if some atoms have no number. Throws InputError where none has one.
 ClassedAtoms confidence_classes(const Structure& structure);
 
 /// Each sugar that occurs by its symbol (core/structure/sugars.h). Of sugars whose symbol is half white, what is not in

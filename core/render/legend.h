@@ -74,18 +74,24 @@ class Legend {
   Framebuffer alone(const std::optional<glm::vec3>& background) const;
 
  private:
+  /// A class of atoms; of what others colour by also its title, which has no box, and its scale as a small bar.
   struct Entry {
+    enum class Kind { box, title, bar };
     std::string name;
     glm::vec3 color;
+    Kind kind = Kind::box;
+    std::optional<ColorScale> bar{};
   };
 
   int line() const { return (3 * font_.height() + 1) / 2; }
+  void add_entries(const ColorKey& key, bool is_first);
   void rename_entries(const std::vector<std::string>& names);
   bool lay_out(bool at_right, int letters, bool may_drop);
   bool lay_out_right(bool may_drop);
   bool lay_out_bottom(bool may_drop);
   void add_entry(const Entry& entry, glm::ivec2 place);
   void add_bar(glm::ivec2 low, glm::ivec2 high, bool upright);
+  int box_width(const Entry& entry) const;
   int entry_width(const Entry& entry) const;
   bool keep_entries(std::size_t most, bool may_drop);
   void shorten_entries(int most_pixels);

@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/color/named_colors.h"
 #include "core/render/legend.h"
 
 namespace meniscus {
@@ -26,6 +27,11 @@ std::string listed(const std::vector<std::string>& names) {
 }
 
 std::string number_text(double number) { return fmt::format("{:.4g}", number == 0.0 ? 0.0 : number); }
+
+/// A number, or the colour that it is.
+std::string class_text(const ColorScale& scale, double number) {
+  return scale.of_colors ? hex_color(scale.color(number)) : number_text(number);
+}
 
 /// Whether a name is before another one: numbers in them count as numbers, so that chain 2 is before chain 10.
 bool by_name(std::string_view a, std::string_view b) {
@@ -102,21 +108,13 @@ std::vector<double> round_numbers(double low, double high, int most) {
 }
 
 Legend::Legend(const ColorKey& key, glm::ivec2 picture_size, const LegendStyle& style)
-    : title_(key.title),
-      color_(style.color),
+    : color_(style.color),
       font_(style.letters.value_or(letter_height(picture_size))),
       picture_size_(picture_size),
       molecule_size_(picture_size) {
-  for (const ColorClass& entry : key.classes) all_.push_back({entry.name, entry.color});
-  if (key.title == "chain")
-    std::ranges::stable_sort(all_, [](const Entry& a, const Entry& b) { return by_name(a.name, b.name); });
-  if (key.scale) {
-    title_ = key.scale->title + (key.scale->unit.empty() ? "" : " (" + key.scale->unit + ")");
-    for (const double number : key.scale->classes) all_.push_back({number_text(number), key.scale->color(number)});
-    if (key.scale->classes.empty()) bar_ = key.scale;
-    if (key.scale->missing > 0)
-      all_.push_back({fmt::format("none ({} atoms)", with_thousands(key.scale->missing)), key.scale->missing_color});
-  }
+  std::vector<const ColorKey*> parts = key.parts();
+  if (key.heading().empty()) std::ranges::rotate(parts, parts.begin() + 1);  // what has no title comes last
+  for (const ColorKey* const part : parts) add_entries(*part, part == parts.front());
   if (all_.empty() && !bar_) return;  // one colour for all needs no words
   rename_entries(style.names);
   for (Entry& entry : all_) entry.name = drawable(entry.name, kMostCharacters);
@@ -135,6 +133,29 @@ Legend::Legend(const ColorKey& key, glm::ivec2 picture_size, const LegendStyle& 
       "{} does not fit into {} x {} pixels beside the molecule; make the picture larger{}, or write it apart by {}",
       option_name("legend"), picture_size.x, picture_size.y, style.letters ? ", its letters smaller" : "",
       option_name("legend-file")));
+}
+
+void Legend::add_entries(const ColorKey& key, bool is_first) {
+  const std::string title = key.heading();
+  if (is_first)
+    title_ = title;
+  else if (!title.empty())
+    all_.push_back({title, {}, Entry::Kind::title});
+  const auto first = static_cast<std::ptrdiff_t>(all_.size());
+  for (const ColorClass& entry : key.classes) all_.push_back({entry.name, entry.color});
+  if (key.title == "chain")
+    std::stable_sort(all_.begin() + first, all_.end(),
+                     [](const Entry& a, const Entry& b) { return by_name(a.name, b.name); });
+  if (!key.scale) return;
+  const ColorScale& scale = *key.scale;
+  for (const double number : scale.classes) all_.push_back({class_text(scale, number), scale.color(number)});
+  if (scale.classes.empty() && is_first) bar_ = scale;
+  if (scale.classes.empty() && !is_first) {
+    const std::string ends = tick_text(scale, scale.range[0]) + " to " + tick_text(scale, scale.range[1]);
+    all_.push_back({ends, {}, Entry::Kind::bar, scale});
+  }
+  if (scale.missing > 0)
+    all_.push_back({fmt::format("none ({} atoms)", with_thousands(scale.missing)), scale.missing_color});
 }
 
 void Legend::rename_entries(const std::vector<std::string>& names) {
@@ -162,13 +183,25 @@ bool Legend::lay_out(bool at_right, int letters, bool may_drop) {
   return at_right ? lay_out_right(may_drop) : lay_out_bottom(may_drop);
 }
 
-int Legend::entry_width(const Entry& entry) const { return (3 * font_.height()) / 2 + font_.width(entry.name); }
+/// With the room behind it.
+int Legend::box_width(const Entry& entry) const {
+  const int em = font_.height();
+  return entry.kind == Entry::Kind::title ? 0 : (entry.kind == Entry::Kind::bar ? 4 * em : em) + em / 2;
+}
+
+int Legend::entry_width(const Entry& entry) const { return box_width(entry) + font_.width(entry.name); }
 
 void Legend::add_entry(const Entry& entry, glm::ivec2 place) {
-  const int edge = font_.height();
-  const glm::ivec2 low(place.x, place.y - edge / 2);
-  boxes_.push_back({low, low + edge, {entry.color}});
-  texts_.push_back({entry.name, {place.x + edge + edge / 2, place.y}});
+  const int em = font_.height();
+  texts_.push_back({entry.name, {place.x + box_width(entry), place.y}});
+  if (entry.kind == Entry::Kind::title) return;
+  const glm::ivec2 low(place.x, place.y - em / 2);
+  LegendBox& box = boxes_.emplace_back(LegendBox{low, low + em, {entry.color}});
+  if (entry.kind != Entry::Kind::bar) return;
+  box.high.x = low.x + 4 * em;
+  box.colors.clear();
+  const auto [from, to] = entry.bar->range;
+  for (int n = 0; n < 4 * em; ++n) box.colors.push_back(entry.bar->color(from + (to - from) * (n + 0.5) / (4 * em)));
 }
 
 bool Legend::keep_entries(std::size_t most, bool may_drop) {

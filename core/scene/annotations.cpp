@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/time_unit.h"
+#include "core/scene/copied_atoms.h"
 #include "core/structure/selection/selection_and_text.h"
 #include "core/trajectory/series_table.h"
 
@@ -21,16 +22,19 @@ glm::dvec3 middle_of(const Selection& selection, const Structure& structure) {
   const std::vector<bool> chosen = selection.evaluate(structure.atoms);
   glm::dvec3 sum(0.0);
   std::size_t count = 0;
-  for (std::size_t a = 0; a < chosen.size(); ++a) {
-    if (!chosen[a]) continue;
-    sum += structure.atoms[a].position;
+  const auto add = [&](std::size_t atom, const RigidMotion& motion) {
+    if (!chosen[atom]) return;
+    sum += motion(structure.atoms[atom].position);
     ++count;
-  }
+  };
+  for (std::size_t a = 0; structure.instances.empty() && a < chosen.size(); ++a) add(a, {});
+  for (const Instances& group : structure.instances)
+    for (const RigidMotion& motion : group.motions)
+      for (const std::uint32_t atom : group.atoms) add(atom, motion);
   if (count == 0)
-    throw InputError(
-        structure.file, 0,
-        fmt::format("--label {}: none of the {} atoms used is selected; chains and names are case-sensitive",
-                    in_quotes(selection.text()), with_thousands(structure.atoms.size())));
+    throw InputError(structure.file, 0,
+                     fmt::format("--label {}: none of the {} atoms used is selected; {}", in_quotes(selection.text()),
+                                 with_thousands(structure.atoms.size()), selection.why_none(structure.atoms)));
   return sum / static_cast<double>(count);
 }
 
@@ -94,8 +98,7 @@ Annotations annotations_of(const AnnotationRequest& request, const Structure& st
   annotations.bar_length = request.bar_length;
   annotations.letters = request.letters;
   if (!request.labels.empty())
-    for (const Atom& atom : structure.atoms)
-      annotations.atoms.emplace_back(atom.position.x, atom.position.y, atom.position.z, atom.radius);
+    for (const Ball& ball : standing_balls(structure)) annotations.atoms.emplace_back(ball.center, ball.radius);
   for (const LabelRequest& label : request.labels)
     annotations.labels.push_back({label.text, middle_of(label.atoms, structure)});
   return annotations;

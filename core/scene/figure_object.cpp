@@ -22,6 +22,7 @@ Structure structure_of(const Structure& all, const std::vector<bool>& selected, 
   Structure own;
   own.file = all.file;
   own.report = all.report;
+  own.chains = all.chains;
   own.frame = all.frame;
   for (std::uint32_t a = 0; a < all.atoms.size(); ++a) {
     if (!selected[a]) continue;
@@ -45,7 +46,8 @@ SurfaceObject surface_of(const FigureObjectRequest& request, const Structure& al
   return object;
 }
 
-/// The colours of one object. shown: number of all atoms.
+}  // namespace
+
 ColorScheme scheme_of(const FigureObjectRequest& request, const Structure& structure, std::size_t shown,
                       const ColorScheme& scheme) {
   ColorScheme own = request.color ? *request.color : scheme;
@@ -56,6 +58,8 @@ ColorScheme scheme_of(const FigureObjectRequest& request, const Structure& struc
   own.opacities = request.opacities;
   return own;
 }
+
+namespace {
 
 void color_surface(const FigureObjectRequest& request, const Structure& all, const ColorScheme& scheme,
                    SurfaceObject& object) {

@@ -59,6 +59,10 @@ std::vector<FigureObject> make_objects(std::span<const FigureObjectRequest> obje
 void color_objects(std::span<const FigureObjectRequest> requests, const Structure& structure, const ColorScheme& scheme,
                    std::vector<FigureObject>& objects);
 
+/// The colours of one object. shown: the number of all atoms.
+ColorScheme scheme_of(const FigureObjectRequest& request, const Structure& structure, std::size_t shown,
+                      const ColorScheme& scheme);
+
 /// What encloses it, for framing.
 std::vector<Ball> balls_of(const FigureObject& object);
 

@@ -12,6 +12,7 @@
 #include "core/base/text.h"
 #include "core/color/color_atoms.h"
 #include "core/color/color_maps.h"
+#include "core/color/color_scale.h"
 #include "core/color/lipophilicity.h"
 #include "core/color/ordered_classes.h"
 #include "core/math/box.h"
@@ -130,16 +131,19 @@ ColorScheme color_of(const MoleculeRequest& request) {
   return color;
 }
 
-ColorKey key_of(const Molecule& molecule) {
-  std::vector<std::string> names;
-  for (const SurfaceObject& object : molecule.objects) names.push_back(object.name);
-  return color_key(molecule.structure, molecule.color, names);
-}
-
 void require_colors_shared(const Structure& structure, const ColorScheme& color) {
-  if (color.by == ColorScheme::By::copy && !structure.instances.empty())
+  if (structure.instances.empty()) return;
+  const auto require_all_copies = [](const char* option, const Selection& atoms) {
+    if (atoms.names_copies())
+      throw RequestError(fmt::format("{} {}: copies of one surface look the same; leave {} out", option_name(option),
+                                     in_quotes(atoms.text()), option_name("instances")));
+  };
+  for (const ColorRule& rule : color.rules) require_all_copies("color", rule.atoms);
+  for (const OpacityRule& rule : color.opacities)
+    if (rule.atoms) require_all_copies("opacity", *rule.atoms);
+  if (color.by == ColorScheme::By::copy)
     throw RequestError("--color copy needs copies with colours of their own; leave --instances out");
-  if (color.by == ColorScheme::By::lipophilicity && !structure.instances.empty())
+  if (color.by == ColorScheme::By::lipophilicity)
     throw RequestError(
         "--color lipophilicity sums over all atoms, so copies must be made of atoms; leave --instances out");
 }

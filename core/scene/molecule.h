@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/base/stage_clock.h"
-#include "core/color/color_key.h"
+#include "core/color/color_schemes.h"
 #include "core/queries/surface_object.h"
 #include "core/scene/open_book.h"
 #include "core/scene/surface_computer.h"
@@ -60,9 +60,6 @@ std::unique_ptr<StructureFile> open_molecule(const MoleculeRequest& request);
 
 /// The colour scheme with the numbers of its file, if it has one. Throws InputError.
 ColorScheme color_of(const MoleculeRequest& request);
-
-/// What the colours of its objects mean.
-ColorKey key_of(const Molecule& molecule);
 
 /// Per atom, whether it is of these patches. Throws RequestError if none is.
 std::vector<bool> patch_atoms(const Selection& patches, const std::vector<Atom>& atoms);

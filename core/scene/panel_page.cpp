@@ -13,8 +13,9 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/color/color_key.h"
+#include "core/color/color_scale.h"
 #include "core/render/vector_page.h"
+#include "core/scene/figure_key.h"
 #include "core/scene/seen_atoms.h"
 
 namespace meniscus {
@@ -30,13 +31,6 @@ std::string letter_of(std::size_t panel, PanelLetters letters) {
   return text;
 }
 
-bool is_same_scale(const std::optional<ColorScale>& one, const std::optional<ColorScale>& other) {
-  if (!one || !other) return one.has_value() == other.has_value();
-  return one->title == other->title && one->unit == other->unit && one->map == other->map &&
-         one->own_map == other->own_map && one->range == other->range && one->missing_color == other->missing_color &&
-         one->ends == other->ends;
-}
-
 /// What both explain, if no colour means something else in one of them.
 std::optional<ColorKey> joined(ColorKey key, const ColorKey& more) {
   if (key.title != more.title || !is_same_scale(key.scale, more.scale)) return {};
@@ -46,6 +40,16 @@ std::optional<ColorKey> joined(ColorKey key, const ColorKey& more) {
     const auto same_color = std::ranges::find(key.classes, added.color, &ColorClass::color);
     if (same_name != same_color) return {};
     if (same_name == key.classes.end()) key.classes.push_back(added);
+  }
+  for (const ColorKey& other : more.others) {
+    const auto same = std::ranges::find(key.others, other.heading(), &ColorKey::heading);
+    if (same == key.others.end()) {
+      key.others.push_back(other);
+      continue;
+    }
+    const std::optional<ColorKey> both = joined(*same, other);
+    if (!both) return {};
+    *same = *both;
   }
   return key;
 }
@@ -101,7 +105,9 @@ PanelPage::PanelPage(std::vector<Panel> panels, const PanelArrangement& arrangem
     if (scene.annotations.panel.empty()) scene.annotations.panel = letter_of(n, arrangement.letters);
   }
   std::vector<ColorKey> keys;
-  for (const Panel& panel : panels) keys.push_back(key_of(panel.figure.molecule));
+  for (const Panel& panel : panels)
+    keys.push_back(key_of(panel.figure.molecule, panel.scene.figure, panel.figure.beside));
+  conflicts_ = color_conflicts(keys, "panel");
   arrange(arrangement, shape, panels.size());
   const int count = static_cast<int>(panels.size()), rows = (count + columns_ - 1) / columns_;
   const auto panel_in = [&](glm::ivec2 area) {
@@ -146,7 +152,7 @@ void PanelPage::arrange(const PanelArrangement& arrangement, glm::ivec2 shape, s
 void PanelPage::find_legend(std::vector<Panel>& panels, std::span<const ColorKey> keys, glm::ivec2 panel_size) {
   std::optional<ColorKey> all;
   for (const ColorKey& key : keys) {
-    if (!key.scale && key.classes.empty()) continue;
+    if (key.empty()) continue;
     all = all ? joined(*all, key) : key;
     if (!all) return;
   }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -54,6 +55,8 @@ class PanelPage {
   glm::ivec2 size() const { return size_; }
   /// That of all panels; nothing: none asks for one, or colours differ, so that those that ask draw their own.
   const std::optional<Legend>& legend() const { return legend_; }
+  /// Where panels disagree in what a colour means (color_conflicts).
+  const std::string& conflicts() const { return conflicts_; }
   const Camera& camera(std::size_t panel) const { return panels_[panel].camera; }
 
   /// Draws panel after panel, and writes the page, one row of them after another. image: its background is behind all
@@ -76,6 +79,7 @@ class PanelPage {
 
   std::vector<Placed> panels_;
   std::optional<Legend> legend_;
+  std::string conflicts_;
   int columns_ = 1, gap_ = 0;
   glm::ivec2 size_{0}, panel_size_{0};
 };

@@ -11,7 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/color/color_atoms.h"
-#include "core/color/color_key.h"
+#include "core/color/color_scale.h"
 #include "core/shapes/backbone.h"
 #include "core/shapes/bases.h"
 #include "core/shapes/sugar_symbols.h"
@@ -117,6 +117,7 @@ Structure structure_of_shown(const Structure& structure) {
   Structure all;
   all.file = structure.file;
   all.report = structure.report;
+  all.chains = structure.chains;
   all.frame = structure.frame;
   all.atoms = shown_atoms(structure);
   return all;

@@ -7,7 +7,7 @@
 #include <glm/common.hpp>
 
 #include "core/color/color_atoms.h"
-#include "core/color/color_key.h"
+#include "core/color/color_scale.h"
 #include "core/color/named_colors.h"
 #include "core/base/error.h"
 #include "core/math/box.h"
@@ -31,10 +31,9 @@ std::optional<std::array<double, 2>> radial_range(ShownFrames& frames) {
   return range;
 }
 
-/// What a scheme says of all atoms that any frame may have, and so of each frame alike: the order of chains, and the
-/// range of numbers that atoms have by themselves.
+/// What a scheme says of all atoms that any frame may have, and so of each frame alike: the range of numbers that atoms
+/// have by themselves.
 void share_colors(ColorScheme& color, const FrameRun& frames) {
-  if (color.by == ColorScheme::By::chain && frames.chooses_anew()) color.chains = chains_of(frames.reach());
   const bool is_categorical = color.map == ColorMap::categorical && !color.own_map;
   if ((color.by == ColorScheme::By::buried || color.by == ColorScheme::By::accessibility) && is_categorical)
     throw RequestError(

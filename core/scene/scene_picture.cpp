@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/scene/figure_key.h"
 #include "core/scene/scene_values.h"
 #include "core/scene/seen_atoms.h"
 #include "core/scene/settled_selections.h"
@@ -48,7 +49,9 @@ RenderSettings render_settings(const Scene& scene, const PictureLayout& layout) 
 
 void check_picture(const Scene& scene) {
   scene.figure.check();
-  if (scene.legend.asked() && scene.molecule.color.by == ColorScheme::By::fixed && scene.molecule.color.rules.empty())
+  const auto has_color = [](const FigureObjectRequest& object) { return object.color.has_value(); };
+  if (scene.legend.asked() && scene.molecule.color.by == ColorScheme::By::fixed && scene.molecule.color.rules.empty() &&
+      std::ranges::none_of(scene.figure.objects, has_color))
     throw RequestError(fmt::format("{} has nothing to explain: everything has one colour; choose another {}",
                                    option_name("legend"), option_name("color")));
 }
@@ -82,7 +85,7 @@ SceneFigure made_figure(const Scene& asked, const EglContext* context) {
 Framebuffer scene_picture(const Scene& asked, SurfaceRenderer& renderer, const EglContext* context) {
   check_picture(asked);
   auto [scene, given, aim, figure] = made_figure(asked, context);
-  const PictureLayout layout(scene, key_of(figure.molecule));
+  const PictureLayout layout(scene, key_of(figure.molecule, scene.figure, figure.beside));
   const Camera camera = aim.camera(layout.size, given.still, aim.viewed(figure));
   Annotations annotations = annotations_of(scene.annotations, figure.molecule.structure);
   const Survey survey = survey_of(scene, figure.molecule.structure, camera, layout.size.size(), annotations);

@@ -46,8 +46,14 @@ constexpr std::string_view kChainNames[] = {"chain", "chain_id", "chainid", "aut
 // Tables of our own call a residue's type "residue" and its number "number".
 constexpr std::string_view kResidueNames[] = {"number", "resid",    "resi", "resnum", "residue_number", "res_num",
                                               "resseq", "position", "pos",  "res_id", "auth_seq_id",    "residue"};
-constexpr std::string_view kOtherNames[] = {"frame", "index", "model",   "residue", "resname", "resn", "icode",
-                                            "name",  "atom",  "element", "class",   "radius",  "atoms"};
+constexpr std::string_view kOtherNames[] = {"frame", "index", "model", "residue", "resname", "resn", "icode"};
+// What these have in tables of our own is not what atoms are coloured by, unless there are no other numbers.
+constexpr std::string_view kUsualNames[] = {"name", "atom", "element", "class", "radius", "atoms"};
+
+/// "#ff8000"
+bool is_color(std::string_view word) {
+  return word.size() == 7 && word[0] == '#' && word.find_first_not_of("0123456789abcdefABCDEF", 1) == word.npos;
+}
 
 std::string in_small_letters(std::string text) {
   for (char& c : text)
@@ -148,7 +154,10 @@ class NumberReader {
   }
 
   double parse_cell(const std::string& cell) const {
-    return is_missing_cell(cell) ? kMissing : parse_word(with_point(cell));
+    if (is_missing_cell(cell)) return kMissing;
+    if (!result_.of_colors) return parse_word(with_point(cell));
+    if (is_color(cell)) return static_cast<double>(std::stoul(cell.substr(1), nullptr, 16));
+    fail(fmt::format("{} is not a colour such as #ff8000, which the first row has", in_quotes(cell)));
   }
 
   void add(NumberFile& to, const ResidueName& residue, double number) {
@@ -182,15 +191,19 @@ class NumberReader {
   std::size_t value_column(const std::vector<std::string>& header, const std::vector<std::string>& first) const {
     const auto found = std::ranges::find(header, column_);
     if (!column_.empty() && found != header.end()) return static_cast<std::size_t>(found - header.begin());
-    std::vector<std::size_t> others, of_numbers;
+    std::vector<std::size_t> others, of_numbers, usual;
     for (std::size_t n = 0; n < header.size(); ++n) {
       const std::string name = in_small_letters(header[n]);
       if (name.empty() || is_one_of(kOtherNames, name) || is_one_of(kChainNames, name) ||
           is_one_of(kResidueNames, name))
         continue;
-      others.push_back(n);
-      if (n < first.size() && (is_missing_cell(first[n]) || is_number(with_point(first[n])))) of_numbers.push_back(n);
+      const bool has_numbers =
+          n < first.size() && (is_missing_cell(first[n]) || is_color(first[n]) || is_number(with_point(first[n])));
+      const bool is_usual = is_one_of(kUsualNames, name);
+      if (!is_usual) others.push_back(n);
+      if (has_numbers) (is_usual ? usual : of_numbers).push_back(n);
     }
+    if (of_numbers.empty()) of_numbers = usual;
     if (!of_numbers.empty()) others = of_numbers;
     if (column_.empty() && others.size() == 1) return others[0];
     if (others.empty()) fail(fmt::format("is the header of a table without a column of numbers; {}", kNumberLayouts));
@@ -225,8 +238,9 @@ class NumberReader {
   bool next_row(std::vector<std::string>& cells) {
     std::string_view line;
     while (lines_.next(line)) {
-      if (trimmed(line).empty() || line.starts_with('#')) continue;
+      if (trimmed(line).empty()) continue;
       cells = cells_of(line);
+      if (line.starts_with('#') && !(cells.size() > 1 && is_color(cells[0]))) continue;  // a comment
       if (std::ranges::any_of(cells, [](const std::string& cell) { return !cell.empty(); })) return true;
     }
     return false;
@@ -238,6 +252,7 @@ class NumberReader {
     next_row(cells);
     std::swap(lines_, begin);
     const Columns columns = columns_of(header, cells);
+    result_.of_colors = columns.value < cells.size() && is_color(cells[columns.value]);
     if (header[columns.value] != "value") result_.column = header[columns.value];
     result_.without_chains = columns.index == Columns::kNone && columns.chain == Columns::kNone;
     std::map<std::uint64_t, NumberFile> frames;
@@ -258,7 +273,10 @@ class NumberReader {
     std::int64_t place_in_run = -1;
     if (!parse_whole_number(cell, place_in_run) || place_in_run < 0)
       fail(fmt::format("{} is not a frame number; frames count from 0", in_quotes(cell)));
-    NumberFile empty{.path = result_.path, .without_chains = result_.without_chains, .column = result_.column};
+    NumberFile empty{.path = result_.path,
+                     .without_chains = result_.without_chains,
+                     .column = result_.column,
+                     .of_colors = result_.of_colors};
     return frames.try_emplace(static_cast<std::uint64_t>(place_in_run), std::move(empty)).first->second;
   }
 

@@ -31,6 +31,7 @@ struct NumberFile {
   std::map<ResidueName, double> by_residue{};
   bool without_chains = false;  ///< by_residue names no chains: the molecule has one
   std::string column{};         ///< whose numbers these are; empty if columns have no names
+  bool of_colors = false;       ///< numbers are colours, 0xrrggbb
   /// By number of the frame in its trajectory: that frame's numbers, by atom or by residue. Nothing: they are the same
   /// in all frames.
   std::shared_ptr<const std::map<std::uint64_t, NumberFile>> by_frame{};
@@ -58,8 +59,9 @@ inline constexpr const char* kNumberLayouts =
 /// number;
 /// - a table with a header, as `meniscus surface --csv` and `--csv-residues` write it: by its column "index", else by
 ///   "chain", "number" (or "resid", "resi", "position", ...) and, if there, "icode"; without "chain" for molecules of
-///   one chain. `column` names the one of the numbers; it may be left out where there is one beside these. With a
-///   column "frame" rows are of that frame of a run.
+///   one chain. `column` names the one of the numbers; it may be left out where there is one beside these, or none but
+///   one with a usual name, such as "class" or "radius". With a column "frame" rows are of that frame of a run. A
+///   column may have colours (#rrggbb) instead of numbers.
 /// Columns of the last two are parted by tabs, semicolons, commas or blanks, the first of these that the first line
 /// has; there numbers may have a decimal comma where it parts no columns, and empty cells, NA and N/A are missing, too.
 /// Throws InputError naming the line, the word and what is wanted; see also read_text_file.

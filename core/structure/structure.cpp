@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -83,6 +84,22 @@ std::string AddedFile::sentence() const {
     text += fmt::format(", superposed on the first file by {} atoms with an RMSD of {:.3f} Å",
                         with_thousands(fit->atoms), fit->rmsd);
   return text;
+}
+
+std::string chain_of_file(const Atom& atom) {
+  const std::string suffix = "-" + std::to_string(atom.copy + 1);
+  if (atom.copy == 0 || !atom.chain.ends_with(suffix)) return atom.chain;
+  return atom.chain.substr(0, atom.chain.size() - suffix.size());
+}
+
+std::vector<std::string> chains_of(std::span<const Atom> atoms) {
+  std::vector<std::string> chains;
+  std::set<std::string> seen;
+  for (const Atom& atom : atoms) {
+    std::string chain = chain_of_file(atom);
+    if (seen.insert(chain).second) chains.push_back(std::move(chain));
+  }
+  return chains;
 }
 
 std::vector<Ball> balls_of(const Structure& structure) {

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -159,6 +160,8 @@ struct Structure {
   std::string experiment;  ///< by which the file says its atoms were found, "X-RAY DIFFRACTION"; empty: by none
   std::string radii_set;   ///< "bondi", "united", "protor", "file", or the files of radii
   std::vector<RadiusClass> radius_classes;
+  std::vector<std::string>
+      chains;                    ///< of the file and of those added, in order of appearance, whatever is used of them
   std::vector<AddedFile> added;  ///< files whose atoms come after those of `file`
   std::vector<Atom> atoms;
   std::vector<Atom> beside;  ///< those that are shown beside the surface, which is not made of them
@@ -189,6 +192,12 @@ struct AtomGroup {
 /// Every atom in exactly one group, in order of first appearance. Names: "chain A" ("chain A of model 2" when there are
 /// several models; "unnamed chain" when the file gives none), "model 2", "ligand", "chain A 35B LEU".
 std::vector<AtomGroup> group_atoms(const Structure& structure, Grouping by);
+
+/// The chain as the file names it: in an assembly copies of A are called, ... and keep its colour.
+std::string chain_of_file(const Atom& atom);
+
+/// The different chains of some atoms, as the file names them, in order of appearance.
+std::vector<std::string> chains_of(std::span<const Atom> atoms);
 
 /// Where an atom is in its file: "chain A 35B LEU CD1", or "atom 12" (from 1) where the format has no names.
 std::string atom_place(const Atom& atom);

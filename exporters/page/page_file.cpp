@@ -137,11 +137,12 @@ std::string legend_of(const ColorKey& key) {
   } else if (!key.classes.empty()) {
     text += fmt::format("<p>{}</p>", markup_text(key.scale ? key.scale->title : key.title));
   }
-  if (key.classes.empty()) return text;
-  text += "<ul>";
+  if (!key.classes.empty()) text += "<ul>";
   for (const ColorClass& entry : key.classes)
     text += fmt::format("<li>{}{}</li>", swatch(entry.color), markup_text(entry.name));
-  return text + "</ul>";
+  if (!key.classes.empty()) text += "</ul>";
+  for (const ColorKey& other : key.others) text += legend_of(other);
+  return text;
 }
 
 /// How points are lit and finished.

@@ -16,12 +16,14 @@
 #include "core/base/system_file.h"
 #include "core/base/text.h"
 #include "core/color/color_atoms.h"
+#include "core/color/color_key.h"
 #include "core/image/color_space.h"
 #include "core/image/png_file.h"
 #include "core/queries/copies.h"
 #include "core/render/surface_renderer.h"
 #include "core/scene/annotations.h"
 #include "core/scene/cut.h"
+#include "core/scene/figure_key.h"
 #include "core/scene/representations.h"
 #include "core/scene/scene_picture.h"
 
@@ -49,7 +51,7 @@ const char* words_of(SurfaceKind kind) {
 std::string description_of(const Molecule& molecule, const Scene& scene, std::string_view name) {
   const std::string atoms = with_thousands(molecule.structure.atoms.size());
   if (scene.figure.hides_surface) return fmt::format("{}: {} atoms", name, atoms);
-  const ColorKey key = key_of(molecule);
+  const ColorKey key = color_key(molecule.structure, molecule.color);
   const std::string title = !key.title.empty() ? key.title : key.classes.empty() ? "one colour" : "what is chosen";
   return fmt::format("The {} surface of {}, {} atoms, coloured by {}", words_of(scene.molecule.surface.kind), name,
                      atoms, title);
@@ -214,7 +216,7 @@ std::vector<OtherColors> other_colors(const Structure& structure, const ColorSch
     if (scheme.by == asked.by && asked.rules.empty()) continue;
     try {
       if (measure) measure(scheme);
-      ColorKey key = color_key(structure, scheme, {});
+      ColorKey key = color_key(structure, scheme);
       color_atoms(structure, scheme);
       others.push_back({word, std::move(scheme), std::move(key)});
     } catch (const InputError&) {
@@ -270,7 +272,11 @@ std::string scene_page(const Scene& asked) {
   SceneFigure made = made_figure(asked, nullptr);
   const Camera camera = made.aim.camera(made.scene.picture, made.given.still, made.aim.viewed(made.figure));
   const Molecule& molecule = made.figure.molecule;
-  const SceneFrame frame{camera, {}, key_of(molecule), other_colors(molecule.structure, molecule.color), {}};
+  const SceneFrame frame{camera,
+                         {},
+                         key_of(molecule, made.scene.figure, made.figure.beside),
+                         other_colors(molecule.structure, molecule.color),
+                         {}};
   PageWriter page;
   page.add(scene_frame(made.scene, std::move(made.figure), frame, png_still));
   return page.text();

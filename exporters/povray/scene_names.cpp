@@ -44,6 +44,8 @@ std::string color_comment(const ColorKey& key, const SceneColor& color) {
     if (++count > kMostNames) break;
     names.append(count == 1 ? "" : ", ").append(entry.name);
   }
+  for (const ColorKey& other : key.others)
+    if (count == 0 && !color_comment(other, color).empty()) return color_comment(other, color);
   if (count == 0) return {};
   std::string comment = "  // ";
   if (!harmless_name(key.title).empty()) comment.append(key.title).append(" ");

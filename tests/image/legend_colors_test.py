@@ -137,6 +137,46 @@ class LegendColors(unittest.TestCase):
             self.assertLess(columns[before].max(), columns[behind].min(), "spheres from the left")
             self.assertLess(rows[before].max(), rows[behind].min(), "boxes from above")
 
+    def test_a_legend_has_the_colours_of_the_picture_and_no_others(self):
+        """Unlit, for pairs of a scheme and a rule; what stands beside the surface counts, too."""
+        lines = ["ATOM  %5d %s ALA %s%4d    %8.3f%8.3f   0.000  1.00%6.2f          %2s" %
+                 (n + 1, name, chain, n, 9.0 * n, 9.0 * row, 10.0 + 7 * n, element)
+                 for row, chain in enumerate("ABC")
+                 for n, (name, element) in enumerate([(" CA ", "C"), (" N  ", "N"), (" O  ", "O"), (" CB ", "C")])]
+        cases = [["element", "element C=chain"], ["lightgrey", "protein=chain"], ["chain", "element N O=element-cpk"],
+                 ["element", "chain A B C=red"], ["chain", "chain C=#123456:third"], ["kind"], ["chain", "name CB=element"]]
+        scales = [["element", "element C=bfactor"], ["#eeeeee", "chain B=bfactor"], ["bfactor", "element O=chain"]]
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "atoms.pdb").write_text("\n".join(lines) + "\n")
+
+            def colors(*words):
+                """Of the picture and of its legend, those of many pixels."""
+                result = subprocess.run([PROGRAM, "render", "atoms.pdb", "-o", "p.png", "--legend-file", "l.png", "--background", "white",
+                                         "--projection", "orthographic", "--view", "z", "--size", "500x400", "--preset", "flat",
+                                         "--silhouettes", "0", "--samples", "1", "--device", "cpu", "--force", *words],
+                                        cwd=folder, capture_output=True, text=True, timeout=100)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                found = []
+                for name, least in (("p.png", 60), ("l.png", 150)):  # a box of the legend has 169
+                    pixels = numpy.rint(picture_of(pathlib.Path(folder) / name) * 255).astype(int).reshape(-1, 3)
+                    each, count = numpy.unique(pixels, axis=0, return_counts=True)
+                    found.append({tuple(color) for color, n in zip(each, count) if n > least and tuple(color) != (255, 255, 255)})
+                return found[0], {color for color in found[1] if max(color) > 60}  # without ink
+            for case in cases:
+                with self.subTest(case=case):
+                    drawn, told = colors(*sum((["--color", word] for word in case), []))
+                    self.assertEqual(drawn, told)
+            drawn, told = colors("--color", "kind", "--balls", "chain B", "--opacity", "chain B=0")
+            self.assertEqual(drawn, told, "balls are by element where the surface is by kind of patch")
+            drawn, told = colors("--color", "chain", "--hide-surface", "--spheres", "chain B")
+            self.assertEqual(drawn, told, "one chain is drawn")
+            for case in scales:
+                with self.subTest(case=case):
+                    drawn, _ = colors(*sum((["--color", word] for word in case), []))
+                    legend = numpy.rint(picture_of(pathlib.Path(folder) / "l.png") * 255).astype(int).reshape(-1, 3)
+                    for color in drawn:
+                        self.assertLessEqual(numpy.abs(legend - color).max(axis=1).min(), 8, color)
+
 
 if __name__ == "__main__":
     unittest.main()

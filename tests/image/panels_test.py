@@ -63,6 +63,19 @@ class Panels(unittest.TestCase):
         self.panels(*words)
         return pixels_of(self.folder / "page.png")
 
+    def test_a_chain_keeps_its_colour_in_a_part_of_its_file(self):
+        self.render("a.pdb", "a.png", "--color", "chain", "--size", "90x90")
+        part = self.render("a.pdb", "p.png", "--color", "chain", "--size", "90x90", "--select", "chain B", "--preset", "flat",
+                           "--depth-cue", "0")
+        self.assertGreater((part[..., :3] == (230, 159, 0)).all(axis=2).sum(), 100, "the second colour")
+        self.assertNotIn("warning", self.panels("a.png", "p.png", "--legend"))
+        self.render("c.pdb", "c.png", "--color", "chain", "--size", "90x90")
+        self.assertIn("warning: #56b4e9 is chain 'A' in panel 1 and chain 'B' in panel 2; 2 more colours differ", self.panels("a.png", "c.png"))
+        self.render("b.pdb", "b.png", "--color", "bfactor", "--size", "90x90")
+        self.render("a.pdb", "n.png", "--color", "bfactor", "--size", "90x90")
+        self.assertIn("warning: the colours of B-factor are of 10 to 33 in panel 1 and of 30 to 53 in panel 2", self.panels("n.png", "b.png"))
+        self.assertNotIn("warning", self.panels("n.png", "b.png", "--one-scale"))
+
     def test_each_panel_is_the_picture_of_its_scene(self):
         self.render("a.pdb", "a.png", "--color", "chain", "--size", "120x90", "--scale-bar", "5")
         self.render("b.pdb", "b.png", "--color", "bfactor", "--size", "200x100", "--legend", "--label", "resid 3=three")

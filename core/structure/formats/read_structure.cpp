@@ -8,6 +8,7 @@
 #include <span>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -301,25 +302,42 @@ void place_atoms(FileContents& contents, const ReadOptions& options, const TextF
   for (std::size_t n = 0; n < contents.atoms.size(); ++n) contents.atoms[n].position = options.positions[n];
 }
 
-/// Builds the assembly that is asked for; lists all when asked to, and then takes broken records as a warning.
-void use_assemblies(Structure& structure, const TextFile& file, const Reader& reader, const ReadOptions& options) {
-  if (options.list_assemblies && reader.assemblies) {
-    try {
-      structure.assemblies = reader.assemblies(file);
-    } catch (const InputError& error) {
-      structure.report.warnings.push_back(std::string("its assemblies cannot be read: ") + error.what());
-    }
+/// Lists all assemblies; broken records of them are a warning.
+void list_assemblies(Structure& structure, const TextFile& file, const Reader& reader) {
+  try {
+    if (reader.assemblies) structure.assemblies = reader.assemblies(file);
+  } catch (const InputError& error) {
+    structure.report.warnings.push_back(std::string("its assemblies cannot be read: ") + error.what());
   }
-  if (options.assembly.empty()) return;
+}
+
+/// The assembly that is to be built, if there is one.
+std::optional<Assembly> asked_assembly(const TextFile& file, const Reader& reader, const ReadOptions& options) {
+  if (options.assembly.empty()) return {};
   if (!reader.assemblies) {
-    throw InputError(structure.file, 0,
+    throw InputError(file.path, 0,
                      fmt::format("is {}, which describes no assemblies; leave {} out", reader.metadata.name,
                                  option_name("assembly")));
   }
-  const std::vector<Assembly> assemblies = reader.assemblies(file);
-  const Assembly& assembly = find_assembly(assemblies, options.assembly, structure.file);
-  assemble(structure, assembly, options.copy_mode);
-  assemble_beside(structure, assembly);
+  return find_assembly(reader.assemblies(file), options.assembly, file.path);
+}
+
+/// Whether atoms are chosen by the copy that they are in, so that copies have to be made before.
+bool names_copies(const ReadOptions& options) {
+  const auto of_some = [](const auto& each) { return each.atoms.names_copies(); };
+  return options.copy_mode == CopyMode::atoms &&
+         ((options.selection && options.selection->names_copies()) || std::ranges::any_of(options.shown, of_some) ||
+          std::ranges::any_of(options.radii.overrides, of_some));
+}
+
+/// Makes the copies of all atoms, which then count as read.
+void copy_atoms(std::vector<Atom>& atoms, const Assembly& assembly, Structure& structure) {
+  const std::size_t of_file = atoms.size();
+  structure.atoms = std::move(atoms);
+  assemble(structure, assembly, CopyMode::atoms);
+  atoms = std::exchange(structure.atoms, {});
+  structure.report.read += atoms.size() + structure.report.excluded[kExcludedAssembly] - of_file;
+  std::erase_if(structure.report.excluded, [](const auto& reason) { return reason.second == 0; });
 }
 
 /// Of atoms shown together, places in Structure::atoms and, after them, in beside, by Atom::index.
@@ -359,6 +377,7 @@ struct StructureFile::Parts {
     std::erase_if(report.excluded, [](const auto& reason) { return reason.second == 0; });
     report.warnings = contents.warnings;
     note_other_molecules();
+    chains = chains_of(contents.atoms);
     radii.emplace(options.radii, file.path, contents.radii, contents.atoms);
     note_version_of_beads();
   }
@@ -403,6 +422,10 @@ struct StructureFile::Parts {
     structure.report = report;
     structure.topology = topology;
     if (added) structure.added = added->place(atoms);
+    structure.chains = chains;
+    const std::optional<Assembly> assembly = asked_assembly(file, reader, options);
+    const bool copies_first = assembly && names_copies(options);
+    if (copies_first) copy_atoms(atoms, *assembly, structure);
     warn_of_missing_altloc(structure, atoms, options.altloc);
     choose_atoms(atoms, contents.sites, structure.beside, options, *radii, structure.report, file.path, meaning);
     structure.atoms = std::move(atoms);
@@ -417,7 +440,11 @@ struct StructureFile::Parts {
     warn_of_coincident_atoms(structure);
     if (options.model.all && contents.models > 1 && !added) warn_of_overlaid_models(structure);
     if (contents.radii != FileRadii::usual) warn_of_wrong_unit(structure);
-    use_assemblies(structure, file, reader, options);
+    if (options.list_assemblies) list_assemblies(structure, file, reader);
+    if (assembly && !copies_first) {
+      assemble(structure, *assembly, options.copy_mode);
+      assemble_beside(structure, *assembly);
+    }
     return structure;
   }
 
@@ -429,6 +456,7 @@ struct StructureFile::Parts {
   ReadReport report;
   std::shared_ptr<const Topology> topology;
   std::optional<RadiiChoice> radii;
+  std::vector<std::string> chains;   ///< Structure::chains
   std::vector<Bond> bonds_by_index;  ///< of all that may be shown
 };
 

@@ -6,7 +6,6 @@
 #include <map>
 #include <set>
 #include <string_view>
-#include <tuple>
 #include <unordered_set>
 
 #include <fmt/format.h>
@@ -99,19 +98,29 @@ Set atoms_where(std::span<const Atom> atoms, Predicate&& predicate) {
   return set;
 }
 
+bool has_copies(std::span<const Atom> atoms) {
+  return std::ranges::any_of(atoms, [](const Atom& atom) { return atom.copy > 0; });
+}
+
+/// Whether the values name the atom. A copied chain has two names: that of its file, and one with the copy's number.
+bool names(const TextTest& test, const Atom& atom, bool copied) {
+  const auto is_one = [&](const std::string& text) {
+    return std::ranges::any_of(test.values, [&](const TextPattern& pattern) { return matches(pattern, text); });
+  };
+  if (is_one(text_of(test.field, atom))) return true;
+  if (!copied || test.field != AtomField::chain) return false;
+  return is_one(atom.copy > 0 ? chain_of_file(atom) : atom.chain + "-1");
+}
+
 /// Carries out one step after another; each overload is a kind of step.
 class Evaluation {
  public:
-  explicit Evaluation(std::span<const Atom> atoms) : atoms_(atoms) {}
+  explicit Evaluation(std::span<const Atom> atoms) : atoms_(atoms), copied_(has_copies(atoms)) {}
 
   void operator()(const FlagTest& test) { stack_.push_back(atoms_with(test.flag, atoms_)); }
 
   void operator()(const TextTest& test) {
-    stack_.push_back(atoms_where(atoms_, [&](const Atom& atom) {
-      const std::string text = text_of(test.field, atom);
-      return std::any_of(test.values.begin(), test.values.end(),
-                         [&](const TextPattern& pattern) { return matches(pattern, text); });
-    }));
+    stack_.push_back(atoms_where(atoms_, [&](const Atom& atom) { return names(test, atom, copied_); }));
   }
 
   void operator()(const NumberTest& test) {
@@ -179,7 +188,9 @@ class Evaluation {
   }
 
   void operator()(const SettledTest& test) {
-    stack_.push_back(atoms_where(atoms_, [&](const Atom& atom) { return test.atoms->contains(atom.index); }));
+    stack_.push_back(atoms_where(atoms_, [&](const Atom& atom) {
+      return test.atoms->contains({test.copied ? atom.copy : 0, atom.index});
+    }));
   }
 
   void push(Set set) { stack_.push_back(std::move(set)); }
@@ -193,6 +204,7 @@ class Evaluation {
 
  private:
   std::span<const Atom> atoms_;
+  bool copied_;
   std::vector<Set> stack_;
 };
 
@@ -276,24 +288,35 @@ std::vector<bool> Selection::names(std::span<const Atom> atoms) const {
 }
 
 std::string Selection::why_none(std::span<const Atom> atoms) const {
-  std::vector<std::string> chains;  // in the file's order
-  std::set<std::string_view> seen;
-  for (const Atom& atom : atoms)
-    if (seen.insert(atom.chain).second) chains.push_back(atom.chain.empty() ? "''" : escaped(atom.chain));
+  std::vector<std::string> chains = chains_of(atoms);
+  for (std::string& chain : chains) chain = chain.empty() ? "''" : escaped(chain);
+  const std::size_t count = chains.size();
+  const bool copied = has_copies(atoms);
   for (const SelectionStep& step : steps_->steps) {
     const auto* test = std::get_if<TextTest>(&step);
     if (!test || test->field != AtomField::chain) continue;
     for (const TextPattern& wanted : test->values) {
-      if (std::ranges::any_of(seen, [&](std::string_view chain) { return matches(wanted, std::string(chain)); }))
-        continue;
+      const TextTest one{AtomField::chain, {wanted}};
+      if (std::ranges::any_of(atoms, [&](const Atom& atom) { return meniscus::names(one, atom, copied); })) continue;
       constexpr std::size_t kNamed = 30;
       const bool more = chains.size() > kNamed;
       if (more) chains.resize(kNamed);
-      return fmt::format("there is no chain {}, only {}{}", in_quotes(wanted.text), fmt::join(chains, ", "),
-                         more ? fmt::format(" and {} more", seen.size() - kNamed) : "");
+      return fmt::format(
+          "there is no chain {}, only {}{}{}", in_quotes(wanted.text), fmt::join(chains, ", "),
+          more ? fmt::format(" and {} more", count - kNamed) : "",
+          names_copies() && !copied ? "; copies have names only in an assembly that is made of atoms" : "");
     }
   }
   return "chains and names are case-sensitive";
+}
+
+bool Selection::names_copies() const {
+  return std::ranges::any_of(steps_->steps, [](const SelectionStep& step) {
+    const auto* test = std::get_if<TextTest>(&step);
+    return test && test->field == AtomField::chain && std::ranges::any_of(test->values, [](const TextPattern& value) {
+             return value.text.find('-', 1) != std::string::npos;
+           });
+  });
 }
 
 bool Selection::uses_radius() const { return steps_->compare({AtomField::radius}); }
@@ -329,11 +352,12 @@ Selection::Reach Selection::reach(std::span<const Atom> atoms) const {
 }
 
 Selection Selection::settled(std::span<const Atom> atoms, const std::vector<bool>& selected) const {
-  auto indices = std::make_shared<std::unordered_set<std::uint32_t>>();
+  auto chosen = std::make_shared<std::set<std::pair<std::uint32_t, std::uint32_t>>>();
   for (std::size_t n = 0; n < atoms.size(); ++n)
-    if (selected[n]) indices->insert(atoms[n].index);
+    if (selected[n]) chosen->emplace(atoms[n].copy, atoms[n].index);
   Selection settled = *this;
-  settled.steps_ = std::make_shared<const SelectionSteps>(SelectionSteps{{SettledTest{steps_, std::move(indices)}}});
+  settled.steps_ = std::make_shared<const SelectionSteps>(
+      SelectionSteps{{SettledTest{steps_, std::move(chosen), has_copies(atoms)}}});
   return settled;
 }
 

@@ -16,9 +16,10 @@ struct SelectionSteps;
 /// An expression that has been understood. Copies share it.
 class Selection {
  public:
-  /// One truth value an atom. A value that an atom lacks (NaN) meets no comparison. `within` measures between atoms of
-  /// this span, in Å, without periodic images, exactly: squared distance <= squared limit in double. Time is linear in
-  /// atoms, n log n for `within`.
+  /// One truth value an atom. A value that an atom lacks (NaN) meets no comparison. Where the atoms are of several
+  /// copies of an assembly, `chain B` means all copies of it, `chain B-1` the first and `chain B-2` the second.
+  /// `within` measures between atoms of this span, in Å, without periodic images, exactly: squared distance <= squared
+  /// limit in double. Time is linear in atoms, n log n for `within`.
   std::vector<bool> evaluate(std::span<const Atom> atoms) const;
 
   /// Per atom: is it water or an ion, and does the expression speak of it? It does by the keyword of the class, by a
@@ -35,6 +36,9 @@ class Selection {
   /// Does it ask where atoms are: for distances, coordinates, or what the backbone forms there? Not every file knows,
   /// and from frame to frame the answer changes.
   bool uses_positions() const;
+
+  /// Does it tell the copies of an assembly apart, as `chain B-2` does?
+  bool names_copies() const;
 
   /// What it may select of these atoms, wherever they are, and from which of them it measures distances.
   struct Reach {

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
+#include <set>
 #include <string>
-#include <unordered_set>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -106,7 +106,8 @@ struct SelectionSteps;
 /// What an expression selected once.
 struct SettledTest {
   std::shared_ptr<const SelectionSteps> expression;
-  std::shared_ptr<const std::unordered_set<std::uint32_t>> atoms;  ///< by Atom::index
+  std::shared_ptr<const std::set<std::pair<std::uint32_t, std::uint32_t>>> atoms;  ///< by Atom::copy and Atom::index
+  bool copied;  ///< by both; else by Atom::index alone, for there were no copies
 };
 
 using SelectionStep = std::variant<FlagTest, TextTest, NumberTest, ResidueTest, CompareTest, NotStep, AndStep, OrStep,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sides, turns, axes of assemblies, cameras of other programs, and what a camera is certain not to see.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -164,12 +165,13 @@ TEST(Turns, AreRightHandedAboutThePicturesAxes) {
   for (const char* text : {"", "y", "90", "w90", "y 90", "y90x", "ynan", "y1e9", "90y"}) EXPECT_FALSE(parse_turn(text));
 }
 
+std::vector<RigidMotion> motions(std::vector<glm::dmat3> rotations) {
+  std::vector<RigidMotion> result;
+  for (const glm::dmat3& r : rotations) result.push_back({r, r * glm::dvec3(10, 2, 3)});
+  return result;
+}
+
 TEST(SymmetryAxis, IsWhatMostCopiesTurnAbout) {
-  const auto motions = [](std::vector<glm::dmat3> rotations) {
-    std::vector<RigidMotion> result;
-    for (const glm::dmat3& r : rotations) result.push_back({r, r * glm::dvec3(10, 2, 3)});
-    return result;
-  };
   const glm::dvec3 axis = glm::normalize(glm::dvec3(1, 2, -2)), two = glm::normalize(glm::dvec3(2, -1, 0));
   std::vector<glm::dmat3> ring, dihedral;
   for (int n = 0; n < 7; ++n) ring.push_back(rotation(axis, n * 360.0 / 7.0));
@@ -183,6 +185,31 @@ TEST(SymmetryAxis, IsWhatMostCopiesTurnAbout) {
   EXPECT_FALSE(symmetry_axis({}));
   EXPECT_FALSE(symmetry_axis(motions({glm::dmat3(1.0), glm::dmat3(1.0)})));
   expect_near(symmetry_axis(motions({glm::dmat3(1.0), rotation({0, 0, 1}, 180.0)})).value(), {0, 0, 1}, 1e-9);
+}
+
+TEST(SymmetryAxis, OfAxesThatAreAlikeIsTheSameWhateverLastDigitsSay) {
+  // The rotations of an icosahedron: six axes of five are alike, two of which are as near to z as each other.
+  const double golden = (1.0 + std::sqrt(5.0)) / 2.0;
+  const std::vector<glm::dmat3> generators{rotation(glm::normalize(glm::dvec3(1, 0, golden)), 72.0),
+                                           rotation(glm::normalize(glm::dvec3(1, 1, 1)), 120.0)};
+  std::vector<glm::dmat3> group{glm::dmat3(1.0)};
+  const auto is_known = [&](const glm::dmat3& r) {
+    return std::ranges::any_of(group, [&](const glm::dmat3& known) {
+      return glm::length(known[0] - r[0]) + glm::length(known[1] - r[1]) < 1e-6;
+    });
+  };
+  for (std::size_t n = 0; n < group.size(); ++n)
+    for (const glm::dmat3& generator : generators)
+      if (const glm::dmat3 made = generator * group[n]; !is_known(made)) group.push_back(made);
+  ASSERT_EQ(group.size(), 60u);
+  const glm::dvec3 expected = symmetry_axis(motions(group)).value();
+  EXPECT_NEAR(expected.z, golden / std::sqrt(1.0 + golden * golden), 1e-9);
+  for (int n = 0; n < 40; ++n) {
+    std::vector<glm::dmat3> noisy = group;
+    for (std::size_t r = 0; r < noisy.size(); ++r)
+      noisy[r] = noisy[r] * rotation({0, 1, 0}, 1e-7 * std::sin(static_cast<double>(7 * r) + n));
+    expect_near(symmetry_axis(motions(noisy)).value(), expected, 1e-6);
+  }
 }
 
 std::string fault_of(const std::string& text) {

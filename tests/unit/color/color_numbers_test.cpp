@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/color/color_key.h"
+#include "core/color/color_scale.h"
 #include "core/color/named_colors.h"
 #include "tests/support/run_program.h"
 #include "tests/unit/color/colored_atoms.h"
@@ -69,6 +69,50 @@ TEST(Colors, NumbersByResidueAndOfTables) {
     const std::string said = complaint([&, text = text, column = column] { numbers(text, column); });
     EXPECT_NE(said.find(reason), std::string::npos) << text << ": " << said;
   }
+}
+
+TEST(Colors, AColumnWithAUsualNameIsOneOfNumbers) {
+  const test::TemporaryFolder folder;
+  Structure structure = four_atoms();
+  const auto value = [&](const std::string& text, const char* column = "") {
+    ColorScheme wish = scheme("file");
+    wish.file = read_number_file(folder.file("n", text), column);
+    return color_scale(structure, wish).value[0];
+  };
+  for (const std::string name : {"class", "name", "atom", "element", "radius", "atoms"}) {
+    EXPECT_EQ(value("index," + name + "\n0,7\n"), 7.0) << name;
+    EXPECT_EQ(value("index," + name + ",score\n0,7,5\n"), 5.0) << name << ": other numbers come first";
+    EXPECT_EQ(value("index," + name + ",score\n0,7,5\n", name.c_str()), 7.0) << name;
+    EXPECT_EQ(value("index," + name + ",score\n0,text,5\n"), 5.0) << name;
+  }
+  EXPECT_NE(complaint([&] { value("index,name,class\n0,1,2\n"); }).find("by --color-column: name, class"),
+            std::string::npos);
+}
+
+TEST(Colors, AColumnOfColoursIsTakenAsItIs) {
+  const test::TemporaryFolder folder;
+  Structure structure = four_atoms();
+  const auto read = [&](const char* text, const char* column = "") {
+    ColorScheme wish = scheme("file");
+    wish.set_numbers(read_number_file(folder.file("n", text), column));
+    return wish;
+  };
+  for (const char* const text : {"index,color\n0,#ff8000\n1,#0000FF\n3,?\n", "color;index\n#ff8000;0\n#0000FF;1\n;3\n",
+                                 "index color score\n0 #ff8000 x\n# a comment\n1 #0000FF x\n3 NA x\n"}) {
+    const ColorScheme wish = read(text);
+    const std::vector<glm::vec3> colors = color_atoms(structure, wish).atom;
+    EXPECT_EQ(colors[0], color_from_hex(0xff8000)) << text;
+    EXPECT_EQ(colors[1], color_from_hex(0x0000ff)) << text;
+    EXPECT_EQ(colors[3], color_from_hex(0x808080)) << text;
+    EXPECT_EQ(color_scale(structure, wish).classes.size(), 2u);
+  }
+  EXPECT_NE(complaint([&] { read("index,color\n0,#ff8000\n1,red\n"); }).find("n:3: 'red' is not a colour such as"),
+            std::string::npos);
+  ColorScheme mapped = scheme("file");
+  mapped.map = ColorMap::magma;
+  const NumberFile file = read_number_file(folder.file("n", "index,color\n0,#ff8000\n"));
+  EXPECT_NE(complaint([&] { mapped.set_numbers(file); }).find("has colours of its own; leave --map"),
+            std::string::npos);
 }
 
 TEST(Colors, TablesOfAOneChainMoleculeNeedNoChain) {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/color/color_key.h"
+#include "core/color/color_scale.h"
 #include "core/color/color_rule.h"
 #include "core/color/named_colors.h"
 #include "core/structure/element_tables.h"
@@ -51,6 +52,18 @@ TEST(Colors, ChainsInOrderOfAppearanceDiffer) {
   for (std::size_t i = 0; i < 21; ++i) {
     for (std::size_t j = 0; j < i; ++j) EXPECT_NE(colors.atom[i], colors.atom[j]) << i << " " << j;
   }
+}
+
+TEST(Colors, AChainHasTheColourOfItsPlaceInTheFile) {
+  Structure whole = four_atoms(), part = four_atoms();
+  whole.chains = part.chains = {"Z", "B", "A"};
+  part.atoms.erase(part.atoms.begin() + 2);  // all of B
+  EXPECT_EQ(colored("chain", whole).atom[0], categorical_color(2));
+  EXPECT_EQ(colored("chain", whole).atom[2], categorical_color(1));
+  EXPECT_EQ(colored("chain", part).atom[0], categorical_color(2));
+  part.atoms[0].chain = "new";  // of no chain of the file
+  EXPECT_EQ(colored("chain", part).atom[0], categorical_color(3));
+  EXPECT_EQ(color_key(part, scheme("chain")).classes[0].color, categorical_color(3));
 }
 
 TEST(Colors, CopiesOfAChainKeepItsColorUnlessCopiesAreColored) {
@@ -112,10 +125,11 @@ TEST(Colors, RulesPaintTheAtomsMeantAndTheLastCounts) {
   const std::vector<std::uint32_t> two{2, 0};
   EXPECT_EQ(color_object(four_atoms(), two, wish, 0).atom, (std::vector<glm::vec3>{blue, red}));
   const ColorKey key = color_key(four_atoms(), wish, {});
-  ASSERT_EQ(key.classes.size(), 4u);  // two chains, then rules of one colour
-  EXPECT_EQ(key.classes[2].name, "chain A");
-  EXPECT_EQ(key.classes[3].name, "b >= 15");
-  EXPECT_EQ(key.classes[3].color, blue);
+  ASSERT_EQ(key.classes.size(), 2u);  // no atom has the colour of its chain
+  EXPECT_EQ(key.classes[0].name, "chain A");
+  EXPECT_EQ(key.classes[1].name, "b >= 15");
+  EXPECT_EQ(key.classes[1].color, blue);
+  EXPECT_EQ(key.others.at(0).title, "element");
   EXPECT_TRUE(rules_without_atoms(four_atoms(), wish).empty());
   wish.rules.push_back(parse_color_rule("chain Z=red"));
   EXPECT_EQ(rules_without_atoms(four_atoms(), wish), std::vector<std::string>{"chain Z"});
@@ -143,7 +157,7 @@ TEST(Colors, RulesHaveNamesAndWhatTheyLeaveIsOther) {
   EXPECT_EQ(names(), (std::vector<std::string>{"b >= 15", "other"}));
   EXPECT_EQ(color_key(four_atoms(), wish, {}).classes.back().color, color_from_hex(0x808080));
   wish.rules.push_back(named_color_rule("all=white"));
-  EXPECT_EQ(names(), (std::vector<std::string>{"b >= 15", "all"})) << "nothing is left";
+  EXPECT_EQ(names(), std::vector<std::string>{"all"}) << "nothing else is left";
   EXPECT_NE(complaint([] { named_color_rule("chain A=red:"); }).find("no name"), std::string::npos);
   EXPECT_NE(complaint([] { named_color_rule("chain A=crimsom:x"); }).find("'crimsom' is not one of"),
             std::string::npos);
@@ -390,8 +404,8 @@ TEST(Colors, TheKeyNamesWhatOccurs) {
   }
   EXPECT_EQ(color_key(structure, scheme("element"), {}).classes[0].name, "C");
   EXPECT_EQ(color_key(structure, scheme("kind"), {}).classes.size(), 3u);
-  const std::vector<std::string> names{"one", "two"};
-  EXPECT_EQ(color_key(structure, scheme("component"), names).classes[1].color, categorical_color(1));
+  const std::vector<AtomGroup> objects{{"one", {0}}, {"two", {1}}};
+  EXPECT_EQ(color_key(structure, scheme("component"), {.objects = objects}).classes[1].color, categorical_color(1));
   EXPECT_EQ(color_key(structure, scheme("bfactor"), {}).scale->unit, "Å²");
   EXPECT_TRUE(color_key(structure, scheme("#000000"), {}).classes.empty());
 }

@@ -190,6 +190,40 @@ std::vector<Atom> residue_of(const char* residue, const std::vector<const char*>
   return atoms;
 }
 
+TEST(Selection, CopiesOfAChainAreNamedTogetherOrByTheirNumber) {
+  std::vector<Atom> atoms(6);
+  const char* const chains[] = {"A", "B", "A-2", "B-2", "A-3", "AB-3"};
+  for (std::uint32_t n = 0; n < atoms.size(); ++n) {
+    atoms[n].chain = chains[n];
+    atoms[n].index = n % 2;
+    atoms[n].copy = n / 2;
+  }
+  const std::pair<const char*, const char*> cases[] = {
+      {"chain A", "0 2 4"}, {"chain A-1", "0"},       {"chain A-2", "2"},      {"chain A-1 B-2", "0 3"},
+      {"chain B", "1 3"},   {"not chain A", "1 3 5"}, {"chain A*", "0 2 4 5"}, {"chain A-*", "0 2 4"},
+      {"chain ?-2", "2 3"}, {"chain A-4", ""}};
+  for (const auto& [expression, places] : cases) EXPECT_EQ(selected(expression, atoms), places) << expression;
+  for (const char* const names_some : {"chain A-2", "name CA and chain A B-1", "chain *-2"})
+    EXPECT_TRUE(parse_selection(names_some).names_copies()) << names_some;
+  for (const char* const names_none : {"chain A", "resid 1-2", "chain -", "name A-2"})
+    EXPECT_FALSE(parse_selection(names_none).names_copies()) << names_none;
+  EXPECT_EQ(parse_selection("chain C").why_none(atoms), "there is no chain 'C', only A, B, AB");
+  const std::vector<Atom> of_file(atoms.begin(), atoms.begin() + 2);
+  EXPECT_EQ(selected("chain A-1", of_file), "") << "there are no copies";
+  EXPECT_NE(parse_selection("chain A-2").why_none(of_file).find("copies have names only in an assembly"),
+            std::string::npos);
+  // What was selected once: in the file, of all copies; in the assembly, of those.
+  const Selection within = parse_selection("chain A-2");
+  const auto places = [&](const Selection& settled) {
+    std::string text;
+    const std::vector<bool> set = settled.evaluate(atoms);
+    for (std::size_t n = 0; n < set.size(); ++n) text += set[n] ? std::to_string(n) : "";
+    return text;
+  };
+  EXPECT_EQ(places(within.settled(atoms, within.evaluate(atoms))), "2");
+  EXPECT_EQ(places(within.settled(of_file, {true, false})), "024");
+}
+
 TEST(Selection, KnowsGlycansAndLipids) {
   const std::vector<const char*> ring{"C1", "C2", "C3", "C4", "C5", "O5"};
   const std::vector<const char*> tail(12, "C1");

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Marks the atoms that surfaces and shapes draw, and asks what their colours mean.
+#include "core/scene/figure_key.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "core/color/lipophilicity.h"
+#include "core/scene/run_framing.h"
+
+namespace meniscus {
+namespace {
+
+using By = ColorScheme::By;
+
+bool any_of(const std::vector<bool>& atoms) { return std::ranges::find(atoms, true) != atoms.end(); }
+
+void mark(const ColoredShapes& shapes, std::vector<bool>& atoms) {
+  const auto one = [&](std::uint32_t atom) { atoms[atom] = atoms[atom] || shapes.coloring.shows(atom); };
+  for (const SphereShape& sphere : shapes.shapes.spheres) one(sphere.atom);
+  for (const CylinderShape& cylinder : shapes.shapes.cylinders) {
+    one(cylinder.from_atom);
+    one(cylinder.to_atom);
+  }
+  for (const std::uint32_t atom : shapes.shapes.mesh.atoms) one(atom);
+}
+
+/// buried: whether atoms count that have no part of the surface.
+void mark(const SurfaceObject& object, bool buried, std::vector<bool>& atoms) {
+  const Surface& surface = object.surface;
+  std::vector<bool> open(object.atom.size(), buried);
+  for (const ConvexPatch& patch : surface.convex) open[patch.atom] = true;
+  for (const ToroidalPatch& patch : surface.toroidal)
+    for (const std::uint32_t atom : patch.atom) open[atom] = true;
+  for (const std::uint32_t atom : surface.contacts) open[atom] = true;
+  for (std::uint32_t a = 0; a < open.size(); ++a)
+    if (open[a] && object.coloring.shows(a)) atoms[object.atom[a]] = true;
+}
+
+void mark(const FigureObject& object, const FigureObjectRequest& request, std::vector<bool>& atoms) {
+  if (object.surface)
+    mark(*object.surface, !request.cuts.empty(), atoms);
+  else
+    mark(object.shapes, atoms);
+}
+
+}  // namespace
+
+ColorKey figure_key(const Structure& structure, const ColorScheme& scheme, DrawnAtoms drawn,
+                    const FigureRequest& request, const BesideSurface& beside) {
+  if (request.hides_surface) drawn.atoms.assign(drawn.atoms.size(), false);
+  if (beside.empty()) return color_key(structure, scheme, drawn);
+  const Structure all = structure_of_shown(structure);
+  const std::size_t count = all.atoms.size();
+  std::vector<bool> shapes(count, false);
+  drawn.atoms.resize(count, false);
+  if (!beside.shapes.empty()) mark(beside.shapes, shapes);
+  for (std::size_t n = 0; n < beside.objects.size(); ++n)
+    if (!request.objects[n].color)
+      mark(beside.objects[n], request.objects[n], request.objects[n].shapes ? shapes : drawn.atoms);
+  const bool of_surfaces = scheme.by == By::kind || scheme.by == By::component || scheme.of_points();
+  for (std::size_t a = 0; !of_surfaces && a < count; ++a) drawn.atoms[a] = drawn.atoms[a] || shapes[a];
+  ColorKey key = color_key(all, with_scale_of(structure, count, scheme), drawn);
+  if (of_surfaces && any_of(shapes))
+    add_key(key, color_key(all, scheme_beside(structure, count, scheme), {.atoms = shapes}), "beside");
+  for (std::size_t n = 0; n < beside.objects.size(); ++n) {
+    if (!request.objects[n].color) continue;
+    std::vector<bool> own(count, false);
+    mark(beside.objects[n], request.objects[n], own);
+    const ColorScheme color = scheme_of(request.objects[n], structure, count, scheme);
+    const std::string name = request.objects[n].atoms.text();
+    if (!any_of(own)) continue;
+    if (color.by == By::fixed && color.rules.empty())
+      key.classes.push_back({name, color.fixed});
+    else
+      add_key(key, color_key(all, color, {.atoms = own}), name);
+  }
+  if (scheme.by == By::fixed && scheme.rules.empty() && any_of(drawn.atoms)) add_other(key, "other", scheme.fixed);
+  return key;
+}
+
+ColorKey key_of(const Molecule& molecule, const FigureRequest& request, const BesideSurface& beside) {
+  DrawnAtoms drawn{std::vector<bool>(molecule.structure.atoms.size(), false)};
+  for (const SurfaceObject& object : molecule.objects) {
+    mark(object, !request.cuts.empty(), drawn.atoms);
+    drawn.objects.push_back({object.name, object.atom});
+  }
+  ColorKey key = figure_key(molecule.structure, molecule.color, std::move(drawn), request, beside);
+  const auto lacks = [&](auto Surface::*patches) {
+    return std::ranges::all_of(molecule.objects, [&](const SurfaceObject& o) { return (o.surface.*patches).empty(); });
+  };
+  if (molecule.color.by == By::kind && lacks(&Surface::toroidal) && lacks(&Surface::concave)) key.classes.resize(1);
+  if (molecule.beyond_map > 0.0 && key.scale) add_other(key, "outside of the map", key.scale->missing_color);
+  return key;
+}
+
+ColorKey key_of(const FrameRun& run, const Scene& scene) {
+  const Structure structure = numbered_reach(run);
+  ColorScheme color = color_of(scene.molecule);
+  DrawnAtoms drawn{std::vector<bool>(structure.atoms.size(), true), {}, true};
+  if (scene.molecule.show) {
+    drawn.atoms = scene.molecule.show->reach(shown_atoms(structure)).selected;
+    drawn.atoms.resize(structure.atoms.size());
+  }
+  if (!scene.legend.asked() && !scene.figure.objects.empty())
+    return figure_key(structure, color, std::move(drawn), {}, {});
+  if (color.by == By::lipophilicity) color.volume = lipophilicity_paint(structure, color);
+  return figure_key(structure, color, std::move(drawn), scene.figure, make_beside(structure, scene.figure, color));
+}
+
+}  // namespace meniscus
