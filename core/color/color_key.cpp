@@ -105,8 +105,8 @@ ColorKey scale_key(const Structure& structure, const ColorScheme& scheme, const 
   if (!scheme.of_points()) {
     keep_numbers(scale, atoms);
   } else if (scheme.by == By::lipophilicity) {
-    for (std::size_t a = 0; a < atoms.size(); ++a)
-      scale.missing += atoms[a] && std::isnan(lipophilicity(structure.atoms[a].residue_name, structure.atoms[a].name));
+    const std::vector<double> values = lipophilicities(structure);
+    for (std::size_t a = 0; a < atoms.size(); ++a) scale.missing += atoms[a] && std::isnan(values[a]);
   }
   const bool has_numbers = scheme.of_points() || scale.missing < scale.value.size();
   key.scale = std::move(scale);

@@ -26,7 +26,7 @@ namespace {
 using By = ColorScheme::By;
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-constexpr std::array<double, 2> kPlaces{0.0, 1.0}, kGrades{1.0, 9.0};  // in a chain; of ConSurf
+constexpr std::array<double, 2> kPlaces{0.0, 1.0}, kGrades{1.0, 9.0};  // in a chain, or of what can be; of ConSurf
 
 [[noreturn]] void no_atom_named(const Structure& structure, const NumberFile& file, const char* what,
                                 std::size_t count) {
@@ -153,7 +153,7 @@ std::vector<double> numbers_of(const Structure& structure, const ColorScheme& sc
   if (scheme.by == By::conservation) return grades_of(structure, scheme.file.of_frame(structure.frame));
   if (scheme.by == By::rainbow) return places_in_chains(structure);
   if (scheme.by == By::radial) return distances_from_middle(positions_of(structure));
-  if (scheme.by == By::buried || scheme.by == By::rmsf) return numbers_of_file(structure, scheme.file);
+  if (scheme.is_measured()) return numbers_of_file(structure, scheme.file);
   const auto number = [&](const Atom& atom) -> double {
     switch (scheme.by) {
       case By::bfactor:
@@ -200,6 +200,8 @@ ScaleWords words_of(By by) {
       return {"buried area", "Å²"};
     case By::rmsf:
       return {"fluctuation (RMSF)", "Å"};
+    case By::accessibility:
+      return {"relative accessibility (Tien et al. 2013)", ""};
     default:
       return {"number from file", ""};
   }
@@ -217,6 +219,9 @@ ScaleWords words_of(By by) {
       throw RequestError("--color rmsf measures fluctuations over frames; add --frames all");
     case By::buried:
       throw RequestError("buried areas colour the whole surface; choose --color buried, or another colour for EXPR");
+    case By::accessibility:
+      throw InputError(structure.file, 0,
+                       "has no complete amino acids, so there is no relative accessibility; choose another --color");
     case By::rainbow:
       throw InputError(structure.file, 0,
                        "has no chains of amino acids or nucleotides to colour along; choose another --color");
@@ -238,7 +243,7 @@ ColorMap default_map(By by) {
 
 std::array<double, 2> automatic_range(const std::vector<double>& defined, By by) {
   if (by == By::hydrophobicity) return {-4.5, 4.5};
-  if (by == By::rainbow) return kPlaces;
+  if (by == By::rainbow || by == By::accessibility) return kPlaces;
   if (by == By::conservation) return kGrades;
   const auto [low, high] = std::ranges::minmax(defined);
   if (by == By::buried || by == By::rmsf) return {0.0, high};
@@ -281,7 +286,7 @@ ColorScale color_scale(const Structure& structure, const ColorScheme& scheme) {
   scale.map = scheme.map.value_or(default_map(scheme.by));
   scale.own_map = scheme.own_map;
   scale.missing_color = scheme.missing.value_or(default_missing_color(scale.map));
-  if ((scheme.by == By::buried || scheme.by == By::rmsf) && scheme.file.numbers.empty()) no_numbers(structure, scheme);
+  if (scheme.is_measured() && scheme.file.numbers.empty()) no_numbers(structure, scheme);
   scale.value = numbers_of(structure, scheme);
   std::vector<double> defined;
   std::ranges::copy_if(scale.value, std::back_inserter(defined), [](double number) { return !std::isnan(number); });

@@ -148,7 +148,7 @@ void choose_atoms(std::vector<Atom>& atoms, const std::vector<bool>& sites, std:
   const std::vector<bool> of_kept_altlocs = kept_alternates(atoms, options.altloc, report.warnings);
   leave_out(atoms, beside, report, [&](std::size_t n) -> const char* {
     if (!of_kept_altlocs[n]) return kExcludedAltloc;
-    const bool is_site = (n < sites.size() && sites[n]) || is_virtual_site(atoms[n]);
+    const bool is_site = (atoms[n].index < sites.size() && sites[atoms[n].index]) || is_virtual_site(atoms[n]);
     return !radii.from_molecule_file() && is_site ? kExcludedVirtual : nullptr;
   });
   if (options.secondary_structure) assign_secondary_structure(atoms);
