@@ -169,7 +169,11 @@ class OBJECT_OT_meniscus_look(bpy.types.Operator):
         if name not in item.data.attributes:
             self.report({"ERROR"}, f"{item.name} has no attribute {name}")
             return {"CANCELLED"}
-        looks.dress(item, self.look, self.coloring)
+        try:
+            looks.dress(item, self.look, self.coloring)
+        except mns_reader.MnsError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
         if self.lines:
             looks.add_lines(context, item)
         return {"FINISHED"}
