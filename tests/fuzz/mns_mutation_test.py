@@ -92,7 +92,7 @@ def check_file(path):
         assert all(isinstance(part["kind"], str) for part in surface.header["components"])
         assert len(surface.header["mesh"]["origin"]) == 3
         mns_reader.is_closed(triangle)
-        mns_reader.signed_volume(surface["mesh.position"], triangle)
+        samples.signed_volume(surface["mesh.position"], triangle)
         check_arrays(file, surface)
 
 

@@ -9,6 +9,8 @@ import struct
 import subprocess
 import zlib
 
+import numpy as np
+
 #: A ring, two drops with tips, every kind of patch, and a shell around a cavity (an icosahedron of carbon).
 MOLECULES = {
     "pair": [(0, 0, 0, 1.7), (4.0, 0, 0, 1.7)],
@@ -184,8 +186,6 @@ ODD_VALUES = [None, True, 0, -1, 1.5, 2**31, 2**32, 2**63, 10**30, 10**400, -0.0
 
 def small_surface(is_cut):
     """A tetrahedron of one atom as a whole file, whose header has every key that the add-on reads; with velocities, or cut with a cap."""
-    import numpy as np
-
     arrays = {
         "mesh.position": np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]], "<f4"),
         "mesh.normal": np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]], "<f4"),
@@ -241,3 +241,22 @@ def odd_headers(data):
             else:
                 holder[place[-1]] = copy.deepcopy(odd)
             yield f"{'.'.join(map(str, place))}: {str(odd)[:40]!r}", with_header(data, changed, struct.unpack_from("<I", data, 8)[0])
+
+
+def signed_volume(positions, triangles):
+    """Å³; positive when the triangles face outwards."""
+    p = positions.astype(np.float64)
+    a, b, c = (p[triangles[:, k]] for k in range(3))
+    return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6.0)
+
+
+def corner_normals(mesh):
+    """The normals that Blender will shade a mesh of its own with, (corners, 3)."""
+    normals = np.empty(3 * len(mesh.loops), dtype=np.float32)
+    if hasattr(mesh, "calc_normals_split"):
+        mesh.calc_normals_split()
+        mesh.loops.foreach_get("normal", normals)
+        mesh.free_normals_split()
+    else:
+        mesh.corner_normals.foreach_get("vector", normals)
+    return normals.reshape(-1, 3)

@@ -12,12 +12,12 @@ told = reprlib.repr
 
 
 def is_number(value, low=-TOO_LARGE, high=TOO_LARGE):
-    """True of a finite number from low to high that is no truth value."""
+    """True of a finite number from low to high; of True and False it is false."""
     return type(value) in (int, float) and low <= value <= high
 
 
 def are_numbers(values, count, low=-TOO_LARGE, high=TOO_LARGE):
-    """True of a list of so many such numbers."""
+    """True of a list of `count` such numbers."""
     return isinstance(values, list) and len(values) == count and all(is_number(value, low, high) for value in values)
 
 

@@ -103,13 +103,13 @@ def _fill(material, kind, hatching, looks):
 
 
 def opacity_of(tree, kind, beside):
-    """The socket of what a surface of a kind covers of what lies behind it, of nodes near another."""
+    """The socket with the opacity of a surface of a kind. beside: the node near which its nodes are put."""
     opacity = _attribute(tree, "opacity", beside, -320).outputs["Fac"]
     return _through_a_film(tree, opacity) if kind == FILM else opacity
 
 
 def let_through(tree, kind, surface, beside):
-    """The output of a shader that covers as much of what lies behind it as one of a kind: what Alpha is to a Principled shader."""
+    """The output of a shader that shows `surface` with the opacity of its kind: what Alpha is to a Principled shader."""
     mix = tree.nodes.new("ShaderNodeMixShader")
     mix.location = (beside.location[0] + 200, beside.location[1] - 200)
     tree.links.new(opacity_of(tree, kind, beside), mix.inputs[0])

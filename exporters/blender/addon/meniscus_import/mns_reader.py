@@ -264,7 +264,7 @@ def _check(surface):
     if "caps" in surface.header:
         _check_caps(surface)
     elif "mesh.cap_plane" in arrays:
-        raise MnsError(f"{path}: array mesh.cap_plane is there, but the header tells of no caps")
+        raise MnsError(f"{path}: array mesh.cap_plane is there, but the header has no caps")
     if ("mesh.map_value" in arrays) != ("mesh.map_color" in arrays):
         raise MnsError(f"{path}: of mesh.map_value and mesh.map_color one is missing")
     opacity = arrays.get("atom.opacity")
@@ -316,7 +316,7 @@ def _check_values(surface):
 
 
 def _check_caps(surface):
-    """Raises MnsError if a cap lies on no plane, or hatching has not a direction for each plane."""
+    """Raises MnsError if a cap lies on no plane, or if hatching lacks a direction for a plane."""
     path, caps = surface.path, surface.header["caps"]
     planes = caps["planes"]
     if "hatching" in caps and len(caps["hatching"]["across"]) != len(planes):
@@ -342,10 +342,3 @@ def is_closed(triangles):
     if (forward[1:] == forward[:-1]).any() or (a == b).any():
         return False
     return np.array_equal(forward, np.sort(b << np.uint64(32) | a))
-
-
-def signed_volume(positions, triangles):
-    """Å³; positive when the triangles face outwards."""
-    p = positions.astype(np.float64)
-    a, b, c = (p[triangles[:, k]] for k in range(3))
-    return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6.0)

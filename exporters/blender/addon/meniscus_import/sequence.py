@@ -185,34 +185,30 @@ def bake(path, context=None, progress=None, **options):
     context = context or bpy.context
     run = Run(path, context, **options)
     sequence, placement = run.sequence, run.placement
-    store = bpy.data.collections.new(sequence.stem + ".frames")
-    collection = bpy.data.collections.new(sequence.stem)
-    camera = item = None
+    camera = None
     try:
-        if run.import_camera:
-            camera = add_camera(collection, placement)
-        for scene_frame in range(1, len(sequence.frames) + 1):
-            # Geometry Nodes sort a collection by name; short names, since Blender cuts long ones.
-            mesh = bpy.data.meshes.new(f"{sequence.stem[:40]}.{scene_frame:07d}")
-            store.objects.link(bpy.data.objects.new(mesh.name, mesh))
-            if scene_frame < len(sequence.frames):
-                _ahead.ask(placement, scene_frame + 1)
-            prepared = placement.refill(mesh, scene_frame)
-            if camera is not None:
-                build.reach_all(camera, prepared.points, placement.scale, placement.origin)
-            if progress:
-                progress(scene_frame, len(sequence.frames))
-        item = frame_picker.add(sequence.stem + ".surface", store, len(sequence.frames), placement.timing)
-        remember(item, placement)
-        collection.objects.link(item)
-    except BaseException:
-        remove([item, camera, *store.objects], [store, collection], placement.new_materials)
-        raise
+        with build.whole_or_nothing():
+            store = bpy.data.collections.new(sequence.stem + ".frames")
+            collection = bpy.data.collections.new(sequence.stem)
+            if run.import_camera:
+                camera = add_camera(collection, placement)
+            for scene_frame in range(1, len(sequence.frames) + 1):
+                # Geometry Nodes sort a collection by name; short names, since Blender cuts long ones.
+                mesh = bpy.data.meshes.new(f"{sequence.stem[:40]}.{scene_frame:07d}")
+                store.objects.link(bpy.data.objects.new(mesh.name, mesh))
+                if scene_frame < len(sequence.frames):
+                    _ahead.ask(placement, scene_frame + 1)
+                prepared = placement.refill(mesh, scene_frame)
+                if camera is not None:
+                    build.reach_all(camera, prepared.points, placement.scale, placement.origin)
+                if progress:
+                    progress(scene_frame, len(sequence.frames))
+            item = frame_picker.add(sequence.stem + ".surface", store, len(sequence.frames), placement.timing)
+            remember(item, placement)
+            collection.objects.link(item)
     finally:
         _ahead.forget()
-    context.scene.collection.children.link(collection)
-    collection.children.link(store)
-    exclude(context.view_layer.layer_collection, store)
+    context.scene.collection.children.link(collection)  # without the store: what is hidden in one view layer shows in others
     run.finish(context, item, camera, [each.data for each in store.objects])
     return item
 
@@ -223,11 +219,11 @@ def stream(path, context=None, **options):
     context = context or bpy.context
     run = Run(path, context, **options)
     sequence, placement = run.sequence, run.placement
-    collection = bpy.data.collections.new(sequence.stem)
-    mesh = bpy.data.meshes.new(sequence.stem + ".surface")
-    item = bpy.data.objects.new(mesh.name, mesh)
     camera = None
-    try:
+    with build.whole_or_nothing():
+        collection = bpy.data.collections.new(sequence.stem)
+        mesh = bpy.data.meshes.new(sequence.stem + ".surface")
+        item = bpy.data.objects.new(mesh.name, mesh)
         collection.objects.link(item)
         prepared = placement.refill(mesh, 1)
         mesh["meniscus_shown"] = shown_key(sequence, 1)
@@ -241,33 +237,11 @@ def stream(path, context=None, **options):
         item["meniscus_start"], item["meniscus_speed"] = placement.timing.start, placement.timing.speed
         item["meniscus_outside"] = placement.timing.outside
         item["meniscus_by_hand"], item["meniscus_frame"] = False, 1.0
-    except BaseException:
-        remove([item, camera], [collection], placement.new_materials)
-        raise
     context.scene.collection.children.link(collection)
     context.scene.render.use_lock_interface = True  # the window must not read a mesh that a render refills
     run.finish(context, item, camera, [mesh])
     show_frame(context.scene)
     return item
-
-
-def exclude(layer, collection):
-    for child in layer.children:
-        if child.collection == collection:
-            child.exclude = True
-        exclude(child, collection)
-
-
-def remove(items, collections, new_materials):
-    for item in items:
-        if item is not None:
-            data = item.data
-            bpy.data.objects.remove(item)
-            (bpy.data.cameras if isinstance(data, bpy.types.Camera) else bpy.data.meshes).remove(data)
-    for collection in collections:
-        bpy.data.collections.remove(collection)
-    for material in new_materials:
-        bpy.data.materials.remove(material)
 
 
 _manifests = frames.Manifests()
