@@ -21,7 +21,7 @@ from meniscus_import import attributes, build, compat, looks, materials, mns_rea
 SIZE = 48
 WAX_GRAIN = 0.14  # standard deviation of a channel, of the mean
 #: Shares of the pixels that show glass.
-GLASS_EDGES, GLASS_DOTS = 0.006 if bpy.app.version[0] == 4 else 0.01, 0.002  # 4.2: 0.0087, 4.5: 0.0085; in a room that is bright everywhere: 0
+GLASS_EDGES, GLASS_DOTS = 0.006, 0.002  # 4.2: 0.0087, 4.5: 0.0085, 5.3: 0.0084; in a room that is bright everywhere: 0
 
 
 def pixel_of(_item):

@@ -10,7 +10,7 @@ import bpy
 import mathutils
 import numpy as np
 
-from . import attributes, compat, frames, joined, looks, materials, mns_reader
+from . import attributes, compat, frames, joined, libraries, looks, materials, mns_reader
 from .mesh_arrays import NAMES, OURS, names_of, of_surface
 
 #: Two molecules with as many atoms are the same one if they have so many.
@@ -99,6 +99,7 @@ def add_copy(mesh, copy, surface, path, file, options, origin, part=None):
     item.matrix_world = placement(copy, options.scale, origin)
     set_provenance(item, surface, options, names_of(*file.objects))
     item["meniscus_file"] = remembered_path(path)
+    libraries.note(item)
     item["meniscus_part"] = part or next(name for name, each in parts_of(file, False) if each is surface)
     item["meniscus_atoms"] = sum(len(each["atom.center"]) for each in file.objects)
     item["meniscus_origin"] = [float(value) for value in origin]
@@ -122,7 +123,7 @@ def reload(item, context=None):
     context = context or bpy.context
     if item is None or "meniscus_file" not in item:
         raise mns_reader.MnsError("the active object was not imported from a .mns file")
-    path = bpy.path.abspath(item["meniscus_file"])
+    path = libraries.path_of(item, "meniscus_file")
     file = mns_reader.read(path)
     options = Options(scale=item["meniscus_scale"], crisp_colors=bool(item["meniscus_crisp"]), parts=bool(item["meniscus_parts"]))
     surface = dict(parts_of(file, options.parts)).get(item["meniscus_part"])

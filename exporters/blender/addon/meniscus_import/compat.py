@@ -259,6 +259,16 @@ def input_identifier(tree, name):
     return next(socket.identifier for socket in sockets if socket.name == name)
 
 
+def identity(item):
+    """A number that tells an object or mesh from all others as long as Blender runs, whatever it is called: through undo, too, since 4.2."""
+    return item.session_uid if hasattr(item, "session_uid") else item.as_pointer()
+
+
+def of_identity(number):
+    """The object with an identity, or None."""
+    return next((item for item in bpy.data.objects if identity(item) == number), None)
+
+
 def set_input(modifier, name, value):
     """Sets an input of a node group in its modifier: a custom property before 5.2, then a property of Blender."""
     identifier = input_identifier(modifier.node_group, name)
