@@ -85,8 +85,8 @@ def change(item, probe):
     while computed._process.is_busy():
         computed._deliver(computed._process.take(1.0))
     note("change", began)
-    if item.get(computed.ERROR):
-        sys.exit(f"probe {probe:.2f}: {item[computed.ERROR]}")
+    if item.get("meniscus_error"):
+        sys.exit(f"probe {probe:.2f}: {item["meniscus_error"]}")
 
 
 def measure(item, changes):
@@ -148,7 +148,7 @@ def main(words):
     item = surface(options)
     if options.trajectory:
         item.meniscus.outside = "LOOP"
-        play(item, computed.frame_count(item), lambda: item[computed.ERROR], lambda: computed._process._child)
+        play(item, computed.frame_count(item), lambda: item["meniscus_error"], lambda: computed._process._child)
     else:
         measure(item, options.changes)
     computed.end()

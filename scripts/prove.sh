@@ -54,7 +54,7 @@ rows=(
   "zink|tests of GPU and pictures on a second GL driver|$zink ctest --test-dir build/test -L gpu|image -E SecondDriver --timeout 900 -j $jobs"
   "python|the wheel in a fresh environment, with other packages from PyPI|bash scripts/test_wheel.sh"
   "notebooks|pages and widgets in a real JupyterLab, views of MolViewSpec in Mol*, from PyPI and npm|bash scripts/notebooks.sh build/test"
-  "blenders|the Blender add-on in Blender 4.2, 4.5 and 5.0 with Molecular Nodes, from PyPI|bash scripts/newer_blenders.sh build/test/meniscus"
+  "blenders|the Blender add-on in Blender 4.2 to 5.3, with Molecular Nodes up to 5.0, from PyPI|bash scripts/newer_blenders.sh build/test/meniscus"
   "schedulers|files of docs/reference/schedulers.md in HTCondor's, Kubernetes', AWS' and OpenJD's own code, and in Nextflow|bash scripts/schedulers.sh build/test/meniscus"
   "meshes|PyPI's PyMOL and PyVOL; mesh files in OpenUSD, PrusaSlicer, VTK and Khronos' glTF validator|bash scripts/more_mesh_readers.sh build/test/meniscus"
   "renderers|scenes for path tracers in Mitsuba 3 itself, from PyPI, beside the ray caster|bash scripts/film_renderers.sh build/test/meniscus"

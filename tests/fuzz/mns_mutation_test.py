@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Damaged .mns files and manifests for the readers of the Blender add-on: arguments ADDON_FOLDER [CASES [SEED]].
 
-Bytes, numbers of arrays, and values of the header change by a seeded generator, the checksum always being right. What
-is read then must be sound; what is refused must be refused with MnsError, which names the file."""
+Each value of a header is replaced by each odd value. Bytes, numbers of arrays, and values of headers also change by a seeded
+generator. The checksum is always right. What is read then must be sound; what is refused must be refused with MnsError, which
+names the file."""
 
 import copy
 import json
@@ -12,70 +13,31 @@ import struct
 import sys
 import tempfile
 import traceback
+import types
+import warnings
 
 ADDON = sys.argv[1]
 CASES = int(sys.argv[2]) if len(sys.argv) > 2 else 4000
 SEED = int(sys.argv[3]) if len(sys.argv) > 3 else 11
-sys.path[:0] = [os.path.join(ADDON, "meniscus_import"),
-                os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "export", "blender")]
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "export", "blender"))
+package = sys.modules["meniscus_import"] = types.ModuleType("meniscus_import")  # without the add-on itself, which needs Blender
+package.__path__ = [os.path.join(ADDON, "meniscus_import")]
 
 import numpy as np  # noqa: E402
 
-import mns_reader  # noqa: E402
 import samples  # noqa: E402
-import sequence_reader  # noqa: E402
+from meniscus_import import joined, mesh_arrays, mns_reader, sequence_reader, storyboard_reader  # noqa: E402
 
-#: What takes the place of a value; "deep" is nested beyond any stack.
-ODD_VALUES = [None, True, 0, -1, 1.5, 2**31, 2**32, 2**63, 10**30, 10**400, -0.0, 1e308, float("nan"), float("inf"), "",
-              "nan", "\u0000", [], {}, [[]], [1, 2], [1e200] * 12, [0] * 3, ["a"] * 3, [10**400] * 3, [[0] * 12],
-              [[0] * 24], [[float("nan")] * 12], [{}], "<i4", "<f4", "|u1"]
-
-
-def small_surface():
-    """A tetrahedron of one atom, as a whole file."""
-    arrays = {
-        "mesh.position": np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]], "<f4"),
-        "mesh.normal": np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]], "<f4"),
-        "mesh.triangle": np.array([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]], "<u4"),
-        "mesh.kind": np.zeros(4, "|u1"), "mesh.patch": np.zeros(4, "<u4"), "mesh.component": np.zeros(4, "<u4"),
-        "mesh.atom": np.zeros(4, "<u4"), "mesh.sharp_corner": np.array([5], "<u4"),
-        "mesh.sharp_corner_normal": np.array([[0, 0, 1]], "<f4"), "mesh.sharp_edge": np.array([[0, 1]], "<u4"),
-        "mesh.velocity": np.zeros((4, 3), "<f4"),
-        "atom.center": np.zeros((1, 3), "<f8"), "atom.radius": np.ones(1, "<f8"), "atom.color": np.ones((1, 3), "<f4"),
-        "atom.index": np.zeros(1, "<u4"), "atom.chain_id": np.zeros(1, "<u4"),
-    }
-    body, entries = b"", []
-    for name, array in arrays.items():
-        entries.append({"name": "0/" + name, "type": array.dtype.str, "rows": len(array),
-                        "columns": 1 if array.ndim == 1 else array.shape[1], "offset": len(body)})
-        body += array.tobytes().ljust((array.nbytes + 63) // 64 * 64, b"\0")
-    header = {"generator": "test", "probe_radius": 1.4, "arrays": entries,
-              "objects": [{"name": "A", "prefix": "0/", "copies": [mns_reader.IDENTITY], "chain_names": ["A"],
-                           "components": [{"kind": "outer", "euler": 2}],
-                           "mesh": {"vertices": 4, "triangles": 4, "origin": [0.0, 0.0, 0.0], "closed": True}}]}
-    prologue = mns_reader.MAGIC + struct.pack("<IIQQ", 2, 0, 0, 0)
-    text = b"{}".ljust(64)
-    return samples.with_header(prologue[:16] + struct.pack("<Q", len(text)) + bytes(40) + text + body, header)
-
+warnings.simplefilter("error")  # a number that overflows shows as another one
 
 def small_manifest():
-    camera = {"position": [0, 0, 9], "target": [0, 0, 0], "up": [0, 1, 0], "projection": "perspective",
-              "vertical_fov": 30, "size": [64, 48]}
     return {"format": "meniscus surface sequence", "version": 1, "run": "r", "origin": [0, 0, 0], "scale": 0.1,
-            "fps": 24, "camera": camera, "frames": [{"frame": n, "file": f"surface_{n:05}.mns"} for n in range(3)]}
-
-
-def places_in(value, place=()):
-    """The paths to all values of a tree of dicts and lists but its root."""
-    for key, inner in value.items() if isinstance(value, dict) else enumerate(value):
-        yield place + (key,)
-        if isinstance(inner, (dict, list)):
-            yield from places_in(inner, place + (key,))
+            "fps": 24, "camera": samples.CAMERA, "atoms": 1, "source": {"file": "a.pdb"}, "frames": [{"frame": n, "file": f"surface_{n:05}.mns"} for n in range(3)]}
 
 
 def with_odd_value(tree, rng):
     tree = copy.deepcopy(tree)
-    place = rng.choice(list(places_in(tree)))
+    place = rng.choice(list(samples.places_in(tree)))
     holder = tree
     for key in place[:-1]:
         holder = holder[key]
@@ -85,7 +47,7 @@ def with_odd_value(tree, rng):
     elif action == 1 and isinstance(holder, list):
         holder.append(copy.deepcopy(holder[place[-1]]))
     else:
-        holder[place[-1]] = copy.deepcopy(rng.choice(ODD_VALUES))
+        holder[place[-1]] = copy.deepcopy(rng.choice(samples.ODD_VALUES))
     return tree
 
 
@@ -130,7 +92,21 @@ def check_file(path):
         assert all(isinstance(part["kind"], str) for part in surface.header["components"])
         assert len(surface.header["mesh"]["origin"]) == 3
         mns_reader.is_closed(triangle)
-        mns_reader.signed_volume(surface["mesh.position"], triangle)
+        samples.signed_volume(surface["mesh.position"], triangle)
+        check_arrays(file, surface)
+
+
+def check_arrays(file, surface):
+    """What is made of a surface before Blender gets it: finite numbers, of the object alone and joined."""
+    try:
+        parts = [surface, joined.joined(file, np.zeros(3)), *(part for _, part in joined.by_role(surface))]
+        for part in parts:
+            arrays = mesh_arrays.of_surface(part, 0.1, True, mesh_arrays.names_of(part))
+            assert all(np.isfinite(values).all() for values in (arrays.positions, *(each[3] for each in arrays.attributes)))
+            assert all(abs(float(part.header.get(key, 0.0))) < 1e38 for key in ("probe_radius", "area", "volume"))
+            part.header.get("source", {}).get("file", "")
+    except mns_reader.MnsError as error:
+        assert file.objects[0].path in str(error), error
 
 
 def check_manifest(path):
@@ -138,7 +114,23 @@ def check_manifest(path):
     assert np.isfinite(sequence.origin).all() and sequence.scale > 0 and sequence.fps > 0
     folder = os.path.dirname(path)
     assert all(os.path.dirname(frame.path) == folder for frame in sequence.frames)
+    int(sequence.header.get("atoms", 0)), sequence.header.get("source", {}).get("file", ""), sequence.run.encode(), round(sequence.fps)
+    assert all(type(value) is int for frame in sequence.frames for value in (frame.camera or {}).get("size", ()))
     assert sequence_reader.Timing().place(1.0, len(sequence.frames)) == 1 and isinstance(sequence.camera_moves, bool)
+
+
+def small_storyboard():
+    scenes = [{"name": f"scene {n}", "title": "A", "file": f"{n}.mns", "first": 10 * n + 1, "last": 10 * n + 5, "camera": samples.CAMERA,
+               "background": [1.0, 1.0, 1.0]} for n in range(2)]
+    return {"format": "meniscus storyboard", "version": 1, "origin": [0, 0, 0], "scale": 0.1, "fps": 24, "ease": "smooth", "scenes": scenes}
+
+
+def check_storyboard(path):
+    board = storyboard_reader.read(path)
+    assert np.isfinite(board.origin).all() and 0 < board.scale < 1e10 and 0 < board.fps < 1e10
+    for scene in board.scenes:
+        (scene.name + scene.title).encode()
+        assert all(type(value) is int for value in scene.camera.get("size", ()))
 
 
 def holds(check, path):
@@ -158,32 +150,41 @@ def holds(check, path):
 
 def main():
     rng = random.Random(SEED)
-    data, manifest = small_surface(), small_manifest()
-    failures = cases = refused = 0
+    data, cut, manifest, story = samples.small_surface(False), samples.small_surface(True), small_manifest(), small_storyboard()
+    failures = cases = 0
     with tempfile.TemporaryDirectory() as folder:
-        path, list_path = os.path.join(folder, "a.mns"), os.path.join(folder, "a.json")
+        path, list_path, story_path = (os.path.join(folder, name) for name in ("a.mns", "a.json", "story.json"))
 
-        def try_bytes(target, content, check):
+        def try_bytes(target, content, check, words=""):
             nonlocal cases, failures
             with open(target, "wb") as file:
                 file.write(content)
             cases += 1
             if not holds(check, target):
                 failures += 1
-                print(f"case {cases} of seed {SEED}")
+                print(f"case {cases} of seed {SEED} {words}")
 
-        try_bytes(path, data, check_file)
-        mns_reader.read(path)  # the sample itself is sound
+        for sound in (data, cut):
+            try_bytes(path, sound, check_file)
+            mns_reader.read(path)  # the sample itself is sound
         try_bytes(path, deeply_nested(data), check_file)
         try_bytes(list_path, json.dumps(manifest).encode(), check_manifest)
         sequence_reader.read(list_path)
         try_bytes(list_path, b"[" * 200_000, check_manifest)
-        while cases < CASES and failures < 10:
-            if rng.random() < 0.75:
-                try_bytes(path, damaged(data, rng), check_file)
-            else:
+        try_bytes(story_path, json.dumps(story).encode(), check_storyboard)
+        storyboard_reader.read(story_path)
+        for sound in (data, cut):
+            for words, odd in samples.odd_headers(sound):
+                try_bytes(path, odd, check_file, words)
+        for _ in range(CASES if failures < 10 else 0):
+            what = rng.random()
+            if what < 0.7:
+                try_bytes(path, damaged(rng.choice((data, cut)), rng), check_file)
+            elif what < 0.85:
                 odd = with_odd_value(with_odd_value(manifest, rng), rng)
                 try_bytes(list_path, json.dumps(odd).encode(), check_manifest)
+            else:
+                try_bytes(story_path, json.dumps(with_odd_value(story, rng)).encode(), check_storyboard)
     print(f"cases {cases} failures {failures}")
     return 1 if failures else 0
 

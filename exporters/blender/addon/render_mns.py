@@ -107,6 +107,8 @@ def check_together(parser, options):
         parser.error("--scale is not a positive number")
     if options.motion_blur is not None and not 0 < options.motion_blur <= 2:
         parser.error("--motion-blur is not between 0 and 2 frames")
+    if options.style == "flat" and options.look not in (None, "flat"):
+        parser.error(f"--style flat has no light, which --look {options.look} needs")
     if options.engine == "eevee" and options.motion_blur:
         parser.error("Eevee does not blur by velocities; --motion-blur is for --engine cycles")
     if not options.is_sequence:
@@ -128,14 +130,16 @@ def empty_scene():
 
 
 def lamps_of(camera, style, look):
-    """Those of a style; the key light of the studio casts the shadows that the file asks for, as dark and as soft: a share of it."""
+    """Those of a style; the key light casts the shadows that the file asks for, as dark and as soft: a share of it."""
     lamps = LIGHTS[style]
-    if look == "glass":
-        lamps = ((*lamps[0][:2], GLASS_LAMP),)
     share, angle = camera.get("meniscus_shadows", 0.0), 2.0 * camera.get("meniscus_shadow_softness", 0.0)
-    if style != "studio" or share == 0.0:
+    if look in ("glass", "flat") or style == "flat":
+        if share > 0.0:
+            sys.stderr.write("render_mns: note: the scene's shadows are left out: " + ("glass has a light of its own\n" if look == "glass" else "flat has no light\n"))
+        return ((*lamps[0][:2], GLASS_LAMP),) if look == "glass" else lamps
+    if share == 0.0:
         return lamps
-    direction, color = lamps[0]
+    direction, color = lamps[0][:2]
     cast, even = (tuple(strength * part for part in color) for strength in (share, 1.0 - share))
     return ((direction, cast, angle), (direction, even), *lamps[1:])
 

@@ -61,7 +61,7 @@ class Import(unittest.TestCase):
             self.assertEqual(len(mesh.vertices), surface.header["mesh"]["vertices"])
             self.assertEqual(len(mesh.edges), len(mesh.polygons) * 3 // 2)
             self.assertTrue(mns_reader.is_closed(triangles(mesh)))
-            volume = mns_reader.signed_volume(positions(mesh), triangles(mesh))
+            volume = samples.signed_volume(positions(mesh), triangles(mesh))
             self.assertAlmostEqual(volume / surface.header["mesh"]["volume"], 1.0, places=5)
             self.assertAlmostEqual(volume / surface.header["volume"], 1.0, delta=0.01)
             self.assertAlmostEqual(sum(p.area for p in mesh.polygons) / surface.header["area"], 1.0, delta=0.01)
@@ -241,7 +241,7 @@ class Import(unittest.TestCase):
         mesh.attributes["Color"].data.foreach_get("color_srgb", color)
         red = (np.abs(color.reshape(-1, 3, 4) - [1, 0, 0, 1]).max(axis=2) < 0.01).all(axis=1)
         np.testing.assert_array_equal(red, cap)
-        normals = compat.corner_normals(mesh).reshape(-1, 3, 3)[cap]
+        normals = samples.corner_normals(mesh).reshape(-1, 3, 3)[cap]
         np.testing.assert_allclose(normals, np.broadcast_to([0, 0, 1], normals.shape), atol=2e-3)
         stripe = np.empty(len(mesh.loops), dtype=np.float32)
         mesh.attributes["cap_stripe"].data.foreach_get("value", stripe)
@@ -332,13 +332,13 @@ class Import(unittest.TestCase):
         for role, item in items.items():
             mesh = item.data
             self.assertTrue(mns_reader.is_closed(triangles(mesh)))
-            volumes[role] = mns_reader.signed_volume(positions(mesh), triangles(mesh))
+            volumes[role] = samples.signed_volume(positions(mesh), triangles(mesh))
             self.assertAlmostEqual(volumes[role] / item["meniscus_volume"], 1.0, delta=0.01)
         self.assertGreater(volumes["outer"], 0.0)
         self.assertLess(volumes["cavities"], 0.0)
-        self.assertAlmostEqual(sum(volumes.values()), mns_reader.signed_volume(positions(whole), triangles(whole)), places=2)
-        normals = {role: compat.corner_normals(item.data) for role, item in items.items()}
-        together = compat.corner_normals(whole)
+        self.assertAlmostEqual(sum(volumes.values()), samples.signed_volume(positions(whole), triangles(whole)), places=2)
+        normals = {role: samples.corner_normals(item.data) for role, item in items.items()}
+        together = samples.corner_normals(whole)
         outer = np.repeat(np.array([p.material_index == 0 for p in whole.polygons]), 3)
         np.testing.assert_allclose(normals["outer"], together[outer], atol=2e-3)
         np.testing.assert_allclose(normals["cavities"], together[~outer], atol=2e-3)
@@ -405,7 +405,7 @@ class Import(unittest.TestCase):
             mesh = imported(name).data
             wanted = surface["mesh.normal"][surface["mesh.triangle"].ravel()].copy()
             wanted[surface["mesh.sharp_corner"]] = surface["mesh.sharp_corner_normal"]
-            cosine = np.clip((compat.corner_normals(mesh) * wanted).sum(axis=1), -1, 1)
+            cosine = np.clip((samples.corner_normals(mesh) * wanted).sum(axis=1), -1, 1)
             angle = np.degrees(np.arccos(cosine))
             self.assertLess(np.mean(angle), 0.05)
             self.assertLess(np.percentile(angle, 99), 0.25)

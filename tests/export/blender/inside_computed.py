@@ -22,7 +22,7 @@ from meniscus_import import attributes, build, compat, computed, mns_reader, mol
 def signed_volume(item):
     corner = np.empty(len(item.data.loops), dtype=np.int32)
     item.data.loops.foreach_get("vertex_index", corner)
-    return mns_reader.signed_volume(positions(item.data) / item.meniscus.scale, corner.reshape(-1, 3))
+    return samples.signed_volume(positions(item.data) / item.meniscus.scale, corner.reshape(-1, 3))
 
 
 def atoms_object(name="atoms", scale=0.01, molecule="triple"):

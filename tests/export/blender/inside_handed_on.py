@@ -17,7 +17,7 @@ FOLDER, ADDON, HERE, BLENDER, PROGRAM = sys.argv[sys.argv.index("--") + 1:]
 sys.path.insert(0, HERE)
 import samples  # noqa: E402
 
-from meniscus_import import compat, computed, mns_reader, sequence, sequence_reader  # noqa: E402
+from meniscus_import import computed, sequence, sequence_reader  # noqa: E402
 
 MANIFEST = os.path.join(FOLDER, "run", "surface_sequence.json")
 FRAMES = (1, 2, 3)
@@ -105,7 +105,7 @@ def half_box(item):
 def world_normals(item):
     """Of the corners of what it shows, in the scene."""
     item = item.evaluated_get(bpy.context.evaluated_depsgraph_get())
-    return compat.corner_normals(item.data) @ np.array(item.matrix_world.to_3x3().normalized()).T
+    return samples.corner_normals(item.data) @ np.array(item.matrix_world.to_3x3().normalized()).T
 
 
 class HandedOn(unittest.TestCase):
@@ -130,7 +130,7 @@ class HandedOn(unittest.TestCase):
                 for time in FRAMES:
                     mesh = shown(item, time)
                     self.assertEqual(open_edges(mesh), 0, f"{way} {chosen} {time}")
-                    rows.append((len(mesh.polygons), mns_reader.signed_volume(positions_of(mesh), triangles_of(mesh))))
+                    rows.append((len(mesh.polygons), samples.signed_volume(positions_of(mesh), triangles_of(mesh))))
                 self.assertEqual(len({volume for _, volume in rows}), len(FRAMES), f"{way} {chosen}")
                 found[chosen] = rows
             self.assertEqual([count for count, _ in found["whole"]], self.counts, way)

@@ -12,7 +12,7 @@ import numpy as np
 sys.path.insert(0, sys.argv[sys.argv.index("--") + 3])
 import samples  # noqa: E402
 from computed_case import FOLDER, TRIPLE, UBIQUITIN, ComputedCase, measures, of_file, positions, update, wanted  # noqa: E402
-from meniscus_import import computed, motion  # noqa: E402
+from meniscus_import import compat, computed, motion  # noqa: E402
 from meniscus_import.computing import preparation  # noqa: E402
 
 
@@ -68,7 +68,7 @@ class Prepared(ComputedCase):
         computed._come_to_rest()  # too early
         self.assertFalse(computed.working().is_busy())
         with unittest.mock.patch.object(motion, "REST", 0.0):
-            motion.moves(item.name)
+            motion.moves(compat.identity(item))
         with unittest.mock.patch.object(motion, "is_playing", return_value=True):
             computed._come_to_rest()
         self.assertFalse(computed.working().is_busy())
@@ -92,7 +92,7 @@ class Prepared(ComputedCase):
         self.assertGreater(len(item.data.polygons), 2 * proxy)
         item.meniscus.detail, item.meniscus.probe = "FINE", 1.9
         computed.ask(item, in_motion=True)
-        self.assertFalse(motion.is_moving(item.name))
+        self.assertFalse(motion.is_moving(compat.identity(item)))
 
     def test_frames_that_play_are_proxies_and_pictures_are_not(self):
         item = of_file(samples.UBIQUITIN, detail="AUTO", selection="resi 1-15", is_run=True)
@@ -103,7 +103,7 @@ class Prepared(ComputedCase):
             self.assertEqual(item["meniscus_error"], "")
             counts.append(len(item.data.polygons))
         self.assertLess(2 * counts[1], min(counts[0], counts[2]))
-        self.assertFalse(motion.is_moving(item.name))
+        self.assertFalse(motion.is_moving(compat.identity(item)))
 
     def test_solid_views_show_the_colours(self):
         """But where a user chose others."""

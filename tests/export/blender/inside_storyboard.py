@@ -207,7 +207,7 @@ class Storyboard(unittest.TestCase):
                  ({**good, "scale": "0.1"}, "scale"), ({**good, "origin": [0, 0]}, "origin"), ({**good, "ease": "bounce"}, "ease"),
                  ({**good, "scenes": good["scenes"][:1]}, "fewer than two scenes"), ({**good, "scenes": [1, 2]}, "scene 1"),
                  (scene(first=1), "scene 2 begins"), (scene(last=0), "cannot last"), (scene(first=True), "cannot last"),
-                 (scene(file="../scene_1.mns"), "not a plain text"), (scene(file="absent.mns"), "absent.mns"), (scene(name=3), "not a plain text"),
+                 (scene(file="../scene_1.mns"), "not a name in the storyboard's folder"), (scene(file="absent.mns"), "absent.mns"), (scene(name=3), "name is 3, not a text"),
                  (scene(background=[0, 0, 2]), "background"), (scene(camera={"projection": "fisheye"}), "scene 2"),
                  (scene(camera=None), "camera"), (scene(camera={**good["scenes"][1]["camera"], "vertical_fov": 0}), "vertical_fov")]
         stores = (bpy.data.objects, bpy.data.meshes, bpy.data.materials, bpy.data.collections, bpy.data.cameras, bpy.data.actions,

@@ -165,7 +165,7 @@ class Reader(unittest.TestCase):
             surface = mns_reader.read(path).objects[0]
             mesh = surface.header["mesh"]
             self.assertTrue(mns_reader.is_closed(surface["mesh.triangle"]))
-            volume = mns_reader.signed_volume(surface["mesh.position"], surface["mesh.triangle"])
+            volume = samples.signed_volume(surface["mesh.position"], surface["mesh.triangle"])
             self.assertAlmostEqual(volume / mesh["volume"], 1.0, places=5)
             self.assertAlmostEqual(volume / surface.header["volume"], 1.0, delta=0.03)
             self.assertAlmostEqual(mesh["area"] / surface.header["area"], 1.0, delta=0.03)
@@ -206,7 +206,7 @@ class Reader(unittest.TestCase):
             self.assertGreater(areas.sum(), 2.0)
             large = areas > 1e-6
             np.testing.assert_allclose(normals[large] / areas[large, None], planes_of[large, :3], atol=1e-3)
-            volume = mns_reader.signed_volume(surface["mesh.position"], surface["mesh.triangle"])
+            volume = samples.signed_volume(surface["mesh.position"], surface["mesh.triangle"])
             self.assertAlmostEqual(volume / surface.header["mesh"]["volume"], 1.0, places=5)
             self.assertTrue(0.2 * whole.header["volume"] < volume < 0.9 * whole.header["volume"])
             # The rim: edges between cap and surface.
@@ -347,7 +347,7 @@ class Reader(unittest.TestCase):
         surface = mns_reader.read(self.files["triple"]).objects[0]
         self.assertEqual(counts, [len(surface["mesh.position"]), len(surface["mesh.triangle"])])
         xyz = np.stack([vertices[k] for k in "xyz"], axis=1)
-        self.assertAlmostEqual(mns_reader.signed_volume(xyz, rows["v"]), surface.header["mesh"]["volume"], places=2)
+        self.assertAlmostEqual(samples.signed_volume(xyz, rows["v"]), surface.header["mesh"]["volume"], places=2)
         length = np.sqrt(sum(vertices["n" + k].astype(float) ** 2 for k in "xyz"))
         np.testing.assert_allclose(length, 1.0, atol=1e-6)
         self.assertIn("b_factor", vertices.dtype.names)

@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Small surfaces for the tests of the Blender add-on, and ways to damage their files."""
 
+import copy
 import json
 import os
 import re
 import struct
 import subprocess
 import zlib
+
+import numpy as np
 
 #: A ring, two drops with tips, every kind of patch, and a shell around a cavity (an icosahedron of carbon).
 MOLECULES = {
@@ -171,3 +174,89 @@ def damaged_files(data):
         "not_closed": (patched(data, "mesh.triangle", "I", first[1]), "closed"),
         "wrong_count": (with_right_checksum(re.sub(rb'("vertices": )\d', rb"\g<1>9", data)), "disagree"),
     }
+
+#: A camera as in a header.
+CAMERA = {"position": [0, 0, 9], "target": [0, 0, 0], "up": [0, 1, 0], "projection": "perspective", "vertical_fov": 30, "size": [64, 48]}
+LEFT_OUT = object()
+#: What takes the place of a value; "deep" is nested beyond any stack.
+ODD_VALUES = [None, True, 0, -1, 1.5, 2**31, 2**32, 2**63, 10**30, 10**400, -0.0, 1e308, float("nan"), float("inf"), "",
+              "nan", "\u0000", "\ud800", [], {}, [[]], [1, 2], [1e200] * 12, [0] * 3, ["a"] * 3, ["1"] * 3, ["\ud800"], [10**400] * 3, [[0] * 12],
+              [[0] * 24], [[float("nan")] * 12], [{}], "<i4", "<f4", "|u1"]
+
+
+def small_surface(is_cut):
+    """A tetrahedron of one atom as a whole file, whose header has every key that the add-on reads; with velocities, or cut with a cap."""
+    arrays = {
+        "mesh.position": np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]], "<f4"),
+        "mesh.normal": np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]], "<f4"),
+        "mesh.triangle": np.array([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]], "<u4"),
+        "mesh.kind": np.array([0, 0, 0, 4 if is_cut else 0], "|u1"), "mesh.patch": np.zeros(4, "<u4"), "mesh.component": np.zeros(4, "<u4"),
+        "mesh.atom": np.zeros(4, "<u4"), "mesh.sharp_corner": np.array([5], "<u4"),
+        "mesh.sharp_corner_normal": np.array([[0, 0, 1]], "<f4"), "mesh.sharp_edge": np.array([[0, 1]], "<u4"),
+        **({"mesh.cap_plane": np.array([2**32 - 1] * 3 + [0], "<u4")} if is_cut else {"mesh.velocity": np.zeros((4, 3), "<f4")}),
+        "atom.center": np.zeros((1, 3), "<f8"), "atom.radius": np.ones(1, "<f8"), "atom.color": np.ones((1, 3), "<f4"),
+        "atom.index": np.zeros(1, "<u4"), "atom.file_index": np.zeros(1, "<u4"), "atom.atomic_number": np.ones(1, "<i4"),
+        "atom.opacity": np.ones(1, "<f4"), **{f"atom.{name}": np.zeros(1, "<i4") for name in ("chain_id", "name_id", "residue_name_id")},
+    }
+    body, entries = b"", []
+    for name, array in arrays.items():
+        entries.append({"name": "0/" + name, "type": array.dtype.str, "rows": len(array),
+                        "columns": 1 if array.ndim == 1 else array.shape[1], "offset": len(body)})
+        body += array.tobytes().ljust((array.nbytes + 63) // 64 * 64, b"\0")
+    header = {"format": "meniscus surface", "generator": "test", "source": {"file": "a.pdb"}, "arrays": entries,
+              "camera": {**CAMERA, "shadows": 0.5, "shadow_softness": 2.0},
+              "objects": [{"name": "A", "prefix": "0/", "copies": [[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]], "chain_names": ["A"],
+                           "atom_names": ["CA"], "residue_names": ["ALA"], "probe_radius": 1.4, "area": 1.0, "volume": 1.0,
+                           "kind_colors": [[1.0, 0.0, 0.0]] * 3, "film_opacity": True,
+                           "material": {"ambient": 0.1, "roughness": 0.1, "specular": 0.1, "shininess": 40.0},
+                           "components": [{"kind": "outer", "euler": 2, "area": 1.0, "volume": 1.0}],
+                           "mesh": {"vertices": 4, "triangles": 4, "origin": [0.0, 0.0, 0.0], "closed": True, "tolerance": 0.05}}]}
+    if is_cut:
+        header["caps"] = {"planes": [[0.0, 0.0, 1.0, 2.0]], "color": [1.0, 0.0, 0.0],
+                          "hatching": {"distance": 0.5, "across": [[1.0, 0.0, 0.0]], "share": 0.4, "light": 0.3}}
+    prologue = b"\x89MNS\r\n\x1a\n" + struct.pack("<IIQQ", 2, 0, 0, 0)
+    text = b"{}".ljust(64)
+    return with_header(prologue[:16] + struct.pack("<Q", len(text)) + bytes(40) + text + body, header, 3 if is_cut else 2)
+
+
+def places_in(value, place=()):
+    """The paths to all values of a tree of dicts and lists but its root."""
+    for key, inner in value.items() if isinstance(value, dict) else enumerate(value):
+        yield place + (key,)
+        if isinstance(inner, (dict, list)):
+            yield from places_in(inner, place + (key,))
+
+
+def odd_headers(data):
+    """Pairs of words and a file: each value of a header but the list of arrays left out, or replaced by each odd value."""
+    header, _ = header_of(data)
+    for place in places_in({key: value for key, value in header.items() if key != "arrays"}):
+        for odd in [LEFT_OUT, *ODD_VALUES]:
+            changed = copy.deepcopy(header)
+            holder = changed
+            for key in place[:-1]:
+                holder = holder[key]
+            if odd is LEFT_OUT:
+                del holder[place[-1]]
+            else:
+                holder[place[-1]] = copy.deepcopy(odd)
+            yield f"{'.'.join(map(str, place))}: {str(odd)[:40]!r}", with_header(data, changed, struct.unpack_from("<I", data, 8)[0])
+
+
+def signed_volume(positions, triangles):
+    """Å³; positive when the triangles face outwards."""
+    p = positions.astype(np.float64)
+    a, b, c = (p[triangles[:, k]] for k in range(3))
+    return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6.0)
+
+
+def corner_normals(mesh):
+    """The normals that Blender will shade a mesh of its own with, (corners, 3)."""
+    normals = np.empty(3 * len(mesh.loops), dtype=np.float32)
+    if hasattr(mesh, "calc_normals_split"):
+        mesh.calc_normals_split()
+        mesh.loops.foreach_get("normal", normals)
+        mesh.free_normals_split()
+    else:
+        mesh.corner_normals.foreach_get("vector", normals)
+    return normals.reshape(-1, 3)

@@ -56,11 +56,11 @@ class SequenceReader(unittest.TestCase):
             self.assertEqual([frame.camera for frame in run.frames], [{**good, "size": size}] * 3)
             name = camera_reader.SIZES[projection]
             missing = {key: value for key, value in good.items() if key != "up"}
-            for wrong, said in ((missing, "'up' is missing"), ({**good, "projection": "fisheye"}, "projection"), ([1, 2], "projection"),
-                                ({**good, "size": [4, 3]}, "'size' is not a key"), ({**good, name: 0}, "positive"),
+            for wrong, said in ((missing, "up is missing"), ({**good, "projection": "fisheye"}, "projection"), ([1, 2], "projection"),
+                                ({**good, "size": [4, 3]}, "'size' is not a key"), ({**good, name: 0}, f"{name} is 0, not a number above 0"),
                                 ({**good, name: "wide"}, "camera: "), ({**good, "position": good["target"]}, "position equals target"),
                                 ({**good, "up": [0, 0, "x"]}, "camera: "), ({**good, "up": [0, 0]}, "camera: "),
-                                ({**good, "target": [float("nan"), 0, 0]}, "not finite")):
+                                ({**good, "target": [float("nan"), 0, 0]}, "target is .nan, 0, 0., not three numbers")):
                 with open(path, "w", encoding="utf-8") as file:
                     json.dump(wrong, file)
                 with self.assertRaisesRegex(mns_reader.MnsError, said):

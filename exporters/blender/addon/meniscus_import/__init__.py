@@ -179,7 +179,7 @@ class OBJECT_OT_meniscus_reload(bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         item = context.active_object
-        return item is not None and item.mode == "OBJECT" and "meniscus_file" in item
+        return item is not None and item.mode == "OBJECT" and "meniscus_file" in item and item.data.library is None
 
     def execute(self, context):
         try:

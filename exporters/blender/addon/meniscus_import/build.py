@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Turns a checked surface into Blender data, completely or not at all: on an error everything is removed. Whole or not
-at all: on an error everything is removed."""
+"""Turns a checked surface into Blender data, completely or not at all: on an error everything is removed."""
 
+import contextlib
 import math
 import os
 
@@ -10,7 +10,7 @@ import bpy
 import mathutils
 import numpy as np
 
-from . import attributes, compat, frames, joined, materials, mns_reader
+from . import attributes, compat, frames, joined, libraries, looks, materials, mns_reader
 from .mesh_arrays import NAMES, OURS, names_of, of_surface
 
 #: Two molecules with as many atoms are the same one if they have so many.
@@ -43,6 +43,20 @@ class Import:
         self.camera = None
 
 
+@contextlib.contextmanager
+def whole_or_nothing():
+    """Removes what came into the file meanwhile if an exception ends it."""
+    before = {store: set(store) for store in (bpy.data.objects, bpy.data.meshes, bpy.data.cameras, bpy.data.collections,
+                                              bpy.data.materials, bpy.data.node_groups, bpy.data.actions)}
+    try:
+        yield
+    except BaseException:
+        for store, kept in before.items():
+            for item in set(store) - kept:
+                store.remove(item)
+        raise
+
+
 def import_file(path, context=None, **options):
     """Reads a .mns file into a new collection; options: of Options. After mns_reader.MnsError or OSError it
     leaves nothing in the scene."""
@@ -54,9 +68,8 @@ def import_file(path, context=None, **options):
     stem = os.path.splitext(os.path.basename(path))[0]
     made = Import()
     shot = {**file.header.get("camera", {}), **(options.camera or {})}
-    camera = None
     meshes, new_materials = [], []
-    try:
+    with whole_or_nothing():
         made.collection = bpy.data.collections.new(stem)
         names = names_of(*file.objects)
         for key, surface in parts_of(file, options.parts):
@@ -72,14 +85,6 @@ def import_file(path, context=None, **options):
             reach_all(made.camera, frames.points_of(file), options.scale, origin)
             made.collection.objects.link(made.camera)
         context.scene.collection.children.link(made.collection)
-    except BaseException:
-        for store, items in ((bpy.data.objects, [*made.surfaces, made.camera]), (bpy.data.collections, [made.collection]),
-                             (bpy.data.meshes, meshes), (bpy.data.cameras, [camera]),
-                             (bpy.data.materials, new_materials)):
-            for item in items:
-                if item is not None:
-                    store.remove(item)
-        raise
     if made.camera is not None and options.use_camera:
         context.scene.camera = made.camera
         use_picture_size(context.scene, shot)
@@ -94,6 +99,7 @@ def add_copy(mesh, copy, surface, path, file, options, origin, part=None):
     item.matrix_world = placement(copy, options.scale, origin)
     set_provenance(item, surface, options, names_of(*file.objects))
     item["meniscus_file"] = remembered_path(path)
+    libraries.note(item)
     item["meniscus_part"] = part or next(name for name, each in parts_of(file, False) if each is surface)
     item["meniscus_atoms"] = sum(len(each["atom.center"]) for each in file.objects)
     item["meniscus_origin"] = [float(value) for value in origin]
@@ -117,7 +123,7 @@ def reload(item, context=None):
     context = context or bpy.context
     if item is None or "meniscus_file" not in item:
         raise mns_reader.MnsError("the active object was not imported from a .mns file")
-    path = bpy.path.abspath(item["meniscus_file"])
+    path = libraries.path_of(item, "meniscus_file")
     file = mns_reader.read(path)
     options = Options(scale=item["meniscus_scale"], crisp_colors=bool(item["meniscus_crisp"]), parts=bool(item["meniscus_parts"]))
     surface = dict(parts_of(file, options.parts)).get(item["meniscus_part"])
@@ -126,10 +132,16 @@ def reload(item, context=None):
     names = names_of(*file.objects)
     mesh, arrays = item.data, of_surface(surface, options.scale, options.crisp_colors, names)
     check_with_blender(arrays)
+    dressing = looks.renewed(mesh, surface, options.scale)
     kept = attributes.keep(mesh, OURS)
     clear_geometry(mesh)
     fill_mesh(mesh, arrays, fps_of(context.scene), trusted=True)
     attributes.give_back(mesh, kept, arrays)
+    mesh[materials.ASKED] = materials.asked_of(surface, materials.asked_by(mesh)[1])
+    for slot, material in enumerate(dressing):
+        if slot == len(mesh.materials):
+            mesh.materials.append(None)
+        mesh.materials[slot] = material
     mesh.update()
     for other in bpy.data.objects:
         if other.data == mesh:
@@ -210,12 +222,8 @@ def fps_of(scene):
 def build_mesh(surface, name, options, new_materials, fps, names, fades=False):
     """fades: with materials that fade as the object's colour says."""
     mesh = bpy.data.meshes.new(name)
-    try:
-        add_materials(mesh, surface, new_materials, options.own_materials, fades)
-        fill_mesh(mesh, of_surface(surface, options.scale, options.crisp_colors, names), fps)
-    except BaseException:
-        bpy.data.meshes.remove(mesh)
-        raise
+    add_materials(mesh, surface, new_materials, options.own_materials, fades)
+    fill_mesh(mesh, of_surface(surface, options.scale, options.crisp_colors, names), fps)
     return mesh
 
 
@@ -258,6 +266,7 @@ def fill_mesh(mesh, arrays, fps, trusted=False):
 
 def add_materials(mesh, surface, new_materials, own=False, fades=False):
     """own: not those that all imports share. fades: as the object's colour says."""
+    mesh[materials.ASKED] = materials.asked_of(surface, fades)
     for role, kind in materials.wanted(surface):
         mesh.materials.append(materials.find_or_make(role, kind, new_materials, own, materials.hatching_of(surface, role),
                                                      materials.looks_of(surface), fades))

@@ -6,22 +6,20 @@ import math
 import bpy
 import numpy as np
 
-from . import build, camera_path, curves, keys
+from . import camera_path, curves, keys
 
 #: What a camera may be off its way, seen from its target, degrees; and of its distance, angle and height, a share.
 TURN, SIZE = 0.2, 1e-3
 
 
-def add(collection, board, name, scale, origin, made):
-    """The camera, whose parent is at the target. Both are added to `made` as soon as they are there."""
+def add(collection, board, name, scale, origin):
+    """The camera, whose parent is at the target."""
     poses = camera_path.complete([camera_path.pose_of(scene.camera) for scene in board.scenes])
     target = bpy.data.objects.new(f"{name}.target", None)
-    made.append(target)
     target.rotation_mode = "QUATERNION"
     target.empty_display_size = 5.0 * scale
     data = bpy.data.cameras.new(f"{name}.camera")
     item = bpy.data.objects.new(data.name, data)
-    made.append(item)
     item.parent = target
     data.sensor_fit = "VERTICAL"
     data.type = "ORTHO" if poses[0].is_flat else "PERSP"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Everything that differs between Blender 3.4 and 5.x; run on 3.4.1, and by scripts/newer_blenders.sh on 4.2, 4.5 and 5.0."""
+"""Everything that differs between Blender 3.4 and 5.3; run on 3.4.1, and by scripts/newer_blenders.sh on the versions that it lists."""
 
 import math
 
@@ -55,19 +55,6 @@ def mark_sharp(mesh, keys):
         attribute = mesh.attributes.get("sharp_edge") or mesh.attributes.new("sharp_edge", "BOOLEAN", "EDGE")
         attribute.data.foreach_set("value", sharp)
     return int(sharp.sum())
-
-
-def corner_normals(mesh):
-    """The normals Blender will shade with, (corners, 3)."""
-    if hasattr(mesh, "calc_normals_split"):
-        mesh.calc_normals_split()
-        normals = np.empty(3 * len(mesh.loops), dtype=np.float32)
-        mesh.loops.foreach_get("normal", normals)
-        mesh.free_normals_split()
-    else:
-        normals = np.empty(3 * len(mesh.loops), dtype=np.float32)
-        mesh.corner_normals.foreach_get("vector", normals)
-    return normals.reshape(-1, 3)
 
 
 def node_tree(owner):
@@ -270,6 +257,25 @@ def input_identifier(tree, name):
     """The key of an input in a modifier."""
     sockets = tree.interface.items_tree if hasattr(tree, "interface") else tree.inputs
     return next(socket.identifier for socket in sockets if socket.name == name)
+
+
+def identity(item):
+    """A number that tells an object or mesh from all others as long as Blender runs, whatever it is called: through undo, too, since 4.2."""
+    return item.session_uid if hasattr(item, "session_uid") else item.as_pointer()
+
+
+def of_identity(number):
+    """The object with an identity, or None."""
+    return next((item for item in bpy.data.objects if identity(item) == number), None)
+
+
+def set_input(modifier, name, value):
+    """Sets an input of a node group in its modifier: a custom property before 5.2, then a property of Blender."""
+    identifier = input_identifier(modifier.node_group, name)
+    if hasattr(modifier, "properties"):
+        getattr(modifier.properties.inputs, identifier).value = value
+    else:
+        modifier[identifier] = value
 
 
 def value_at(item, path, time):

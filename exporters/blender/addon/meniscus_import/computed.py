@@ -2,33 +2,25 @@
 """Objects whose mesh is computed from the request they store: in the background, on the timeline, and again after undo."""
 
 import dataclasses
-import sys
 import time as clock
 
 import bpy
-import mathutils
-import numpy as np
 from bpy.app.handlers import persistent
 
-from . import attributes, build, compat, mesh_arrays, mns_reader, molecular_nodes, motion
+from . import compat, libraries, mns_reader, molecular_nodes, motion, showing
 from .computing import process
+from .showing import SHOWN, Shown, _kept, empty, frame_count, is_computed, keep, place_at, show
 
-#: Of a mesh: the key of the request that it shows; of an object: what the last computation said.
-SHOWN, ERROR = "meniscus_shown", "meniscus_error"
 #: Seconds between two looks at whether something is done.
 TICK = 0.005
 #: Seconds between two looks at how far it is.
 TELL = 0.2
-#: Surfaces that are kept, for undo and for frames that come again; bytes.
-KEPT_BYTES = 1 << 28
 #: Frames that are computed ahead of the one that shows.
 AHEAD = 4
 
 _process = None
 _told = 0.0  # when sidebars were last drawn anew
-_kept = {}  # key -> Shown or None, the oldest first
 _awaited = {}  # key -> process.Job of a frame to come
-_of_user = {}  # name of a mesh -> (whose atoms, attributes of the user by atom)
 
 
 class Wanted:
@@ -54,19 +46,6 @@ class Wanted:
         job = working().ask(owner, self.key, "surface", about, urgency)
         job.make = lambda result: result and Shown(result, self)
         return job
-
-
-class Shown:
-    """What a mesh shows: header of the surface, middle of its atoms in Å, how many they are, and the arrays that fill the mesh,
-    whose positions lie about `base`, Å."""
-
-    def __init__(self, result, wanted):
-        self.surface = mns_reader.Surface("a computed surface", result["header"], {})
-        self.middle, self.base, self.atoms = result["middle"], result["base"], result["atoms"]
-        self.arrays = mesh_arrays.MeshArrays(**result["arrays"])
-        self.scale, self.crisp = wanted.scale, wanted.crisp
-        self.names = mesh_arrays.names_of(self.surface)
-        self.others = {each.name for each in wanted.others}
 
 
 def working():
@@ -108,29 +87,6 @@ def end():
     _awaited.clear()
 
 
-def is_computed(item):
-    return item is not None and item.type == "MESH" and item.meniscus.source != "NONE"
-
-
-def place_at(item, time):
-    """Which frame of its run an object shows at a moment of the scene; 0: it has no run. None: nothing shows."""
-    settings = item.meniscus
-    count = frame_count(item)
-    if count == 0:
-        return 0
-    if settings.by_hand:
-        return settings.timing().within(compat.value_at(item, "meniscus.frame", time), count)
-    return settings.timing().place(time, count)
-
-
-def frame_count(item):
-    """Of its run; 0: it has none, or has not been read."""
-    settings = item.meniscus
-    if settings.source == "OBJECT":
-        return len(molecular_nodes.frames_of(settings.atoms)) if settings.atoms is not None else 0
-    return int(item.get("meniscus_frames", 0)) if settings.is_run else 0
-
-
 def changed(item):
     """A property changed: the surface follows in the background, if that is switched on."""
     if is_computed(item) and item.meniscus.live and not bpy.app.background:
@@ -152,13 +108,12 @@ def ask(item, in_motion=False):
             wanted = Wanted(item, place)
             if in_motion and item.data.get(SHOWN) != wanted.key and wanted.key not in _kept:
                 wanted = Wanted(item, place, True)
-            if item.data.get(SHOWN) == wanted.key:
+            if item.data.get(SHOWN) == wanted.key or wanted.key in _kept:
+                working().drop(compat.identity(item))  # what was asked for before an undo
+                _show_kept(item, wanted.key)
                 return
-            if wanted.key in _kept:
-                working().drop(item.name)
-                show(item, wanted.key, _kept[wanted.key])
-                return
-            wanted.ask(item.name)
+            wanted.ask(compat.identity(item))
+            showing.watch(item)
     except (mns_reader.MnsError, OSError) as error:
         fail(item, error)
         return
@@ -172,19 +127,19 @@ def _go_on_ticking():
 
 def _wait_for_rest(item, in_motion):
     if in_motion and item.meniscus.detail == "AUTO":
-        motion.moves(item.name)
+        motion.moves(compat.identity(item))
         _go_on_ticking()
     else:
-        motion.rests(item.name)
+        motion.rests(compat.identity(item))
 
 
 def _come_to_rest():
     """Asks for the fine meshes that are due, once their proxies are there."""
-    for name in motion.at_rest():
-        item = bpy.data.objects.get(name)
+    for owner in motion.at_rest():
+        item = compat.of_identity(owner)
         if not is_computed(item):
-            motion.rests(name)
-        elif working().job_of(name) is None:
+            motion.rests(owner)
+        elif working().job_of(owner) is None:
             ask(item)
 
 
@@ -207,7 +162,7 @@ def _run_key(item):
 
 def _ask_for_frames(item):
     """How many the run has."""
-    return working().ask(item.name, _run_key(item), "count", {"request": dataclasses.asdict(item.meniscus.request(1))})
+    return working().ask(compat.identity(item), _run_key(item), "count", {"request": dataclasses.asdict(item.meniscus.request(1))})
 
 
 def _take_frames(item, job):
@@ -216,20 +171,27 @@ def _take_frames(item, job):
 
 def compute_now(item, time=None, in_motion=False):
     """The same, and waits for it. Raises MnsError or OSError, and leaves the mesh as it was."""
-    working().drop(item.name)
+    working().drop(compat.identity(item))
     if needs_frames(item):
         _take_frames(item, _finished(_ask_for_frames(item)))
     place = place_at(item, bpy.context.scene.frame_current_final if time is None else time)
     if place is None:
         empty(item)
+        libraries.succeed(item)
         return
     wanted = Wanted(item, place, in_motion)
-    if item.data.get(SHOWN) == wanted.key:
-        return
-    if wanted.key not in _kept:
-        job = _finished(_awaited.pop(wanted.key, None) or wanted.ask(item.name))
+    if item.data.get(SHOWN) != wanted.key and wanted.key not in _kept:
+        job = _finished(_awaited.pop(wanted.key, None) or wanted.ask(compat.identity(item)))
         keep(wanted.key, job.make(job.result))
-    show(item, wanted.key, _kept[wanted.key])
+    _show_kept(item, wanted.key)
+
+
+def _show_kept(item, key):
+    """Shows what was computed, unless the object shows it already."""
+    if item.data.get(SHOWN) == key:
+        libraries.succeed(item)
+    else:
+        show(item, key, _kept[key])
 
 
 def _finished(job):
@@ -240,90 +202,8 @@ def _finished(job):
     return job
 
 
-def empty(item):
-    shown = _kept.get(item.data.get(SHOWN))
-    if shown is not None:
-        _keep_of_user(item, shown)
-    build.clear_geometry(item.data)
-    item.data[SHOWN] = ""
-    item.data.update()
-
-
-def show(item, key, shown):
-    """Puts what was computed into the mesh of an object; materials, modifiers and attributes of the user remain. While the mesh
-    is edited it stays as it is."""
-    mesh = item.data
-    if mesh.is_editmode:
-        return
-    if shown is None:
-        empty(item)
-        mesh[SHOWN] = key
-        return
-    kept = _keep_of_user(item, shown)
-    build.clear_geometry(mesh)
-    if not mesh.materials:
-        build.add_materials(mesh, shown.surface, [])
-    place(item, shown)
-    build.fill_mesh(mesh, arrays_about(item, shown), build.fps_of(bpy.context.scene), trusted=True)
-    attributes.give_back(mesh, kept, shown.arrays)
-    build.set_provenance(item, shown.surface, build.Options(shown.scale, shown.crisp), shown.names)
-    mesh[SHOWN] = key
-    item[ERROR] = ""
-    if frame_count(item) or item.meniscus.source == "OBJECT":
-        build.let_exporters_follow(mesh)
-    mesh.update()
-
-
-def _keep_of_user(item, shown):
-    """Attributes that the user gave to the mesh, also those of atoms that it does not show now."""
-    mesh, settings = item.data, item.meniscus
-    source = settings.file if settings.source == "FILE" else settings.atoms and settings.atoms.name
-    of, older = _of_user.get(mesh.name, (None, ()))
-    kept = attributes.keep(mesh, build.OURS | shown.others, older if of == source else ())
-    _of_user[mesh.name] = source, kept
-    return kept
-
-
-def place(item, shown):
-    """The place of the object when it first shows something of a file: its origin in the middle of the molecule, about which it
-    turns. If its scale changes the middle stays where it is, or where the file has it. Objects of 0.1.0 have the file's origin."""
-    before = item.get("meniscus_scale", shown.scale)
-    if item.meniscus.source == "FILE" and "meniscus_generator" not in item:
-        origin = np.zeros(3)
-        if item.meniscus.center:
-            source = build.source_of(shown.surface.header)
-            origin = build.scene_origin(bpy.context.scene, lambda: shown.middle, source, shown.atoms)
-            item["meniscus_origin"] = [float(value) for value in origin]
-        item["meniscus_middle"] = [float(value) for value in shown.middle]
-        item["meniscus_atoms"] = shown.atoms
-        item.location += mathutils.Vector((shown.middle - origin) * shown.scale)
-    elif before != shown.scale and ("meniscus_middle" in item) != ("meniscus_origin" in item):
-        place = mathutils.Vector(item["meniscus_middle" if "meniscus_middle" in item else "meniscus_origin"][:])
-        item.location += place * ((shown.scale - before) * (1.0 if "meniscus_middle" in item else -1.0))
-
-
-def arrays_about(item, shown):
-    """The arrays of what is shown, with positions about the object's origin."""
-    shift = shown.base - np.array(item.get("meniscus_middle", (0.0, 0.0, 0.0))[:])
-    if item.meniscus.source != "FILE" or not shift.any():
-        return shown.arrays
-    return dataclasses.replace(shown.arrays, positions=(shown.arrays.positions + shift * shown.scale).astype(np.float32))
-
-
-def keep(key, shown):
-    """For as long as there is room; the oldest go."""
-    _kept.pop(key, None)
-    _kept[key] = shown
-    sizes = {each: 0 if kept is None else kept.arrays.nbytes for each, kept in _kept.items()}
-    total = sum(sizes.values())
-    while total > KEPT_BYTES and len(_kept) > 1:
-        oldest = next(iter(_kept))
-        total -= sizes[oldest]
-        del _kept[oldest]
-
-
 def fail(item, error):
-    item[ERROR] = str(error) or type(error).__name__
+    libraries.fail(item, error)
     redraw()
 
 
@@ -364,23 +244,28 @@ def _deliver(done):
             fail(item, job.error)
         elif job.make is None:
             _take_frames(item, job)
-            ask(item, motion.is_moving(item.name))
+            ask(item, motion.is_moving(compat.identity(item)))
+        elif showing.was_changed(item):
+            fail(item, "its mesh was changed while the surface was computed; Update shows it")
         else:
-            try:
-                show(item, job.key, _kept[job.key])
-            except Exception as error:  # a timer that raises is never called again
-                fail(item, error)
+            before = item.data.get(SHOWN)
+            copies = [other for other in bpy.data.objects if other != item and showing.asks_alike(item, other) and other.data.get(SHOWN) == before]
+            for each in (item, *copies):
+                try:
+                    show(each, job.key, _kept[job.key])
+                except Exception as error:  # a timer that raises is never called again
+                    fail(each, error)
 
 
 def progress_of(item):
     """Stage and seconds of what is computed for an object, or None."""
-    job = _process and _process.job_of(item.name)
+    job = _process and _process.job_of(compat.identity(item))
     return None if job is None else (job.stage, clock.monotonic() - job.began)
 
 
 def cancel(item):
     """At once, whatever is done for it. True if there was something."""
-    if not working().stop(item.name):
+    if not working().stop(compat.identity(item)):
         return False
     _awaited.clear()
     for job in working().take():  # they ended with it
@@ -391,7 +276,7 @@ def cancel(item):
 
 
 def _item_of(job):
-    return bpy.data.objects.get(job.owner) if isinstance(job.owner, str) else None
+    return compat.of_identity(job.owner) if isinstance(job.owner, int) else None
 
 
 def wait():
@@ -412,9 +297,9 @@ def _compute_ahead(item, time, in_motion):
         wanted = Wanted(item, place, in_motion)
         wanted_keys.add(wanted.key)
         if wanted.key not in _awaited and wanted.key not in _kept:
-            _awaited[wanted.key] = wanted.ask((item.name, wanted.key), process.NEXT)
+            _awaited[wanted.key] = wanted.ask((compat.identity(item), wanted.key), process.NEXT)
     for key, job in list(_awaited.items()):
-        if job.owner[0] == item.name and key not in wanted_keys:
+        if job.owner[0] == compat.identity(item) and key not in wanted_keys:
             working().drop(job.owner)
             del _awaited[key]
 
@@ -423,12 +308,16 @@ def follow(scene):
     """Every computed object shows what its atoms and its request are at the scene's time."""
     time, in_motion = scene.frame_current_final, motion.is_playing()
     for item in list(scene.objects):
-        if not is_computed(item) or item.data.is_editmode:
+        if item.type != "MESH" or item.meniscus.source == "NONE" or item.data.is_editmode:
             continue
         try:
             place = place_at(item, time)
-            if place == 0 and item.meniscus.source == "FILE":
+            if place == 0 and item.meniscus.source == "FILE" or libraries.is_fixed(item):
                 continue  # nothing moves
+            gone = libraries.gone(item, *libraries.SETTINGS) if item.meniscus.source == "FILE" else None
+            if gone:
+                fail(item, gone)
+                continue
             _wait_for_rest(item, in_motion)
             compute_now(item, time, in_motion)
             if frame_count(item) > 1:
@@ -436,7 +325,6 @@ def follow(scene):
         except Exception as error:  # a handler that raises changes nothing: Blender goes on and renders
             empty(item)
             fail(item, error)
-            sys.stderr.write(f"meniscus: error: {item.name}: {item[ERROR]}\n")
 
 
 @persistent
@@ -455,14 +343,14 @@ def on_undo(*_arguments):
 
 def catch_up():
     for item in bpy.data.objects:
-        if is_computed(item) and SHOWN in item.data:
+        if is_computed(item) and (SHOWN in item.data or progress_of(item) is not None):
             ask(item)
 
 
 @persistent
 def on_load(*_arguments):
-    for memory in (_kept, _awaited, _of_user):
-        memory.clear()
+    _awaited.clear()
+    showing.forget()
     motion.forget()
     if _process is not None:
         _process.drop_all()
@@ -477,7 +365,7 @@ def come_last():
     handlers.append(on_frame_change)
 
 
-HANDLERS = (("undo_post", on_undo), ("redo_post", on_undo), ("load_post", on_load), *motion.HANDLERS)
+HANDLERS = (("undo_post", on_undo), ("redo_post", on_undo), ("load_post", on_load), *motion.HANDLERS, *libraries.HANDLERS)
 
 
 def register():
@@ -495,6 +383,5 @@ def unregister():
         if handler in handlers:
             handlers.remove(handler)
     end()
-    _kept.clear()
-    _of_user.clear()
+    showing.forget()
     motion.forget()

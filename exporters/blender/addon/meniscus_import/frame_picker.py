@@ -25,7 +25,7 @@ def add(name, collection, count, timing):
     modifier = item.modifiers.new("Frame", "NODES")
     modifier.node_group = tree
     for socket, value in values.items():
-        modifier[compat.input_identifier(tree, socket)] = value
+        compat.set_input(modifier, socket, value)
     return item
 
 

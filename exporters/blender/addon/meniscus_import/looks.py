@@ -3,7 +3,7 @@
 
 import bpy
 
-from . import compat
+from . import compat, fading, materials, mns_reader
 from .mesh_arrays import SLOTS
 
 #: The custom property of node groups and materials that were made here: what they are.
@@ -140,9 +140,21 @@ def linear(text):
     return (*(value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4 for value in values), 1.0)
 
 
-def material(look, coloring, scale=0.1):
-    """A material, found or made. scale: Blender units per Å, for how deep light goes."""
-    mark = f"{look} {coloring} {scale:.6g}"
+def check(look, fades, looks):
+    """Raises mns_reader.MnsError if a look has no place for what a surface asks of its material."""
+    if looks and look not in MAKERS:
+        raise mns_reader.MnsError(f"the look {LOOKS[look].lower()} has no place for {', '.join(sorted(looks))}, which an object has of its own; "
+                                  f"take {', '.join(LOOKS[name].lower() for name in MAKERS)}, or export it without")
+    if fades and look == "GLASS":
+        raise mns_reader.MnsError("the look glass cannot fade, as objects of a storyboard do; take another look")
+
+
+def material(look, coloring, scale=0.1, kind=materials.OPAQUE, fades=False, looks=None):
+    """A material, found or made. scale: Blender units per Å, for how deep light goes. kind, fades, looks: as of materials.asked_by."""
+    looks = looks or {}
+    check(look, fades, looks)
+    mark = f"{look} {coloring} {scale:.6g}" + (f" {kind}" if kind != materials.OPAQUE else "") + (" fading" if fades else "")
+    mark += "".join(f" {key} {value:g}" for key, value in sorted(looks.items()))
     for each in bpy.data.materials:
         if each.get(MARK) == mark:
             return each
@@ -163,11 +175,19 @@ def material(look, coloring, scale=0.1):
         shader = compat.find_or_add(tree, "BSDF_PRINCIPLED", "ShaderNodeBsdfPrincipled")
         if look in MAKERS:
             MAKERS[look](tree, shader, color, scale)
+            materials.set_looks(tree, shader, looks)
     if look == "GLASS":
         _glass(tree, shader, color, output, scale)
         compat.refract(made)
     else:
         tree.links.new(shader.outputs[0], output.inputs["Surface"])
+    if kind != materials.OPAQUE:
+        for each in [node for node in tree.nodes if node.type == "OUTPUT_MATERIAL"]:
+            surface = each.inputs["Surface"]
+            tree.links.new(materials.let_through(tree, kind, surface.links[0].from_socket, shader), surface)
+        compat.let_through(made)
+    if fades:
+        fading.add(made)
     return made
 
 
@@ -242,8 +262,9 @@ def dress(item, look, coloring):
 
 
 def dress_mesh(mesh, look, coloring, scale):
-    """The same of a mesh; scale: Blender units per Å."""
-    made = material(look, coloring, scale)
+    """The same of a mesh, which keeps its opacity, what its objects have of their own, and how it fades. scale: Blender units per Å.
+    Raises mns_reader.MnsError if the look has no place for one of them."""
+    made = material(look, coloring, scale, *materials.asked_by(mesh))
     slots = mesh.materials
     while len(slots) < 2:
         slots.append(None)
@@ -251,6 +272,23 @@ def dress_mesh(mesh, look, coloring, scale):
         if role != "cap":
             slots[slot] = made
     return made
+
+
+def renewed(mesh, surface, scale):
+    """The materials of a mesh once it shows a surface: those of the import and of looks as the surface asks now, the user's own as they are.
+    Raises mns_reader.MnsError if a look has no place for what it asks."""
+    fades, slots = materials.asked_by(mesh)[1], list(mesh.materials)
+    for slot, (role, kind) in enumerate(materials.wanted(surface)):
+        old = slots[slot] if slot < len(slots) else None
+        if old is not None and MARK in old:
+            look, coloring = old[MARK].split()[:2]
+            slots[slot] = material(look, coloring, scale, kind, fades, dict(materials.looks_of(surface)))
+        elif old is None or materials.MARK in old:
+            own = old is not None and " own" in old[materials.MARK]
+            made = materials.find_or_make(role, kind, [each for each in slots if each is not None], own, materials.hatching_of(surface, role),
+                                          materials.looks_of(surface), fades)
+            slots[slot:slot + 1] = [made]
+    return slots
 
 
 def add_lines(context, item):

@@ -11,6 +11,10 @@ OPAQUE, TRANSLUCENT, FILM = "opaque", "translucent", "film"
 ENDINGS = {OPAQUE: "", TRANSLUCENT: " seen through", FILM: " film"}
 #: The custom property that tells our materials from others of the same name.
 MARK = "meniscus_material"
+#: The custom property of meshes with what their surface asks of any material: as of asked_of.
+ASKED = "meniscus_asked"
+#: What an object's own material may say.
+KEYS = ("ambient", "roughness", "shininess", "specular")
 #: Where a film is seen along itself it does not get thicker than this cosine makes it, as in Meniscus.
 LEAST_COSINE = 0.05
 
@@ -31,7 +35,19 @@ def hatching_of(surface, role):
 
 def looks_of(surface):
     """What the file says of the object's own material: pairs of a key and a number, () where it is the usual one."""
-    return tuple(sorted((key, float(value)) for key, value in surface.header.get("material", {}).items()))
+    return tuple(sorted((key, float(value)) for key, value in surface.header.get("material", {}).items() if key in KEYS))
+
+
+def asked_of(surface, fades):
+    """What a surface asks of any material: its kind, whether it fades, and what looks_of says. Plain values for a custom property."""
+    return {"kind": kind_of(surface), "fades": int(fades), **dict(looks_of(surface))}
+
+
+def asked_by(mesh):
+    """The same of a mesh: kind, whether it fades, and a dict."""
+    asked = mesh.get(ASKED, {})
+    kind = asked.get("kind", TRANSLUCENT if "opacity" in mesh.attributes else OPAQUE)
+    return kind, bool(asked.get("fades", 0)), {key: asked[key] for key in KEYS if key in asked}
 
 
 def find_or_make(role, kind, new_materials, own=False, hatching=None, looks=(), fades=False):
@@ -79,18 +95,27 @@ def _fill(material, kind, hatching, looks):
     if hatching is not None:
         color = _hatched(tree, color, shader, *hatching)
     shader.inputs["Roughness"].default_value = 0.45
-    _set_looks(shader, looks)
-    if "ambient" in looks:  # as bright wherever light comes from; the rest is lit
-        tree.links.new(color, compat.principled_input(shader, "Emission Color", "Emission"))
-        shader.inputs["Emission Strength"].default_value = looks["ambient"]
-        color = _scaled(tree, color, 1.0 - looks["ambient"])
     tree.links.new(color, shader.inputs["Base Color"])
+    set_looks(tree, shader, looks)
     if kind != OPAQUE:
-        opacity = _attribute(tree, "opacity", shader, -320).outputs["Fac"]
-        if kind == FILM:
-            opacity = _through_a_film(tree, opacity)
-        tree.links.new(opacity, shader.inputs["Alpha"])
+        tree.links.new(opacity_of(tree, kind, shader), shader.inputs["Alpha"])
         compat.let_through(material)
+
+
+def opacity_of(tree, kind, beside):
+    """The socket with the opacity of a surface of a kind. beside: the node near which its nodes are put."""
+    opacity = _attribute(tree, "opacity", beside, -320).outputs["Fac"]
+    return _through_a_film(tree, opacity) if kind == FILM else opacity
+
+
+def let_through(tree, kind, surface, beside):
+    """The output of a shader that shows `surface` with the opacity of its kind: what Alpha is to a Principled shader."""
+    mix = tree.nodes.new("ShaderNodeMixShader")
+    mix.location = (beside.location[0] + 200, beside.location[1] - 200)
+    tree.links.new(opacity_of(tree, kind, beside), mix.inputs[0])
+    tree.links.new(tree.nodes.new("ShaderNodeBsdfTransparent").outputs[0], mix.inputs[1])
+    tree.links.new(surface, mix.inputs[2])
+    return mix.outputs[0]
 
 
 def _attribute(tree, name, beside, down):
@@ -118,15 +143,22 @@ def _scaled(tree, color, factor):
     return scaled.outputs["Vector"]
 
 
-def _set_looks(shader, looks):
-    """Highlights of Blinn and Phong by those of Blender that are as strong and as wide: the usual ones, 0.1 and 40, are its
-    own usual ones."""
+def set_looks(tree, shader, looks):
+    """Gives a shader whose colours are linked what an object's own material says. Highlights of Blinn and Phong are those of Blender
+    that are as strong and as wide: the usual ones, 0.1 and 40, are its own usual ones."""
     if "specular" in looks:
         compat.principled_input(shader, "Specular IOR Level", "Specular").default_value = min(5.0 * looks["specular"], 1.0)
     if "shininess" in looks:
         shader.inputs["Roughness"].default_value = (2.0 / (looks["shininess"] + 2.0)) ** 0.25
     if "roughness" in looks and "Diffuse Roughness" in shader.inputs:  # from 4.3 on
         shader.inputs["Diffuse Roughness"].default_value = looks["roughness"]
+    if "ambient" in looks:  # as bright wherever light comes from; the rest is lit
+        color = shader.inputs["Base Color"].links[0].from_socket
+        tree.links.new(color, compat.principled_input(shader, "Emission Color", "Emission"))
+        shader.inputs["Emission Strength"].default_value = looks["ambient"]
+        rest = _scaled(tree, color, 1.0 - looks["ambient"])
+        for socket in [link.to_socket for link in tree.links if link.to_node == shader and link.to_socket.name in ("Base Color", "Subsurface Color")]:
+            tree.links.new(rest, socket)
 
 
 def _through_a_film(tree, opacity):

@@ -103,7 +103,7 @@ def _of_faces(surface, ses_atom):
     if surface.get("atom.opacity") is not None:  # on faces, as colours: it changes at edges
         yield ("opacity", "FLOAT", "FACE", surface["atom.opacity"][surface["mesh.atom"]].astype(np.float32))
     if surface.get("mesh.cap_plane") is not None:
-        yield ("ses_cap", "INT", "FACE", np.where(caps_of(surface), surface["mesh.cap_plane"], -1).astype(np.int32))
+        yield ("ses_cap", "INT", "FACE", np.where(caps_of(surface), surface["mesh.cap_plane"].astype(np.int32), -1))
         if "hatching" in surface.header["caps"]:
             yield ("cap_stripe", "FLOAT", "CORNER", stripes(surface))
 
@@ -165,7 +165,7 @@ def caps_of(surface):
 def stripes(surface):
     """Of each corner of a cap how many lines of hatching lie before it; elsewhere between two of them."""
     hatching, cap = surface.header["caps"]["hatching"], caps_of(surface)
-    origin = np.array(surface.header["mesh"]["origin"])
+    origin = np.array(surface.header["mesh"]["origin"], dtype=np.float64)
     across = np.array(hatching["across"], dtype=np.float64)[surface["mesh.cap_plane"][cap]]
     points = surface["mesh.position"][surface["mesh.triangle"][cap]].astype(np.float64) + origin + surface.header.get("moved_by", 0.0)
     values = np.full((len(cap), 3), 0.5 + 0.5 * hatching["share"], dtype=np.float32)

@@ -9,6 +9,11 @@ import zlib
 
 import numpy as np
 
+try:
+    from . import header_values
+except ImportError:  # outside of the add-on
+    import header_values
+
 MAGIC = b"\x89MNS\r\n\x1a\n"
 VERSION = 3
 PROLOGUE = 64
@@ -26,8 +31,25 @@ OF_VERTICES = ("mean_curvature", "gaussian_curvature", "smooth_mean_curvature", 
 #: Arrays a mesh may have, and their columns.
 OPTIONAL = {"mesh.velocity": 3, "mesh.cap_plane": 1, "mesh.map_color": 3, "mesh.patch_area": 1,
             **{f"mesh.{name}": 1 for name in OF_VERTICES}, **{f"atom.{name}": 1 for name in OF_ATOMS}}
+#: Those that hold whole numbers.
+WHOLE = ("atomic_number", "res_id", "chain_id", "name_id", "residue_name_id", "entity", "index", "file_index", "own_color")
 #: mesh.kind of caps.
 CAP = 4
+#: Values of headers, which of an object are in its own part.
+VALUES = {
+    "generator": header_values.TEXT, **header_values.SOURCE, "name": header_values.TEXT, "mesh": header_values.DICT,
+    "mesh.origin": header_values.VECTOR, "mesh.tolerance": header_values.NUMBER, "kind_colors": header_values.COLORS,
+    **{key: header_values.NUMBER for key in ("probe_radius", "area", "volume")},
+    **{key: header_values.TEXTS for key in ("chain_names", "atom_names", "residue_names")},
+    "material": header_values.DICT, **{f"material.{key}": header_values.SHARE for key in ("ambient", "roughness", "specular")},
+    "material.shininess": header_values.SHININESS,
+    "caps": header_values.DICT, "caps.planes": header_values.PLANES, "caps.color": header_values.COLOR, "caps.hatching": header_values.DICT,
+    "caps.hatching.across": header_values.DIRECTIONS, "caps.hatching.distance": header_values.POSITIVE,
+    "caps.hatching.share": header_values.SHARE, "caps.hatching.light": header_values.SHARE,
+}
+#: The same of an entry of the components.
+COMPONENT = {"components": header_values.DICT, "components.kind": header_values.TEXT, "components.area": header_values.NUMBER,
+             "components.volume": header_values.NUMBER}
 
 
 class MnsError(Exception):
@@ -37,6 +59,8 @@ class MnsError(Exception):
 #: Of an array; none of the format has more than four.
 MOST_COLUMNS = 64
 
+#: Keys that joined.py makes: in a file they mean nothing.
+OF_JOINED = ("moved_by",)
 #: Where a surface stands that is not moved: three rows of four numbers.
 IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]
 
@@ -48,6 +72,24 @@ def read_json(path, what=""):
             return json.load(file)
         except (ValueError, RecursionError) as error:
             raise MnsError(f"{path}: no JSON{what} ({error})") from None
+
+
+def read_manifest(path, kind, words, version, values, needed, what=""):
+    """The header of a JSON file beside .mns files, whose values are checked. kind, words: its format, and what it is for the message;
+    version: the newest that is known; values, needed: as of header_values.check. Raises likewise."""
+    header = read_json(path, what)
+    if not isinstance(header, dict) or header.get("format") != kind:
+        raise MnsError(f"{path}: not {words}")
+    found = header.get("version")
+    if type(found) is not int or found < 1:
+        raise MnsError(f"{path}: version {header_values.told(found)} does not exist")
+    if found > version:
+        raise MnsError(f"{path}: version {found} is newer than this add-on knows ({version}); update it")
+    try:
+        header_values.check(header, values, needed)
+    except ValueError as error:
+        raise MnsError(f"{path}: {error}") from None
+    return header
 
 
 class File:
@@ -98,6 +140,11 @@ def read(path):
     header, arrays = read_arrays(path)
     if header.get("format") == "meniscus atoms":
         raise MnsError(f"{path}: it holds atoms, not a surface")
+    try:
+        if "camera" in header:
+            header_values.check_camera(header["camera"])
+    except ValueError as error:
+        raise MnsError(f"{path}: camera: {error}") from None
     return File(header, _objects(path, header, arrays))
 
 
@@ -130,7 +177,7 @@ def _objects(path, header, arrays):
         prefix = str(entry.get("prefix", ""))
         own = {name[len(prefix):]: array for name, array in arrays.items() if name.startswith(prefix)}
         _check_copies(path, entry)
-        surfaces.append(Surface(path, {**header, **entry}, own))
+        surfaces.append(Surface(path, {key: value for key, value in {**header, **entry}.items() if key not in OF_JOINED}, own))
         _check(surfaces[-1])
     return surfaces
 
@@ -138,7 +185,7 @@ def _objects(path, header, arrays):
 def _check_copies(path, entry):
     """Rotations only: Blender would show a mirrored or sheared molecule without a word."""
     copies = entry.get("copies", [IDENTITY])
-    if not isinstance(copies, list) or not all(_are_numbers(copy, 12) for copy in copies):
+    if not isinstance(copies, list) or not all(header_values.are_numbers(copy, 12) for copy in copies):
         raise MnsError(f"{path}: copies are not lists of twelve numbers")
     matrices = np.array(copies, dtype=np.float64).reshape(-1, 3, 4)
     turns = matrices[:, :, :3]
@@ -146,12 +193,6 @@ def _check_copies(path, entry):
         raise MnsError(f"{path}: copies are missing")
     if not np.allclose(turns @ turns.transpose(0, 2, 1), np.eye(3), atol=1e-6) or (np.linalg.det(turns) < 0).any():
         raise MnsError(f"{path}: a copy is not a rotation and a translation")
-
-
-def _are_numbers(values, count):
-    """A list of so many finite numbers, which fit into double precision with room for their squares."""
-    return (isinstance(values, list) and len(values) == count
-            and all(type(value) in (int, float) and abs(value) < 1e100 for value in values))
 
 
 def _read_header(path, data):
@@ -205,6 +246,7 @@ def _read_array(path, data, start, entry):
 
 def _check(surface):
     path, arrays = surface.path, surface.arrays
+    _check_values(surface)
     for name, columns in {**NEEDED, **OPTIONAL}.items():
         if name not in arrays:
             if name in OPTIONAL:
@@ -220,10 +262,9 @@ def _check(surface):
     if vertices == 0 or triangles == 0:
         raise MnsError(f"{path}: the mesh is empty")
     if "caps" in surface.header:
-        _check_caps(path, surface)
-    looks = surface.header.get("material", {})
-    if not isinstance(looks, dict) or not _are_numbers(list(looks.values()), len(looks)):
-        raise MnsError(f"{path}: material does not hold numbers alone")
+        _check_caps(surface)
+    elif "mesh.cap_plane" in arrays:
+        raise MnsError(f"{path}: array mesh.cap_plane is there, but the header has no caps")
     if ("mesh.map_value" in arrays) != ("mesh.map_color" in arrays):
         raise MnsError(f"{path}: of mesh.map_value and mesh.map_color one is missing")
     opacity = arrays.get("atom.opacity")
@@ -232,14 +273,7 @@ def _check(surface):
     mesh = surface.header.get("mesh")
     if not isinstance(mesh, dict) or mesh.get("vertices") != vertices or mesh.get("triangles") != triangles:
         raise MnsError(f"{path}: header and arrays disagree on the number of vertices or triangles")
-    origin = mesh.get("origin")
-    if not _are_numbers(origin, 3):
-        raise MnsError(f"{path}: mesh.origin is not three numbers")
-    listed = surface.header.get("components") or []
-    if not isinstance(listed, list) or not all(
-            isinstance(component, dict) and isinstance(component.get("kind"), str) for component in listed):
-        raise MnsError(f"{path}: the components are not listed")
-    components = len(listed)
+    components = len(surface.header.get("components", ()))
     lengths = {
         "mesh.normal": vertices, "mesh.velocity": vertices, "mesh.kind": triangles, "mesh.patch": triangles,
         "mesh.component": triangles, "mesh.atom": triangles, "mesh.cap_plane": triangles, "mesh.patch_area": triangles,
@@ -254,6 +288,9 @@ def _check(surface):
         "mesh.triangle": vertices, "mesh.sharp_edge": vertices, "mesh.sharp_corner": 3 * triangles, "mesh.kind": CAP + 1 if "caps" in surface.header else 3,
         "mesh.component": components, "mesh.atom": atoms,
     }
+    for name in [f"atom.{name}" for name in WHOLE if f"atom.{name}" in arrays]:
+        if arrays[name].dtype.kind not in "iu":
+            raise MnsError(f"{path}: array {name} does not hold whole numbers")
     for name, limit in limits.items():
         if arrays[name].dtype.kind not in "iu" or (arrays[name].size and int(arrays[name].min()) < 0):
             raise MnsError(f"{path}: array {name} does not hold indices")
@@ -261,20 +298,29 @@ def _check(surface):
             raise MnsError(f"{path}: array {name} holds the index {int(arrays[name].max())}, the limit is {limit - 1}")
 
 
-def _check_caps(path, surface):
-    """Planes, and of hatching what its lines need; each cap lies on a plane."""
-    caps = surface.header["caps"]
+def _check_values(surface):
+    """Raises MnsError for a value of the header that the add-on could not use."""
+    header = surface.header
+    needed = ["mesh", "mesh.origin", *(["caps.planes"] if "caps" in header else ())]
     try:
-        planes, hatching = caps["planes"], caps.get("hatching")
-        good = isinstance(planes, list) and planes and all(_are_numbers(plane, 4) for plane in planes)
-        good = good and ("color" not in caps or _are_numbers(caps["color"], 3))
-        if hatching is not None:
-            good = good and len(hatching["across"]) == len(planes) and all(_are_numbers(axis, 3) for axis in hatching["across"])
-            good = good and _are_numbers([hatching["distance"], hatching["share"], hatching["light"]], 3) and hatching["distance"] > 0
-    except (KeyError, TypeError, AttributeError):
-        good = False
-    if not good:
-        raise MnsError(f"{path}: what the header says about caps is not valid")
+        header_values.check(header, VALUES, needed)
+        if "hatching" in header.get("caps", ()):
+            header_values.check(header, VALUES, [key for key in VALUES if key.startswith("caps.hatching.")])
+        listed = header.get("components", [])
+        if not isinstance(listed, list):
+            raise ValueError(f"components is {header_values.told(listed)}, not a list")
+        for component in listed:
+            header_values.check({"components": component}, COMPONENT, ("components", "components.kind"))
+    except ValueError as error:
+        raise MnsError(f"{surface.path}: {error}") from None
+
+
+def _check_caps(surface):
+    """Raises MnsError if a cap lies on no plane, or if hatching lacks a direction for a plane."""
+    path, caps = surface.path, surface.header["caps"]
+    planes = caps["planes"]
+    if "hatching" in caps and len(caps["hatching"]["across"]) != len(planes):
+        raise MnsError(f"{path}: caps.hatching.across has {len(caps['hatching']['across'])} directions for {len(planes)} planes")
     cap, plane = surface["mesh.kind"] == CAP, surface.get("mesh.cap_plane")
     if cap.any() and (plane is None or plane.dtype.kind not in "iu" or int(plane[cap].max()) >= len(planes)):
         raise MnsError(f"{path}: a cap lies on no plane")
@@ -296,10 +342,3 @@ def is_closed(triangles):
     if (forward[1:] == forward[:-1]).any() or (a == b).any():
         return False
     return np.array_equal(forward, np.sort(b << np.uint64(32) | a))
-
-
-def signed_volume(positions, triangles):
-    """Å³; positive when the triangles face outwards."""
-    p = positions.astype(np.float64)
-    a, b, c = (p[triangles[:, k]] for k in range(3))
-    return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6.0)

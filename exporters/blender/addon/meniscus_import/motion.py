@@ -9,20 +9,20 @@ from bpy.app.handlers import persistent
 #: Seconds without a change after which a fine mesh follows a proxy.
 REST = 0.4
 
-_due = {}  # name of an object -> when
+_due = {}  # identity of an object -> when
 _rendering = False
 
 
-def moves(name):
-    _due[name] = clock.monotonic() + REST
+def moves(owner):
+    _due[owner] = clock.monotonic() + REST
 
 
-def rests(name):
-    _due.pop(name, None)
+def rests(owner):
+    _due.pop(owner, None)
 
 
-def is_moving(name):
-    return name in _due
+def is_moving(owner):
+    return owner in _due
 
 
 def any_moves():
@@ -30,16 +30,20 @@ def any_moves():
 
 
 def at_rest():
-    """Names of objects that have not moved for a while; none as long as the timeline plays."""
+    """Identities of objects that have not moved for a while; none as long as the timeline plays."""
     if is_playing():
         return []
-    return [name for name, due in _due.items() if due <= clock.monotonic()]
+    return [owner for owner, due in _due.items() if due <= clock.monotonic()]
 
 
 def is_playing():
     """Whether a user watches the timeline as it runs; pictures and files are made of fine meshes."""
     windows = () if bpy.app.background or _rendering else getattr(bpy.context.window_manager, "windows", ())
     return any(window.screen.is_animation_playing for window in windows)
+
+
+def is_rendering():
+    return _rendering
 
 
 def forget():
@@ -50,11 +54,11 @@ def forget():
 def on_render(scene, *_arguments):
     """Pictures do not wait for rest."""
     global _rendering
-    from . import computed  # which needs this
+    from . import compat, computed  # which needs this
 
     _rendering = True
-    for item in [item for item in scene.objects if is_moving(item.name) and computed.is_computed(item)]:
-        rests(item.name)
+    for item in [item for item in scene.objects if is_moving(compat.identity(item)) and computed.is_computed(item)]:
+        rests(compat.identity(item))
         computed.come_to_rest(item)
 
 

@@ -6,7 +6,7 @@ import os
 import bpy
 from bpy_extras.io_utils import ImportHelper
 
-from . import build, compat, computed, looks, mns_reader, molecular_nodes
+from . import build, compat, computed, libraries, looks, mns_reader, molecular_nodes
 from .computing import preparation
 from .settings import DETAILS
 
@@ -122,7 +122,7 @@ class OBJECT_OT_meniscus_update(Waiting, bpy.types.Operator):
         except mns_reader.MnsError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        item.data[computed.SHOWN] = ""
+        libraries.own_mesh(item, lambda _other: True)[computed.SHOWN] = ""
         return start(self, item)
 
 
@@ -161,7 +161,7 @@ class OBJECT_OT_meniscus_look(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return is_surface(context.active_object)
+        return is_surface(context.active_object) and context.active_object.data.library is None
 
     def execute(self, context):
         item = context.active_object
@@ -169,7 +169,11 @@ class OBJECT_OT_meniscus_look(bpy.types.Operator):
         if name not in item.data.attributes:
             self.report({"ERROR"}, f"{item.name} has no attribute {name}")
             return {"CANCELLED"}
-        looks.dress(item, self.look, self.coloring)
+        try:
+            looks.dress(item, self.look, self.coloring)
+        except mns_reader.MnsError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
         if self.lines:
             looks.add_lines(context, item)
         return {"FINISHED"}
@@ -202,11 +206,21 @@ class VIEW3D_PT_meniscus(InSidebar, bpy.types.Panel):
         column = layout.column(align=True)
         column.operator("object.meniscus_from_file", icon="FILE_FOLDER")
         column.operator("object.meniscus_from_atoms", icon="OUTLINER_OB_POINTCLOUD")
+        if item is not None and item.library is not None and is_surface(item):
+            layout.label(text="Linked: stays as it was saved", icon="LINKED")
         if not computed.is_computed(item):
+            self.draw_error(item)
             return
         layout.use_property_split, layout.use_property_decorate = True, False
         self.draw_state(item)
         self.draw_request(item)
+
+    def draw_error(self, item):
+        """True if there is one."""
+        said = item.get(libraries.ERROR) if item is not None else None
+        for line in wrapped(said or "", 40):
+            self.layout.label(text=line, icon="ERROR")
+        return bool(said)
 
     def draw_state(self, item):
         layout, progress = self.layout, computed.progress_of(item)
@@ -215,10 +229,7 @@ class VIEW3D_PT_meniscus(InSidebar, bpy.types.Panel):
         if progress is not None:
             row.operator("object.meniscus_cancel", text="", icon="CANCEL")
             layout.label(text="%s … %.1f s" % progress, icon="SORTTIME")
-        if item.get(computed.ERROR):
-            for line in wrapped(item[computed.ERROR], 40):
-                layout.label(text=line, icon="ERROR")
-        elif "meniscus_area" in item:
+        if not self.draw_error(item) and "meniscus_area" in item:
             layout.label(text="%.2f Å², %.2f Å³" % (item["meniscus_area"], item["meniscus_volume"]))
             layout.label(text=f"{len(item.data.polygons):,} triangles")
 

@@ -3,12 +3,11 @@
 
 import math
 import os
-import sys
 
 import bpy
 from bpy.app.handlers import persistent
 
-from . import attributes, build, compat, frame_picker, frames, mesh_arrays, mns_reader, sequence_reader
+from . import attributes, build, compat, frame_picker, frames, libraries, mesh_arrays, mns_reader, sequence_reader
 from .computing import process
 
 
@@ -143,6 +142,7 @@ def remember(item, placement):
     """Plain custom properties: they survive saving and need no registration."""
     sequence = placement.sequence
     item["meniscus_sequence"] = build.remembered_path(sequence.path)
+    libraries.note(item)
     item["meniscus_run"] = sequence.run
     item["meniscus_source"], item["meniscus_atoms"] = build.source_of(sequence.header), int(sequence.header.get("atoms", 0))
     item["meniscus_scale"] = placement.scale
@@ -185,34 +185,30 @@ def bake(path, context=None, progress=None, **options):
     context = context or bpy.context
     run = Run(path, context, **options)
     sequence, placement = run.sequence, run.placement
-    store = bpy.data.collections.new(sequence.stem + ".frames")
-    collection = bpy.data.collections.new(sequence.stem)
-    camera = item = None
+    camera = None
     try:
-        if run.import_camera:
-            camera = add_camera(collection, placement)
-        for scene_frame in range(1, len(sequence.frames) + 1):
-            # Geometry Nodes sort a collection by name; short names, since Blender cuts long ones.
-            mesh = bpy.data.meshes.new(f"{sequence.stem[:40]}.{scene_frame:07d}")
-            store.objects.link(bpy.data.objects.new(mesh.name, mesh))
-            if scene_frame < len(sequence.frames):
-                _ahead.ask(placement, scene_frame + 1)
-            prepared = placement.refill(mesh, scene_frame)
-            if camera is not None:
-                build.reach_all(camera, prepared.points, placement.scale, placement.origin)
-            if progress:
-                progress(scene_frame, len(sequence.frames))
-        item = frame_picker.add(sequence.stem + ".surface", store, len(sequence.frames), placement.timing)
-        remember(item, placement)
-        collection.objects.link(item)
-    except BaseException:
-        remove([item, camera, *store.objects], [store, collection], placement.new_materials)
-        raise
+        with build.whole_or_nothing():
+            store = bpy.data.collections.new(sequence.stem + ".frames")
+            collection = bpy.data.collections.new(sequence.stem)
+            if run.import_camera:
+                camera = add_camera(collection, placement)
+            for scene_frame in range(1, len(sequence.frames) + 1):
+                # Geometry Nodes sort a collection by name; short names, since Blender cuts long ones.
+                mesh = bpy.data.meshes.new(f"{sequence.stem[:40]}.{scene_frame:07d}")
+                store.objects.link(bpy.data.objects.new(mesh.name, mesh))
+                if scene_frame < len(sequence.frames):
+                    _ahead.ask(placement, scene_frame + 1)
+                prepared = placement.refill(mesh, scene_frame)
+                if camera is not None:
+                    build.reach_all(camera, prepared.points, placement.scale, placement.origin)
+                if progress:
+                    progress(scene_frame, len(sequence.frames))
+            item = frame_picker.add(sequence.stem + ".surface", store, len(sequence.frames), placement.timing)
+            remember(item, placement)
+            collection.objects.link(item)
     finally:
         _ahead.forget()
-    context.scene.collection.children.link(collection)
-    collection.children.link(store)
-    exclude(context.view_layer.layer_collection, store)
+    context.scene.collection.children.link(collection)  # without the store: what is hidden in one view layer shows in others
     run.finish(context, item, camera, [each.data for each in store.objects])
     return item
 
@@ -223,11 +219,11 @@ def stream(path, context=None, **options):
     context = context or bpy.context
     run = Run(path, context, **options)
     sequence, placement = run.sequence, run.placement
-    collection = bpy.data.collections.new(sequence.stem)
-    mesh = bpy.data.meshes.new(sequence.stem + ".surface")
-    item = bpy.data.objects.new(mesh.name, mesh)
     camera = None
-    try:
+    with build.whole_or_nothing():
+        collection = bpy.data.collections.new(sequence.stem)
+        mesh = bpy.data.meshes.new(sequence.stem + ".surface")
+        item = bpy.data.objects.new(mesh.name, mesh)
         collection.objects.link(item)
         prepared = placement.refill(mesh, 1)
         mesh["meniscus_shown"] = shown_key(sequence, 1)
@@ -241,9 +237,6 @@ def stream(path, context=None, **options):
         item["meniscus_start"], item["meniscus_speed"] = placement.timing.start, placement.timing.speed
         item["meniscus_outside"] = placement.timing.outside
         item["meniscus_by_hand"], item["meniscus_frame"] = False, 1.0
-    except BaseException:
-        remove([item, camera], [collection], placement.new_materials)
-        raise
     context.scene.collection.children.link(collection)
     context.scene.render.use_lock_interface = True  # the window must not read a mesh that a render refills
     run.finish(context, item, camera, [mesh])
@@ -251,31 +244,12 @@ def stream(path, context=None, **options):
     return item
 
 
-def exclude(layer, collection):
-    for child in layer.children:
-        if child.collection == collection:
-            child.exclude = True
-        exclude(child, collection)
-
-
-def remove(items, collections, new_materials):
-    for item in items:
-        if item is not None:
-            data = item.data
-            bpy.data.objects.remove(item)
-            (bpy.data.cameras if isinstance(data, bpy.types.Camera) else bpy.data.meshes).remove(data)
-    for collection in collections:
-        bpy.data.collections.remove(collection)
-    for material in new_materials:
-        bpy.data.materials.remove(material)
-
-
 _manifests = frames.Manifests()
-_kept = {}  # name of a mesh -> (run, attributes of the user by atom)
+_kept = {}  # identity of a mesh -> (run, attributes of the user by atom)
 
 
 def placement_of(item, scene):
-    sequence = _manifests.get(bpy.path.abspath(item["meniscus_sequence"]))
+    sequence = _manifests.get(libraries.path_of(item, "meniscus_sequence"))
     timing = sequence_reader.Timing(item.get("meniscus_start", 1.0), item.get("meniscus_speed", 1.0),
                                     item.get("meniscus_outside", "EMPTY"))
     return Placement(sequence, item["meniscus_scale"], True, bool(item["meniscus_crisp"]), timing,
@@ -300,38 +274,48 @@ def show_frame(scene):
     """Fills every streamed object of the scene with its frame, unless it holds it already: with motion blur Blender
     asks for moments between frames, whose nearest frame is the same. While a mesh is edited it stays as it is."""
     for item in list(scene.objects):
-        if item.type == "MESH" and item.get("meniscus_stream") and not item.data.is_editmode:
+        if item.type == "MESH" and item.get("meniscus_stream") and not item.data.is_editmode and not libraries.is_fixed(item):
             refresh(item, scene)
 
 
+def shows(item, scene):
+    """What a stream must show now: its placement, the place in its run or None, and a key that two share if their meshes are the same."""
+    placement = placement_of(item, scene)
+    scene_frame = place_at(item, placement, scene.frame_current_final)
+    return placement, scene_frame, (shown_key(placement.sequence, scene_frame), placement.scale, *placement.origin, placement.crisp_colors)
+
+
 def refresh(item, scene):
+    gone = libraries.gone(item, "meniscus_sequence")
+    if gone:
+        libraries.fail(item, gone)
+        return
     mesh = item.data
     try:
-        placement = placement_of(item, scene)
-        time = scene.frame_current_final
-        scene_frame = place_at(item, placement, time)
-        key = shown_key(placement.sequence, scene_frame)
-        if mesh.get("meniscus_shown") == key:
+        placement, scene_frame, key = shows(item, scene)
+        if mesh.get("meniscus_shown") == key[0]:
+            libraries.succeed(item)
             return
+        mesh = libraries.own_mesh(item, lambda other: not other.get("meniscus_stream") or shows(other, scene)[2] == key)
         mesh["meniscus_shown"] = ""
-        run, older = _kept.get(mesh.name, ("", ()))
+        run, older = _kept.get(compat.identity(mesh), ("", ()))
         kept = attributes.keep(mesh, build.OURS, older if run == placement.sequence.run else ())
-        _kept[mesh.name] = (placement.sequence.run, kept)
+        _kept[compat.identity(mesh)] = (placement.sequence.run, kept)
         if scene_frame is None:  # outside of the run there is nothing to see
             build.clear_geometry(mesh)
         else:
             placement.refill(mesh, scene_frame, kept)
             build.set_names(item, placement.names)
-            after = place_at(item, placement, time + 1.0)
+            after = place_at(item, placement, scene.frame_current_final + 1.0)
             if after not in (None, scene_frame):
                 _ahead.ask(placement, after)
-        mesh["meniscus_shown"] = key
-        item["meniscus_error"] = ""
+        mesh["meniscus_shown"] = key[0]
+        libraries.succeed(item)
     except Exception as error:  # a handler that raises changes nothing: Blender goes on and renders
+        mesh = libraries.own_mesh(item, lambda _other: True)
         build.clear_geometry(mesh)
         mesh["meniscus_shown"] = ""
-        item["meniscus_error"] = str(error) or type(error).__name__
-        sys.stderr.write(f"meniscus: error: {item['meniscus_error']}\n")
+        libraries.fail(item, error)
         compat.show_message("Meniscus", item["meniscus_error"])
     mesh.update()
 

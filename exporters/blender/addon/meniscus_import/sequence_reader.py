@@ -8,16 +8,17 @@ import re
 import numpy as np
 
 try:
-    from . import camera_reader, mns_reader
+    from . import header_values, mns_reader
 except ImportError:  # outside of the add-on
-    import camera_reader
+    import header_values
     import mns_reader
 
 VERSION = 1
 #: Longer than any film.
 MOST_FRAMES = 10_000_000
-
-
+#: Values of a manifest; the first four are needed.
+VALUES = {"run": header_values.TEXT, "origin": header_values.VECTOR, "scale": header_values.POSITIVE, "fps": header_values.POSITIVE,
+          "atoms": header_values.NUMBER, **header_values.SOURCE}
 #: What shows before and behind a run.
 OUTSIDE = ("EMPTY", "HOLD", "LOOP", "PINGPONG")
 
@@ -107,15 +108,8 @@ class Sequence:
 
 def read(path):
     """The sequence a manifest describes. Its .mns files may not be there yet. Raises MnsError or OSError."""
-    header = mns_reader.read_json(path)
-    if not isinstance(header, dict) or header.get("format") != "meniscus surface sequence":
-        raise mns_reader.MnsError(f"{path}: not the manifest of a sequence of surfaces")
-    version = header.get("version")
-    if not isinstance(version, int) or version < 1:
-        raise mns_reader.MnsError(f"{path}: version {version!r} does not exist")
-    if version > VERSION:
-        raise mns_reader.MnsError(f"{path}: version {version} is newer than this add-on knows ({VERSION}); update it")
-    _check_numbers(path, header)
+    header = mns_reader.read_manifest(path, "meniscus surface sequence", "the manifest of a sequence of surfaces", VERSION, VALUES,
+                                      ("run", "origin", "scale", "fps"))
     entries = header.get("frames")
     if not isinstance(entries, list) or not entries:
         raise mns_reader.MnsError(f"{path}: it lists no frames")
@@ -125,29 +119,17 @@ def read(path):
     return Sequence(path, header, frames)
 
 
-def _check_numbers(path, header):
-    try:
-        origin = np.array(header["origin"], dtype=np.float64)
-        good = origin.shape == (3,) and np.isfinite(origin).all()
-        good = good and all(math.isfinite(header[key]) and header[key] > 0 for key in ("scale", "fps"))
-        good = good and isinstance(header["run"], str)
-    except (KeyError, TypeError, ValueError, OverflowError):
-        good = False
-    if not good:
-        raise mns_reader.MnsError(f"{path}: run, origin, scale or fps is missing or not valid")
-
-
 def _frame(path, header, entry):
     try:
         number, name = entry["frame"], entry["file"]
         plain = isinstance(name, str) and name == os.path.basename(name) and "\\" not in name and name not in ("", ".", "..")
         if not plain or isinstance(number, bool) or not isinstance(number, int) or number < 0:
-            raise ValueError
+            raise ValueError(f"no frame is {header_values.told(number)} in a file {header_values.told(name)}")
         camera = entry.get("camera", header.get("camera"))
         if camera is not None:
-            camera_reader.check(camera)
-    except (KeyError, TypeError, ValueError, OverflowError):
-        raise mns_reader.MnsError(f"{path}: an entry of the list of frames is not valid") from None
+            header_values.check_camera(camera)
+    except (KeyError, TypeError, ValueError) as error:
+        raise mns_reader.MnsError(f"{path}: an entry of the list of frames is not valid: {error}") from None
     return Frame(number, os.path.join(os.path.dirname(path), name), camera)
 
 

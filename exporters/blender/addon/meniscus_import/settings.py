@@ -3,7 +3,7 @@
 
 import bpy
 
-from . import sequence_reader
+from . import libraries, sequence_reader
 from .computing import preparation, request
 
 #: Of what the program colours by; more on its command line.
@@ -18,12 +18,15 @@ COLORS = (
 DETAILS = (("AUTO", "Fine at rest", "A proxy while sliders move and while the timeline plays, else a fine mesh", "", 2),
            ("PROXY", "Proxy", "Even triangles, by vertices per Å²", "", 0),
            ("FINE", "Fine", "Within a tolerance of the exact surface, for pictures", "", 1))
+#: What changes no surface; the frame by hand is keyed, and looked up when it shows.
+APART = ("frame", "live", "center")
 
 
 def on_change(settings, _context):
     """Of a property that changes the surface."""
     from . import computed  # which needs the settings
 
+    libraries.note(settings.id_data)
     computed.changed(settings.id_data)
 
 
@@ -116,6 +119,10 @@ class MeniscusSettings(bpy.types.PropertyGroup):
             rows = [row for row in rows if preparation.name_of(row) != "model"]
         return preparation.asked(rows, lambda name: getattr(self, name))
 
+    def asked(self):
+        """All values that say which surfaces show when, to be compared."""
+        return [getattr(self, name) for name in type(self).__annotations__ if name not in APART]
+
     def timing(self):
         return sequence_reader.Timing(self.start, self.speed, self.outside)
 
@@ -127,7 +134,8 @@ class MeniscusSettings(bpy.types.PropertyGroup):
         """A request.Request; place: in the run, from 1, or 0."""
         of_file = self.source == "FILE"
         return request.Request(
-            file=bpy.path.abspath(self.file) if of_file else "", trajectory=bpy.path.abspath(self.trajectory) if of_file and self.is_run else "",
+            file=libraries.path_of(self.id_data, "file") if of_file else "",
+            trajectory=libraries.path_of(self.id_data, "trajectory") if of_file and self.is_run else "",
             frames=self.frames if of_file and self.is_run else "",
             trajectory_atoms=self.trajectory_atoms if of_file and self.is_run else "", preparation=self.preparation(), selection=self.selection,
             color=self.color if of_file else "", place=place, kind=self.kind, probe=short(self.probe),
@@ -135,6 +143,11 @@ class MeniscusSettings(bpy.types.PropertyGroup):
 
 
 MeniscusSettings.__annotations__.update({preparation.name_of(row): _field(row) for row in preparation.ROWS})
+for each in MeniscusSettings.__annotations__.values():
+    each.keywords["override"] = {"LIBRARY_OVERRIDABLE"}
+if bpy.app.version >= (4, 5, 0):
+    for each in libraries.SETTINGS:
+        MeniscusSettings.__annotations__[each].keywords["options"] = {"ANIMATABLE", "PATH_SUPPORTS_BLEND_RELATIVE"}
 
 
 def short(value):
@@ -167,7 +180,7 @@ CLASSES = (MeniscusSettings, MeniscusPreferences)
 def register():
     for item in CLASSES:
         bpy.utils.register_class(item)
-    bpy.types.Object.meniscus = bpy.props.PointerProperty(type=MeniscusSettings)
+    bpy.types.Object.meniscus = bpy.props.PointerProperty(type=MeniscusSettings, override={"LIBRARY_OVERRIDABLE"})
 
 
 def unregister():

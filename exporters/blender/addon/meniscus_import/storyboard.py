@@ -35,20 +35,13 @@ def import_file(path, context=None, scale=None, center=False, import_camera=True
     files = {each: mns_reader.read(each) for each in {scene.path: None for scene in board.scenes}}
     story = _Story(path, board, files, options, _origin(context.scene, board, files, center))
     made = Imported()
-    before = {store: set(store) for store in (bpy.data.objects, bpy.data.meshes, bpy.data.cameras, bpy.data.collections,
-                                              bpy.data.materials, bpy.data.node_groups, bpy.data.actions)}
-    try:
+    with build.whole_or_nothing():
         made.collection = bpy.data.collections.new(story.name)
         made.items = story.add_scenes(made.collection)
         if import_camera:
-            made.camera = camera_rig.add(made.collection, board, story.name, options.scale, story.origin, [])
+            made.camera = camera_rig.add(made.collection, board, story.name, options.scale, story.origin)
             camera_rig.reach_all(made.camera, board, [frames.points_of(files[scene.path]) for scene in board.scenes], options.scale)
         context.scene.collection.children.link(made.collection)
-    except BaseException:
-        for store, kept in before.items():
-            for item in set(store) - kept:
-                store.remove(item)
-        raise
     if set_time:
         set_up_time(context.scene, board)
     if set_background:

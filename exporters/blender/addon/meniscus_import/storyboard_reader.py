@@ -1,20 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reads and checks a storyboard, and computes its cameras between scenes, with numpy alone; knows nothing of Blender (FORMAT.md)."""
 
-import math
 import os
 
 import numpy as np
 
 try:
-    from . import camera_reader, mns_reader
+    from . import header_values, mns_reader
 except ImportError:  # outside of the add-on
-    import camera_reader
+    import header_values
     import mns_reader
 
 VERSION = 1
 #: Longer than any film.
 MOST_FRAMES = 10_000_000
+#: Values of a storyboard, which are needed, and of one of its scenes, which are but for title and background.
+VALUES = {"origin": header_values.VECTOR, "scale": header_values.POSITIVE, "fps": header_values.POSITIVE,
+          "ease": (lambda value: value in ("smooth", "even"), "smooth or even")}
+OF_SCENE = {"name": header_values.TEXT, "title": header_values.TEXT, "file": header_values.TEXT, "camera": header_values.DICT,
+            "background": (lambda value: value is None or header_values.COLOR[0](value), header_values.COLOR[1])}
 
 
 class Scene:
@@ -47,21 +51,8 @@ class Storyboard:
 
 def read(path):
     """The storyboard that a file describes. Its .mns files may not be there yet. Raises MnsError or OSError."""
-    header = mns_reader.read_json(path, ", such as meniscus film --to blender writes")
-    if not isinstance(header, dict) or header.get("format") != "meniscus storyboard":
-        raise mns_reader.MnsError(f"{path}: not a storyboard of Meniscus")
-    version = header.get("version")
-    if not isinstance(version, int) or isinstance(version, bool) or version < 1:
-        raise mns_reader.MnsError(f"{path}: version {version!r} does not exist")
-    if version > VERSION:
-        raise mns_reader.MnsError(f"{path}: version {version} is newer than this add-on knows ({VERSION}); update it")
-    try:
-        good = _are_numbers(header["origin"], 3) and all(_are_numbers([header[key]], 1) and header[key] > 0 for key in ("scale", "fps"))
-        good = good and header["ease"] in ("smooth", "even")
-    except (KeyError, TypeError):
-        good = False
-    if not good:
-        raise mns_reader.MnsError(f"{path}: origin, scale, fps or ease is missing or not valid")
+    header = mns_reader.read_manifest(path, "meniscus storyboard", "a storyboard of Meniscus", VERSION, VALUES, VALUES,
+                                      ", such as meniscus film --to blender writes")
     entries = header.get("scenes")
     if not isinstance(entries, list) or len(entries) < 2:
         raise mns_reader.MnsError(f"{path}: it lists fewer than two scenes")
@@ -72,27 +63,18 @@ def read(path):
     return Storyboard(path, header, scenes)
 
 
-def _are_numbers(values, count):
-    return (isinstance(values, list) and len(values) == count
-            and all(type(value) in (int, float) and abs(value) < 1e100 for value in values))
-
-
 def _scene(path, entry, number):
     try:
+        header_values.check(entry, OF_SCENE, ("name", "file", "camera"))
         name, file, first, last = (entry[key] for key in ("name", "file", "first", "last"))
         title, background = entry.get("title", ""), entry.get("background")
-        plain = isinstance(file, str) and file == os.path.basename(file) and "\\" not in file and file not in ("", ".", "..")
-        if not plain or not isinstance(name, str) or not isinstance(title, str):
-            raise ValueError("name, title or file is not a plain text")
+        if file != os.path.basename(file) or "\\" in file or file in ("", ".", ".."):
+            raise ValueError(f"file is {header_values.told(file)}, not a name in the storyboard's folder")
         if type(first) is not int or type(last) is not int or not 1 <= first <= last <= MOST_FRAMES:
-            raise ValueError(f"it cannot last from frame {first!r} to {last!r}")
-        if background is not None and not (_are_numbers(background, 3) and 0.0 <= min(background) <= max(background) <= 1.0):
-            raise ValueError("background is not three numbers from 0 to 1")
-        if not isinstance(entry["camera"], dict):
-            raise ValueError("camera is not an object")
-        camera_reader.check(entry["camera"])
+            raise ValueError(f"it cannot last from frame {header_values.told(first)} to {header_values.told(last)}")
+        header_values.check_camera(entry["camera"])
     except KeyError as error:
         raise mns_reader.MnsError(f"{path}: scene {number}: {error} is missing or unknown") from None
-    except (TypeError, ValueError, OverflowError, AttributeError) as error:
+    except (TypeError, ValueError) as error:
         raise mns_reader.MnsError(f"{path}: scene {number}: {error}") from None
     return Scene(name, title, os.path.join(os.path.dirname(path), file), first, last, entry["camera"], background)
