@@ -257,7 +257,10 @@ class EvenMeshing {
   }
 
   MeshMender mender() {
-    return {*mesh_, [this](const PlacedTriangle& t) { return sizes_.by_density() || !nearness_.far_place(*mesh_, t); }};
+    const auto allowed = [this](const PlacedTriangle& t) { return !nearness_.far_place(*mesh_, t); };
+    if (!sizes_.by_density()) return {*mesh_, allowed};
+    return {*mesh_, [](const PlacedTriangle&) { return true; },
+            RemeshTuning::least_work + RemeshTuning::most_work_each * mesh_->links().triangle_count()};
   }
   void mend(const std::vector<std::uint32_t>& triangles) {
     mender().mend(triangles);

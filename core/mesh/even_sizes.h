@@ -161,6 +161,8 @@ struct RemeshTuning {
   /// pairs that cross per triangle than that all begins again at once.
   static constexpr double fastest_growth = 1.1;
   static constexpr std::size_t most_growth_each = 50, most_crossings = 2;
+  /// With a density, what mending may look at in an attempt, per triangle and at least; bare balls need a tenth of it.
+  static constexpr std::uint64_t most_work_each = 20'000, least_work = 20'000'000;
 
   /// Where fewer than one triangle in so many changed, crossings are searched for at these alone.
   static constexpr std::uint32_t few_unchecked = 4;

@@ -309,6 +309,7 @@ void CrossingGuard::list_near(std::span<const PlacedTriangle> made, std::span<co
     all = {glm::min(all.low, box.low), glm::max(all.high, box.high)};
   }
   grid_.for_each_near(all, [&](std::uint32_t t) {
+    ++work_;
     if (std::exchange(seen_[t], question_) == question_ || !links_.lives(3 * t)) return;
     const PlacedTriangle other = placed(t);
     const Box box = other.box();
@@ -327,6 +328,7 @@ std::size_t CrossingGuard::crossings(std::span<const PlacedTriangle> made, std::
   list_near(made, gone);
   for (const PlacedTriangle& x : made) {
     const Box box = x.box();
+    work_ += near_.size();
     for (const auto& [around, other] : near_) count += !are_apart(box, around) && triangles_cross(x, other);
     if (count >= enough) return count;
   }

@@ -153,6 +153,8 @@ class CrossingGuard {
   std::size_t crossings(std::span<const PlacedTriangle> made, std::span<const std::uint32_t> gone,
                         std::size_t enough = kAll) const;
   PlacedTriangle placed(std::uint32_t triangle) const;
+  /// How many triangles all questions so far looked at: what they cost, the same for any number of threads.
+  std::uint64_t work() const { return work_; }
 
  private:
   /// How a vertex is watched: bits.
@@ -170,6 +172,7 @@ class CrossingGuard {
   mutable std::vector<std::pair<Box, PlacedTriangle>> near_;
   mutable std::vector<std::uint32_t> seen_;  ///< per triangle: the number of the question that last met it
   mutable std::uint32_t question_ = 0;
+  mutable std::uint64_t work_ = 0;
 };
 
 }  // namespace meniscus

@@ -357,6 +357,7 @@ void MeshMender::mend(std::vector<std::uint32_t> bad, std::vector<std::uint8_t> 
     changed_.assign(links.vertex_count(), 0);
     for (std::size_t n = 0; n < bad.size(); ++n) {
       const std::uint32_t t = bad[n];
+      if (mesh_.guard().work() > most_work_) return mesh_.guard().release();
       if (!links.lives(3 * t)) continue;
       const bool wrong = doubtful[t] && is_wrong(t);
       if (!wrong && qualities.of(t) >= Tuning::good_quality) continue;

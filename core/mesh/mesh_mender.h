@@ -26,8 +26,9 @@ struct PointAtTriangle {
 
 class MeshMender {
  public:
-  /// mesh: has to live as long.
-  MeshMender(MeshOnSurface& mesh, Allowed allowed) : mesh_(mesh), allowed_(std::move(allowed)) {}
+  /// mesh: has to live as long. No change is tried once its guard has done more than so much work.
+  MeshMender(MeshOnSurface& mesh, Allowed allowed, std::uint64_t most_work = ~std::uint64_t{0})
+      : mesh_(mesh), allowed_(std::move(allowed)), most_work_(most_work) {}
 
   /// Changes these triangles, and all others with small angles, one by one until they pass through no others, are
   /// allowed and have larger angles, wherever one flip, collapse, split or move does that. No others come to cross or
@@ -81,6 +82,7 @@ class MeshMender {
 
   MeshOnSurface& mesh_;
   Allowed allowed_;
+  std::uint64_t most_work_;
   std::vector<std::uint8_t> changed_;  ///< per vertex: since the round began; what is around it or where it is
 };
 
