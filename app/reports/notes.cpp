@@ -88,7 +88,7 @@ void tell_run(const SceneCommand& command, const FrameRun& frames) {
   if (!trajectory.cut_short().empty())
     say(command, fmt::format("warning: {}: {}", trajectory.path(), trajectory.cut_short()));
   if (command.scene.molecule.color.by == ColorScheme::By::component && frames.numbers().size() > 1)
-    say(command, "warning: components are counted anew in each frame, so one colour may be another part in the next");
+    say(command, "warning: components are counted again in each frame, so one colour may be another part in the next");
 }
 
 void tell_built(const SceneCommand& command, const Molecule& molecule) {

@@ -19,7 +19,7 @@ constexpr std::uint8_t of(AtomField field) { return static_cast<std::uint8_t>(fi
 
 constexpr SelectionWord kWords[] = {
     {"chain chainid segid", WordKind::text, of(AtomField::chain), "chain A B-2",
-     "chains by name; of an assembly with all copies, B-2 is the second"},
+     "chains by name, with all copies; B-2: the second"},
     {"resid resi resnum", WordKind::residue, of(AtomField::residue_number), "resid 5 10-20 52A",
      "residues by number; ranges 5-10, 5:10, 5 to 10"},
     {"resname resn", WordKind::text, of(AtomField::residue_name), "resname ALA G*", "residues by name"},
