@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -66,6 +67,18 @@ CrossingTriangles crossing(MeshOnSurface& mesh) {
     for (const std::uint32_t v : all[t]) mesh.vertex(v).unchecked = true;
   }
   return found;
+}
+
+/// Triangles that pass through others once their vertices are rounded as files of single precision hold them,
+/// ascending.
+std::vector<std::uint32_t> crossing_in_single_precision(const MeshOnSurface& mesh) {
+  std::vector<glm::dvec3> rounded;
+  rounded.reserve(mesh.positions().size());
+  for (const glm::dvec3& position : mesh.positions()) rounded.emplace_back(glm::vec3(position));
+  std::set<std::uint32_t> bad;
+  for (const auto& [a, b] : crossing_triangles(rounded, all_triangles(mesh.links()), flat_fans(mesh.links(), rounded)))
+    bad.insert({a, b});
+  return {bad.begin(), bad.end()};
 }
 
 std::vector<std::uint32_t> triangles_of(const std::vector<PointAtTriangle>& points) {
@@ -207,7 +220,9 @@ class EvenMeshing {
     mesh_->guard().watch(watched);
   }
   std::vector<bool> creases() const {
-    if (!follow_creases_) return std::vector<bool>(surface_.borders.size(), false);
+    // By tolerance, creases of bare balls cost minutes, and triangles come near enough without them.
+    const bool of_bare_balls = surface_.probe_radius == 0.0 && !sizes_.by_density();
+    if (!follow_creases_ || of_bare_balls) return std::vector<bool>(surface_.borders.size(), false);
     std::vector<bool> keep =
         creases_to_keep(surface_, [this](const glm::dvec3& x) { return sizes_.crease_edge_at(x); });
     for (std::uint32_t b = 0; b < keep.size(); ++b) {
@@ -250,10 +265,12 @@ class EvenMeshing {
     }
   }
 
-  /// The last word, whatever is known to have changed.
+  /// The last word, whatever is known to have changed: of the positions as they are, and as files of single precision
+  /// hold them.
   std::vector<std::uint32_t> crossing_of_all() {
     for (std::uint32_t v = 0; v < mesh_->links().vertex_count(); ++v) mesh_->vertex(v).unchecked = true;
-    return crossing(*mesh_).triangles;
+    std::vector<std::uint32_t> bad = crossing(*mesh_).triangles;
+    return bad.empty() ? crossing_in_single_precision(*mesh_) : bad;
   }
 
   MeshMender mender() {

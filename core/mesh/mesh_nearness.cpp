@@ -80,7 +80,7 @@ void MeshNearness::ask_for(const BaseMesh& base) {
     if (const auto at = walk_.below(middle, mesh.face[t])) to_reach_.push_back(*at);
   }
   for (const Border& border : surface_.borders) {
-    if (crease_angle(surface_, border) == 0.0) continue;
+    if (surface_.probe_radius == 0.0 || crease_angle(surface_, border) == 0.0) continue;
     const double step = Tuning::crease_step * sizes_.tolerance_at(arc_point(border, 0.5 * border.sweep));
     const auto count = static_cast<std::uint32_t>(std::ceil(border.radius * border.sweep / step));
     for (std::uint32_t k = 1; k < count; ++k)

@@ -300,6 +300,23 @@ TEST(EvenMesh, FollowsTheCreasesOfBareBallsAndEnds) {
   EXPECT_LT(static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC, 100.0);
 }
 
+/// Twenty atoms of 1TII, by a cusp of which triangles came so near to one another that vertices of single precision, as
+/// most files have, made four pairs of them cross.
+TEST(EvenMesh, HasNoCrossingsInSinglePrecision) {
+  const Balls atoms{
+      {{74.413, 26.539, 18.691}, 1.7},  {{75.629, 26.418, 18.714}, 1.52}, {{74.569, 28.885, 19.255}, 1.7},
+      {{75.278, 28.557, 20.561}, 1.7},  {{74.668, 28.06, 21.505}, 1.52},  {{76.574, 28.825, 20.589}, 1.55},
+      {{77.441, 28.546, 21.729}, 1.7},  {{76.942, 28.786, 23.161}, 1.7},  {{77.34, 28.082, 24.086}, 1.52},
+      {{78.775, 29.261, 21.523}, 1.7},  {{79.973, 28.356, 21.78}, 1.7},   {{81.087, 28.839, 22.01}, 1.52},
+      {{79.758, 27.039, 21.733}, 1.55}, {{76.046, 29.744, 23.339}, 1.55}, {{73.074, 26.484, 23.508}, 1.55},
+      {{73.16, 25.208, 22.818}, 1.7},   {{74.631, 24.777, 22.884}, 1.7},  {{74.959, 23.653, 21.959}, 1.7},
+      {{75.103, 23.89, 20.745}, 1.52},  {{75.126, 22.531, 22.458}, 1.52}};
+  const TriangleMesh mesh = even_mesh(compute_surface_cpu(atoms, kWater), {3.0, 0.0, {}}).mesh;
+  std::vector<glm::dvec3> rounded;
+  for (const glm::dvec3& position : mesh.positions) rounded.emplace_back(glm::vec3(position));
+  EXPECT_TRUE(crossing_triangles(rounded, mesh.triangles).empty());
+}
+
 TEST(EvenMesh, UbiquitinHasNoSlivers) {
   const Surface surface = compute_surface_cpu(ubiquitin(), kWater);
   const TriangleMesh mesh = even_mesh(surface, {0.0, 0.05, {}}).mesh;
