@@ -229,11 +229,11 @@ Bundle parse_bundle(const std::string& text) {
   } catch (const nlohmann::json::exception& error) {
     // "[json.exception.type_error.302] (/film/file) type must be string, but is number"
     constexpr std::string_view kOwnWords = "cannot use at() with ";
-    std::string text(error.what());
-    text.erase(0, text.find("] ") + 2);
-    if (const std::size_t at = text.find(kOwnWords); at != std::string::npos)
-      text.replace(at, kOwnWords.size(), "should be an object or a list, but is ");
-    throw RequestError("is damaged: " + shortened(text, kLongestShown));
+    std::string fault(error.what());
+    fault.erase(0, fault.find("] ") + 2);
+    if (const std::size_t at = fault.find(kOwnWords); at != std::string::npos)
+      fault.replace(at, kOwnWords.size(), "should be an object or a list, but is ");
+    throw RequestError("is damaged: " + shortened(fault, kLongestShown));
   }
 }
 
