@@ -19,7 +19,7 @@
 namespace meniscus {
 namespace {
 
-constexpr std::size_t kIndent = 13, kWidth = 100;
+constexpr std::size_t kIndent = 18, kWidth = 100;
 
 void print_wrapped(std::string_view heading, std::string_view text) {
   fmt::print(std::cout, "  {:<{}}{}\n", heading, kIndent - 2, wrapped(text, kWidth - kIndent, kIndent));

@@ -91,9 +91,9 @@ void add_surface(CLI::App& command) {
       "cavities; areas\nand volumes are exact, in closed form. `volume` is that of the solid, without its cavities; "
       "the volume of a cavity is\npositive. The area of an atom is the part of the surface that has the atom's colour "
       "in pictures: its contact patch,\nand those parts of the patches around that are nearer to its contact with the "
-      "probe than to the contact of any other atom.\nOver frames the tables of atoms and residues have rows for each "
-      "frame. A cavity keeps its number while "
-      "probes that\nrest in it, touching three atoms, overlap from one frame to the next.");
+      "probe than to any other contact.\nOver frames the tables of atoms and residues have rows for each frame. A "
+      "cavity keeps its number while probes that\nrest in it, touching three atoms, overlap from one frame to the "
+      "next.");
   auto declared = std::make_shared<DeclaredCommand<SurfaceCommand>>(command, for_surface);
   SurfaceCommand& state = declared->state;
   state.scene.molecule.surface.timing = StageTiming::exact;  // each is printed

@@ -23,8 +23,8 @@ const char* kind_word(SurfaceKind kind) {
 
 std::string probe_fault(double radius) {
   if (radius != 0.0 && radius < kSmallestProbe)
-    return fmt::format("{} Å is {}; use at least {} Å", radius, radius < 0.0 ? "negative" : "too small",
-                       kSmallestProbe);
+    return fmt::format("{} Å is {}; use at least {} Å, or the van der Waals surface", radius,
+                       radius < 0.0 ? "negative" : "too small", kSmallestProbe);
   if (radius > kLargestProbe) return fmt::format("{} Å is too large; use at most {} Å", radius, kLargestProbe);
   return {};
 }

@@ -125,7 +125,7 @@ TEST(Formats, AreListedWithTheirMetadata) {
     EXPECT_NE(table.out.find(format.at("name").get<std::string>() + " "), std::string::npos);
     ++kinds[format.at("kind").get<std::string>()];
   }
-  EXPECT_EQ(kinds, (std::map<std::string, int>{{"structure", 12}, {"trajectory", 8}}));
+  EXPECT_EQ(kinds, (std::map<std::string, int>{{"structure", 13}, {"trajectory", 10}}));
   EXPECT_TRUE(table.out.starts_with("PDB"));
 }
 

@@ -77,7 +77,7 @@ TEST(Usage, WrongOptionsExitWithTwoAndSayWhy) {
       {{"surface", kUbiquitin, "--probe", "inf"}, "not a finite number"},
       {{"surface", kUbiquitin, "--probe", "1.4 nm"}, "not a finite number"},
       {{"surface", kUbiquitin, "--probe", "1e400"}, "not a finite number"},
-      {{"surface", kUbiquitin, "--probe", "1e-9"}, "use 0"},
+      {{"surface", kUbiquitin, "--probe", "1e-9"}, "van der Waals"},
       {{"surface", kUbiquitin, "--probe", "1e4"}, "at most 100 Å"},
       {{"surface", kUbiquitin, "--device", "gpux"}, "not one of auto"},
       {{"surface", kUbiquitin, "--device", "gpu:-1"}, "not one of auto"},

@@ -253,7 +253,7 @@ TEST_F(RenderCommand, RefusesWithTheRightExitCode) {
       {3, {"-o", path("a.png"), "--camera", camera}},
       {3, {"-o", path("a.png"), "--camera", path("missing.json")}},
       {4, {"-o", path("a.png"), "--device", "gpu:77"}},
-      {6, {"-o", path("a.gif")}},
+      {2, {"-o", path("a.gif")}},
       {6, {"-o", path("none/a.png")}}};
   for (const auto& [code, arguments] : cases) {
     const ProgramResult result = render(arguments);

@@ -187,7 +187,12 @@ def frames_of_chemfiles(path, ending):
         return None
     try:
         trajectory = chemfiles.Trajectory(str(path), "r", OF_CHEMFILES[ending])
-        return trajectory.nsteps, lambda number: np.array(trajectory.read_step(number).positions)
+
+        def positions(number):
+            frame = trajectory.read_step(number)  # its positions are gone with it
+            return np.array(frame.positions)
+
+        return trajectory.nsteps, positions
     except FAULTS:
         return None
 
