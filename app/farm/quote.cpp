@@ -41,7 +41,14 @@ std::string xml_text(std::string_view text) {
 std::string json_text(std::string_view text) { return nlohmann::json(text).dump(-1, ' ', true); }
 
 void require_printable_path(const std::string& what, std::string_view path) {
-  if (escaped(path) != path)
+  const auto control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+  bool speakable = std::ranges::none_of(path, control);
+  try {
+    json_text(path);
+  } catch (const nlohmann::json::type_error&) {
+    speakable = false;
+  }
+  if (!speakable)
     throw RequestError(
         fmt::format("{}: {} has control characters or is not UTF-8; choose another path", what, in_quotes(path)));
 }
