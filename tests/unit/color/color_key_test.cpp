@@ -58,7 +58,7 @@ ColorScheme ready(const ColorSchemeMetadata& about, const Structure& structure) 
   ColorScheme scheme = parse_color_scheme(about.word).value();
   NumberFile numbers{.path = "numbers"};
   for (std::size_t n = 0; n < structure.atoms.size(); ++n) numbers.numbers.push_back(n == 5 ? kNan : 1.0 + n % 9);
-  if (scheme.takes_file() || scheme.by == By::buried || scheme.by == By::rmsf) scheme.file = numbers;
+  if (scheme.takes_file() || scheme.is_measured()) scheme.file = numbers;
   return scheme;
 }
 
