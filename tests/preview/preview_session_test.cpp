@@ -98,7 +98,6 @@ TEST_P(PreviewSessionTest, BadCommandsAreAnsweredAndChangeNothing) {
            R"({"command":"play","fps":0})",
            R"({"command":"paint","selection":"name O","color":"component"})",
            R"({"command":"show","selection":"chain Z"})",
-           R"({"command":"press","key":"no key"})",
        }) {
     const Json reply = apply(command);
     EXPECT_FALSE(reply["ok"]) << command;
