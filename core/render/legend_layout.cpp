@@ -113,7 +113,8 @@ Legend::Legend(const ColorKey& key, glm::ivec2 picture_size, const LegendStyle& 
       picture_size_(picture_size),
       molecule_size_(picture_size) {
   std::vector<const ColorKey*> parts = key.parts();
-  if (key.heading().empty()) std::ranges::rotate(parts, parts.begin() + 1);  // what has no title comes last
+  if (key.heading().empty())
+    std::rotate(parts.begin(), parts.begin() + 1, parts.end());  // what has no title comes last
   for (const ColorKey* const part : parts) add_entries(*part, part == parts.front());
   if (all_.empty() && !bar_) return;  // one colour for all needs no words
   rename_entries(style.names);

@@ -68,13 +68,13 @@ class SceneParser {
     Json scene;
     std::vector<std::set<std::string>> keys;  // of the objects that are open
     try {
-      scene = Json::parse(text, [&](int, Json::parse_event_t event, const Json& parsed) {
-        using enum Json::parse_event_t;
-        if (event == object_start) keys.emplace_back();
-        if (event == object_end) keys.pop_back();
+      using Event = Json::parse_event_t;
+      scene = Json::parse(text, [&](int, Event event, const Json& parsed) {
+        if (event == Event::object_start) keys.emplace_back();
+        if (event == Event::object_end) keys.pop_back();
         const std::string word = parsed.is_string() ? parsed.get<std::string>() : "";
         if (word.find('\0') != std::string::npos) fail(in_quotes(word), "holds a NUL, which no text of a scene has");
-        if (event == key && !keys.back().insert(word).second)
+        if (event == Event::key && !keys.back().insert(word).second)
           fail(in_quotes(word), "is there twice in one object; leave one of them out");
         return true;
       });
