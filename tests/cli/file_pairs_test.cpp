@@ -2,6 +2,7 @@
 // Every file that a command can read with every file that it can write: no input is replaced, and no output replaces
 // another. Commands and options are those of the program's own completion and table of properties, so that a new one is
 // here by itself.
+#include <algorithm>
 #include <map>
 #include <regex>
 #include <set>
