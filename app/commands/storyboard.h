@@ -66,7 +66,7 @@ class Storyboard {
   std::size_t size() const { return scenes_.size(); }
   FilmScene& scene(std::size_t n) { return *scenes_[n]; }
   const FilmCommand& command() const { return command_; }
-  /// Of the film: transparent if the command or any scene says so.
+  /// The format of the film, which is transparent if the command or any scene says so.
   const FilmFormat& format() const { return format_; }
   bool is_exported() const { return command_.medium != FilmMedium::pictures; }
   std::uint64_t pictures() const;

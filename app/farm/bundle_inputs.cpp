@@ -32,7 +32,7 @@ std::string plain(std::string name) {
   return name.size() > kLongest ? name.substr(name.size() - kLongest) : name;
 }
 
-/// By our own writes, which tell of a full disk as what it is.
+/// Copies a file by our own writes, which name a full disk.
 void copy(const fs::path& source, OutputFile& file) {
   constexpr std::size_t kPiece = std::size_t{1} << 20;
   std::string piece(kPiece, '\0');

@@ -66,7 +66,7 @@ std::string ending_of(const std::string& path) {
 
 bool holds(const auto& list, const auto& value) { return std::ranges::find(list, value) != list.end(); }
 
-/// The first that the container holds, and that keeps what is transparent if that is asked for, stands for its ending.
+/// The first encoder that a container holds, and that keeps transparency where it is wanted, is that of its ending.
 const Codec& codec_of(const std::string& path, const FilmFormat& format) {
   const std::string ending = ending_of(path);
   Strings fitting;
@@ -117,7 +117,7 @@ bool is_film_path(const std::string& path) {
 FilmEncoder film_encoder(const std::string& path, const FilmFormat& format) {
   const Codec& codec = codec_of(path, format);
   const bool keeps_alpha = codec.keeps_alpha(format);
-  // With alpha the encoders have their first choice alone.
+  // Encoders with alpha have one pixel format.
   const auto possible = [&](std::vector<int> all) {
     if (keeps_alpha) all.resize(1);
     return all;

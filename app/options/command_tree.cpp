@@ -39,7 +39,7 @@ OptionEntry entry_of(const CLI::Option& option) {
   return entry;
 }
 
-/// Of options and arguments that are no property.
+/// Files that options and arguments outside of the property table name.
 bool names_path(std::string_view word) {
   constexpr std::array<std::string_view, 6> kPaths{"FILE", "FOLDER", "BUNDLE", "DIR", "INTO", "FROM"};
   return std::ranges::any_of(kPaths, [&](std::string_view path) { return word.starts_with(path); });

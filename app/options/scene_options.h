@@ -54,7 +54,7 @@ struct SceneCommand {
   Existing existing() const { return force ? Existing::replace : Existing::refuse; }
 };
 
-/// Rays of a picture that nobody asks for by chance: hours of work.
+/// A picture of more rays takes hours and needs --any-cost.
 inline constexpr double kMostRays = 1e10;
 
 /// Before anything is read. Throws UsageError for a picture of this size with more rays, unless any cost is all right.

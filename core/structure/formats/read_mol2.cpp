@@ -38,7 +38,7 @@ constexpr std::string_view kSmallTypes =
     "n+ n1 n2 n3 n4 n5 n6 n7 n8 n9 na nb nc nd ne nf nh ni nj nk nl nm nn no np nq ns nt nu nv nx ny nz o oh op oq os "
     "ow p2 p3 p4 p5 pb pc pd pe pf px py s s2 s4 s6 sh sp sq ss sx sy cA cB cC cD hA hB hE hL hN hO hX nA nN oC oH oO "
     "oP oS oT pA ";
-/// Types of GLYCAM06 that look like symbols of other elements, of which the first letter is theirs.
+/// Types of GLYCAM06 that look like symbols of other elements; the first letter is the element.
 constexpr std::string_view kGlycamTypes = " Ck Cj Cp Cy Ha Hc Ho Hp Ng Oh Os Oy Sm ", kGlycamCarbon = "Cg";
 
 bool is_in(std::string_view types, std::string_view type) {
