@@ -9,7 +9,7 @@ list(SORT paths)
 set(entries "")
 foreach(path IN LISTS paths)
   file(READ ${ROOT}/${path} text)
-  string(APPEND entries "    {\"${path}\",\n     R\"embedded(${text})embedded\"},\n")
+  string(APPEND entries "    {\"${path}\",\n     R\"embedded(${text})embedded\"sv},\n")
 endforeach()
 list(LENGTH paths count)
 
@@ -18,9 +18,12 @@ file(WRITE ${OUTPUT}.new "// SPDX-License-Identifier: BSD-3-Clause
 #include \"${HEADER}\"
 
 #include <array>
+#include <string_view>
 
 namespace meniscus {
 namespace {
+
+using namespace std::string_view_literals;  // sv takes the length from the compiler: no text is walked through
 
 constexpr std::array<${TYPE}, ${count}> kFiles = {{
 ${entries}}};
