@@ -30,31 +30,62 @@ TEST_SECONDS = 300  # a fault may make a loop endless
 RED = re.compile(r"Test\s+#\d+: (\S+) .*\*\*\*")
 
 
+STATEMENT = re.compile(r" *(?:\} *)?(?://|#|\*|(?:if|for|while|switch|return|else|case|throw|do)\b)")
+
+
+def closing(text, begin):
+    """Returns where the parenthesis that opens at `begin` closes."""
+    depth = 0
+    for at in range(begin, len(text)):
+        depth += {"(": 1, ")": -1}.get(text[at], 0)
+        if depth == 0:
+            return at
+    return len(text)
+
+
+def bodies(text, name, python):
+    """Returns (begin, end) of each definition of a function `name`. Formatted code ends one at the indent it begins at."""
+    found = []
+    before = r"(?:async )?def " if python else r"(?:\S[^\n]*?)?(?<![\w.>])"
+    for line in re.finditer(rf"^( *){before}{re.escape(name)}\(", text, re.MULTILINE):
+        head = re.compile(r"\)[^:]*:" if python else r"\)[^;{]*\{").match(text, closing(text, line.end() - 1))
+        if STATEMENT.match(line[0]) or not head:
+            continue
+        line_end = text.find("\n", head.end())
+        one_line = not python and text[head.end():line_end].strip()
+        last = re.compile(rf"\n(?= {{0,{len(line[1])}}}\S)" if python else rf"\n{line[1]}\}}").search(text, line_end)
+        found.append((line.start(), line_end if one_line else last.end() if last else len(text)))
+    return found
+
+
 @dataclasses.dataclass(frozen=True)
 class Fault:
-    """What is quoted of `file` becomes `new`; the tests that match `tests` need the targets `build`.
+    """A fault replaces `old` by `new` in a function of `file`; the tests that match `tests` need the targets `build`.
 
-    `old` quotes as few words as make the place known, and a blank in it is any white space, so that it survives another
-    indent or line break. `pattern`, instead, is a regular expression, whose groups `new` may name.
+    `old` quotes as few words as name the place within the function, and a blank in it is any white space, so that a
+    fault survives another indent, line break or change elsewhere. Without a function the place is unique in the file.
     """
 
     name: str
     file: str
+    old: str
     new: str
     build: tuple[str, ...]
     tests: str
-    old: str = ""
-    pattern: str = ""
+    function: str = ""
 
     def planted_in(self, root):
-        """The faulty text of the file; ValueError if the fault does not apply to it."""
+        """Returns the faulty text of the file; ValueError if the fault does not apply to it."""
         text = (root / self.file).read_text(encoding="utf-8")
-        quoted = self.pattern or r"\s+".join(re.escape(part) for part in re.split(r"\s+", self.old))
-        found = list(re.finditer(quoted, text))
+        places = bodies(text, self.function, self.file.endswith(".py")) if self.function else [(0, len(text))]
+        if not places:
+            raise ValueError(f"{self.file} defines no function {self.function}")
+        quoted = re.compile(r"\s+".join(re.escape(part) for part in re.split(r"\s+", self.old)))
+        found = {match.span() for begin, end in places for match in quoted.finditer(text, begin, end)}
         if len(found) != 1:
-            raise ValueError(f"it fits {len(found)} places of {self.file}, not one")
-        new = found[0].expand(self.new) if self.pattern else self.new
-        return text[:found[0].start()] + new + text[found[0].end():]
+            raise ValueError(f"it fits {len(found)} places of {self.function or self.file}, not one")
+        [(begin, end)] = found
+        return text[:begin] + self.new + text[end:]
 
 
 def read_faults(path):
@@ -63,9 +94,8 @@ def read_faults(path):
     keys = {field.name for field in dataclasses.fields(Fault)}
     faults = []
     for entry in entries:
-        if set(entry) not in (keys - {"old"}, keys - {"pattern"}):
-            sys.exit(f"mutate: error: {path}: {entry.get('name')}: keys are {sorted(entry)}, not {sorted(keys)} with "
-                     "either old or pattern")
+        if set(entry) | {"function"} != keys:
+            sys.exit(f"mutate: error: {path}: {entry.get('name')}: keys are {sorted(entry)}, not {sorted(keys)}")
         faults.append(Fault(**{**entry, "build": tuple(entry["build"])}))
     names = [fault.name for fault in faults]
     for name in names:
