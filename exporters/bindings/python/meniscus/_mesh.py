@@ -6,7 +6,7 @@ import copy
 import ctypes
 import importlib
 import os
-from typing import TYPE_CHECKING, Any, Optional
+from typing import Any, Optional, Protocol
 
 import numpy as np
 
@@ -15,8 +15,13 @@ from ._arrays import put_colors, view
 from ._errors import InputError
 from ._types import AnyArray, Bytes, Floats, Indices, MeshFormat, Path
 
-if TYPE_CHECKING:
-    from ._surface import Surface
+
+class Computed(Protocol):
+    """A computed Surface, as far as its meshes need it."""
+
+    _handle: lib.Handle
+
+    def __len__(self) -> int: ...
 
 
 class Mesh:
@@ -29,7 +34,7 @@ class Mesh:
 
     __slots__ = ("_handle", "_options", "_surface", "__weakref__")
 
-    def __init__(self, surface: Surface, tolerance: float, split_colors: bool, density: Optional[float],
+    def __init__(self, surface: Computed, tolerance: float, split_colors: bool, density: Optional[float],
                  even: bool) -> None:
         options = lib.default("mesh_options", lib.MeshOptions())
         options.tolerance, options.split_colors = tolerance, lib.flag("split_colors", split_colors)

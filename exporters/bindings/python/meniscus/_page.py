@@ -6,15 +6,11 @@ import ctypes
 import os
 import re
 import tempfile
-from typing import TYPE_CHECKING, Any, Optional, Union
+from typing import Any, Optional, Protocol, Union
 
 from . import _library as lib
 from ._errors import InputError, OutputError
 from ._types import Path
-
-if TYPE_CHECKING:
-    from ._scene import Scene
-    from ._surface import Surface
 
 #: What a page may do in a frame: run its script, and save a PNG. It does not get at the page around it.
 _MAY = "allow-scripts allow-downloads"
@@ -99,6 +95,12 @@ sandbox="allow-scripts allow-downloads" allowfullscreen src="helix.html"></ifram
         return f"<meniscus.Page of {self.title}: {len(self._html):,} bytes>"
 
 
+class Shown(Protocol):
+    """Has a page of its own: a Scene or a Surface."""
+
+    def show(self) -> Page: ...
+
+
 def _quoted(text: str) -> str:
     """As the value of an attribute between double quotes."""
     return text.replace("&", "&amp;").replace('"', "&quot;")
@@ -128,7 +130,7 @@ def page_of(shown: Any) -> Page:
     return whole
 
 
-def page(shown: Union[Page, Scene, Surface], path: Optional[Path] = None, *, src: Optional[str] = None,
+def page(shown: Union[Page, Shown], path: Optional[Path] = None, *, src: Optional[str] = None,
          height: Optional[int] = None, replace: bool = False) -> str:
     """The <iframe> of a scene, a surface or a page for Quarto, Sphinx and static sites: what a cell or a directive of raw
     HTML puts into their pages. path: where the page is saved, which is its address in the frame, too, unless `src` is;

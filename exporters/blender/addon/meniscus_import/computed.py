@@ -365,7 +365,22 @@ def come_last():
     handlers.append(on_frame_change)
 
 
-HANDLERS = (("undo_post", on_undo), ("redo_post", on_undo), ("load_post", on_load), *motion.HANDLERS, *libraries.HANDLERS)
+@persistent
+def on_render(scene, *_arguments):
+    """Computes the fine meshes at once: pictures do not wait for objects to come to rest."""
+    motion.set_rendering(True)
+    for item in [item for item in scene.objects if motion.is_moving(compat.identity(item)) and is_computed(item)]:
+        motion.rests(compat.identity(item))
+        come_to_rest(item)
+
+
+@persistent
+def on_rendered(*_arguments):
+    motion.set_rendering(False)
+
+
+HANDLERS = (("undo_post", on_undo), ("redo_post", on_undo), ("load_post", on_load), ("render_init", on_render),
+            ("render_complete", on_rendered), ("render_cancel", on_rendered), *libraries.HANDLERS)
 
 
 def register():

@@ -4,7 +4,6 @@
 import time as clock
 
 import bpy
-from bpy.app.handlers import persistent
 
 #: Seconds without a change after which a fine mesh follows a proxy.
 REST = 0.4
@@ -46,26 +45,10 @@ def is_rendering():
     return _rendering
 
 
+def set_rendering(rendering):
+    global _rendering
+    _rendering = rendering
+
+
 def forget():
     _due.clear()
-
-
-@persistent
-def on_render(scene, *_arguments):
-    """Pictures do not wait for rest."""
-    global _rendering
-    from . import compat, computed  # which needs this
-
-    _rendering = True
-    for item in [item for item in scene.objects if is_moving(compat.identity(item)) and computed.is_computed(item)]:
-        rests(compat.identity(item))
-        computed.come_to_rest(item)
-
-
-@persistent
-def on_rendered(*_arguments):
-    global _rendering
-    _rendering = False
-
-
-HANDLERS = (("render_init", on_render), ("render_complete", on_rendered), ("render_cancel", on_rendered))
