@@ -24,6 +24,7 @@ WIDTH, HEIGHT = 1280, 960
 STRUCTURES = os.environ.get("MENISCUS_STRUCTURES", "")
 #: Seconds after which a picture is given up.
 PATIENCE = float(os.environ.get("MENISCUS_PATIENCE", "900"))
+RECIPES = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "docs", "gallery", "recipes")
 DEMO = "/usr/share/pymol/data/demo/1tii.pdb"
 LIGANDS = "/usr/share/pymol/test/dat/ligs3d.sdf"
 DRUG = "/usr/share/pymol/data/tut/1hpv.pdb"
@@ -207,7 +208,7 @@ def prepare(program, folder, chosen):
         if done.returncode:
             sys.exit(f"figures_beside_pymol: error: {' '.join(command)}: {done.stdout[-500:]}{done.stderr[-500:]}")
 
-    run(sys.executable, os.path.join(os.path.dirname(os.path.abspath(__file__)), "martini_bilayer.py"), "14", "membrane.gro")
+    run(sys.executable, os.path.join(RECIPES, "martini_bilayer.py"), "14", "membrane.gro")
     run(program, "surface", DEMO, "--csv-residues", "residues.csv", "--force", "-q")
     with open(UBIQUITIN, encoding="ascii") as source, open(os.path.join(folder, "confidence.pdb"), "w", encoding="ascii") as made:
         for line in source:  # confidence made of B-factors: Debian ships no predicted model

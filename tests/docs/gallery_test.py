@@ -76,7 +76,7 @@ class Gallery(unittest.TestCase):
         for name, path in INPUTS.items():
             shutil.copy(path, self.folder / name)
         (self.folder / "protein.pqr-PE0.dx").write_text(POTENTIAL)
-        subprocess.run([sys.executable, ROOT / "scripts/martini_bilayer.py", "4", "membrane.gro"], check=True, cwd=self.folder)
+        subprocess.run([sys.executable, ROOT / "docs/gallery/recipes/martini_bilayer.py", "4", "membrane.gro"], check=True, cwd=self.folder)
 
     def run_program(self, *words):
         return subprocess.run([PROGRAM, *words], cwd=self.folder, capture_output=True, text=True)
