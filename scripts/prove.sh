@@ -66,6 +66,7 @@ rows=(
   "alone|the library alone, built and used in a bare Debian 12 with its three dependencies|bash scripts/packaging/try_library.sh"
   "manual|the manual as a site: dead links, search, and axe-core in Chromium at two widths|bash scripts/manual.sh --look"
   "image|the image of a farm node, built and at work on a film|bash scripts/packaging/try_image.sh"
+  "exporter|an exporter is added as a folder and a command, and help, completion, manual and scenes follow|bash scripts/add_exporter.sh"
   "option|an option is added in three files, and works through every door|bash scripts/add_option.sh"
   "includes|every file without precompiled headers|bash scripts/includes.sh"
   "mutations|planted faults that the tests must find|/usr/bin/python3 scripts/mutate.py --jobs $jobs"

@@ -2,28 +2,20 @@
 // The table of commands. A command declares its options when the command line reaches it.
 #include "app/commands/commands.h"
 
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
 namespace meniscus {
 namespace {
 
 void add_export(CLI::App& command) { describe(command, "  meniscus export FORMAT --help"); }
 
-constexpr Command kFormats[] = {
-    {"povray", "Write a POV-Ray scene of the exact patches, without triangles", add_export_povray},
-    {"blender", "Write a file for Blender: closed mesh, analytic patches, atoms, camera (add-on: meniscus_import)",
-     add_export_blender},
-    {"mitsuba", "Write a Mitsuba 3 scene: meshes as fine as the picture needs, exact spheres and cylinders",
-     add_export_mitsuba},
-    {"pbrt", "Write a pbrt-v4 scene: meshes as fine as the picture needs, exact spheres and cylinders",
-     add_export_pbrt},
-    {"mesh", "Write a closed triangle mesh: STL, 3MF, OBJ, OFF, GLB, VTP, TetGen, DMS, PLY or USD", add_export_mesh},
-    {"mvs", "Write a view for Mol* and other viewers of MolViewSpec (.mvsx): mesh, colours, caps, camera",
-     add_export_mvs},
-    {"page", "Write one HTML file in which readers turn the exact surface, in any browser with WebGL 2",
-     add_export_page},
-    {"ply", "Write a closed triangle mesh as binary PLY: the same as export mesh --format ply", add_export_ply},
-    {"vdb", "Write the exact signed distance from the surface as an OpenVDB level set", add_export_vdb},
-    {"atoms", "Write the atoms of a surface with radii, colours and frames, as arrays", add_export_atoms},
-};
+/// In the order in which the linker has them.
+std::vector<Command>& registered_exporters() {
+  static std::vector<Command> rows;
+  return rows;
+}
 
 constexpr Command kFarmCommands[] = {
     {"bundle", "Make a folder of frames to render that any machine can work on", add_farm_bundle},
@@ -44,9 +36,9 @@ constexpr Command kCommands[] = {
     {"panels", "Make one picture of several, side by side, with letters and one legend", add_panels},
     {"preview", "Show the surface in a window or a browser, and change it", add_preview},
     {"morph", "Make a path from one structure to another, as models of a PDB file", add_morph},
-    {"export", "Write the surface for another program", add_export, "Formats", kFormats},
+    {"export", "Write the surface for another program", add_export, "Formats", exporters},
     {"farm", "Make films on many machines: make, Slurm, OpenJD, Flamenco, OpenCue", add_farm, "Commands",
-     kFarmCommands},
+     [] { return std::span<const Command>(kFarmCommands); }},
     {"work", "Make the missing frames of a bundle, or a chunk of them (see meniscus farm)", add_work},
     {"info", "Show what a file contains: models, chains, classes, extent, and the radius of each class of atoms",
      add_info},
@@ -59,6 +51,15 @@ constexpr Command kCommands[] = {
 
 }  // namespace
 
+ExportCommand::ExportCommand(const char* name, const char* summary, void (*add)(CLI::App& command)) {
+  registered_exporters().push_back({name, summary, add});
+}
+
+std::span<const Command> exporters() {
+  std::ranges::sort(registered_exporters(), {}, [](const Command& row) { return std::string_view(row.name); });
+  return registered_exporters();
+}
+
 std::span<const Command> commands() { return kCommands; }
 
 void add_commands(CLI::App& parent, const std::string& heading, std::span<const Command> rows, Declared when) {
@@ -68,9 +69,9 @@ void add_commands(CLI::App& parent, const std::string& heading, std::span<const 
       row.add(command);
     else
       command.preparse_callback([&row, &command](std::size_t) { row.add(command); });
-    if (row.below.empty()) continue;
+    if (!row.below) continue;
     command.require_subcommand(1);
-    add_commands(command, row.heading_below, row.below, when);
+    add_commands(command, row.heading_below, row.below(), when);
   }
 }
 

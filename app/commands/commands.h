@@ -16,8 +16,16 @@ struct Command {
   const char* summary;  ///< one line
   void (*add)(CLI::App& command);
   const char* heading_below = "";
-  std::span<const Command> below = {};
+  std::span<const Command> (*below)() = nullptr;
 };
+
+/// A row of `meniscus export`. It adds itself to the table, so that a new format touches no other file.
+struct ExportCommand {
+  ExportCommand(const char* name, const char* summary, void (*add)(CLI::App& command));
+};
+
+/// The rows of `meniscus export`, by name.
+std::span<const Command> exporters();
 
 /// Those of the program.
 std::span<const Command> commands();
@@ -32,16 +40,6 @@ void add_commands(CLI::App& parent, const std::string& heading, std::span<const 
 void add_bench(CLI::App& command);
 void add_colors(CLI::App& command);
 void add_completion(CLI::App& command);
-void add_export_atoms(CLI::App& command);
-void add_export_blender(CLI::App& command);
-void add_export_mesh(CLI::App& command);
-void add_export_mvs(CLI::App& command);
-void add_export_page(CLI::App& command);
-void add_export_mitsuba(CLI::App& command);
-void add_export_pbrt(CLI::App& command);
-void add_export_ply(CLI::App& command);
-void add_export_povray(CLI::App& command);
-void add_export_vdb(CLI::App& command);
 void add_farm(CLI::App& command);
 void add_farm_bundle(CLI::App& command);
 void add_farm_log(CLI::App& command);

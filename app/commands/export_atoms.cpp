@@ -69,9 +69,7 @@ void export_atoms(const SceneCommand& asked) {
   std::cout << escaped(command.scene.output) << "\n";
 }
 
-}  // namespace
-
-void add_export_atoms(CLI::App& command) {
+void declare_atoms(CLI::App& command) {
   describe(
       command,
       "  meniscus export atoms 1tii.pdb -o 1tii.atoms\n"
@@ -87,4 +85,8 @@ void add_export_atoms(CLI::App& command) {
   });
 }
 
+const ExportCommand kAtoms("atoms", "Write the atoms of a surface with radii, colours and frames, as arrays",
+                           declare_atoms);
+
+}  // namespace
 }  // namespace meniscus

@@ -125,9 +125,7 @@ void export_to_blender(const SceneCommand& asked) {
   std::cout << escaped(sequence ? sequence->written.string() : scene.output) << "\n";
 }
 
-}  // namespace
-
-void add_export_blender(CLI::App& command) {
+void declare_blender(CLI::App& command) {
   describe(command,
            "  meniscus export blender 1tii.pdb -o 1tii.mns\n"
            "  meniscus export blender 1tii.pdb -o 1tii.mns --camera camera.json --tolerance-pixels 0.25 "
@@ -158,4 +156,9 @@ void add_export_blender(CLI::App& command) {
   });
 }
 
+const ExportCommand kBlender(
+    "blender", "Write a file for Blender: closed mesh, analytic patches, atoms, camera (add-on: meniscus_import)",
+    declare_blender);
+
+}  // namespace
 }  // namespace meniscus

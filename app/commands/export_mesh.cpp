@@ -175,9 +175,7 @@ void declare(CLI::App& command, const std::string& format) {
   });
 }
 
-}  // namespace
-
-void add_export_mesh(CLI::App& command) {
+void declare_mesh(CLI::App& command) {
   describe(
       command,
       "  meniscus export mesh 1tii.pdb -o 1tii.glb --color chain --density 2\n"
@@ -192,11 +190,17 @@ void add_export_mesh(CLI::App& command) {
   declare(command, "");
 }
 
-void add_export_ply(CLI::App& command) {
+void declare_ply(CLI::App& command) {
   describe(command,
            "  meniscus export ply 1tii.pdb -o 1tii.ply\n"
            "  meniscus export ply 1tii.pdb -o fine.ply --tolerance 0.002 --color chain");
   declare(command, "ply");
 }
 
+const ExportCommand kMesh("mesh", "Write a closed triangle mesh: STL, 3MF, OBJ, OFF, GLB, VTP, TetGen, DMS, PLY or USD",
+                          declare_mesh);
+const ExportCommand kPly("ply", "Write a closed triangle mesh as binary PLY: the same as export mesh --format ply",
+                         declare_ply);
+
+}  // namespace
 }  // namespace meniscus

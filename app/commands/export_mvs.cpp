@@ -79,9 +79,7 @@ void run(const SceneCommand& asked) {
   std::cout << escaped(command.scene.output) << "\n";
 }
 
-}  // namespace
-
-void add_export_mvs(CLI::App& command) {
+void declare_mvs(CLI::App& command) {
   describe(
       command,
       "  meniscus export mvs 1tii.pdb -o 1tii.mvsx --color chain     then drop it into https://molstar.org/viewer\n"
@@ -100,4 +98,9 @@ void add_export_mvs(CLI::App& command) {
   });
 }
 
+const ExportCommand kMvs("mvs",
+                         "Write a view for Mol* and other viewers of MolViewSpec (.mvsx): mesh, colours, caps, camera",
+                         declare_mvs);
+
+}  // namespace
 }  // namespace meniscus

@@ -164,9 +164,7 @@ void export_page(const PageCommand& asked, std::span<const std::string> left_out
   std::cout << escaped(run.scene().output) << "\n";
 }
 
-}  // namespace
-
-void add_export_page(CLI::App& command) {
+void declare_page(CLI::App& command) {
   describe(
       command,
       "  meniscus export page 1tii.pdb -o 1tii.html              then open it in a browser\n"
@@ -187,4 +185,9 @@ void add_export_page(CLI::App& command) {
   });
 }
 
+const ExportCommand kPage("page",
+                          "Write one HTML file in which readers turn the exact surface, in any browser with WebGL 2",
+                          declare_page);
+
+}  // namespace
 }  // namespace meniscus

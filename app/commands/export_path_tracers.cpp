@@ -105,9 +105,7 @@ void declare(CLI::App& command, path_tracers::Renderer renderer) {
   });
 }
 
-}  // namespace
-
-void add_export_mitsuba(CLI::App& command) {
+void declare_mitsuba(CLI::App& command) {
   describe(command,
            "  meniscus export mitsuba 1tii.pdb -o 1tii --color chain     then: cd 1tii; mitsuba surface.xml\n"
            "  meniscus export mitsuba 1tii.pdb -o glass --material glass --size 1920x1080\n"
@@ -115,7 +113,7 @@ void add_export_mitsuba(CLI::App& command) {
   declare(command, path_tracers::Renderer::mitsuba);
 }
 
-void add_export_pbrt(CLI::App& command) {
+void declare_pbrt(CLI::App& command) {
   describe(command,
            "  meniscus export pbrt 1tii.pdb -o 1tii --color chain     then: cd 1tii; pbrt surface.pbrt\n"
            "  meniscus export pbrt 1tii.pdb -o wax --material wax --size 1920x1080\n"
@@ -123,4 +121,12 @@ void add_export_pbrt(CLI::App& command) {
   declare(command, path_tracers::Renderer::pbrt);
 }
 
+const ExportCommand kMitsuba(
+    "mitsuba", "Write a Mitsuba 3 scene: meshes as fine as the picture needs, exact spheres and cylinders",
+    declare_mitsuba);
+const ExportCommand kPbrt("pbrt",
+                          "Write a pbrt-v4 scene: meshes as fine as the picture needs, exact spheres and cylinders",
+                          declare_pbrt);
+
+}  // namespace
 }  // namespace meniscus

@@ -136,9 +136,7 @@ void export_to_povray(const SceneCommand& command) {
   std::cout << escaped(render_command) << "\n";
 }
 
-}  // namespace
-
-void add_export_povray(CLI::App& command) {
+void declare_povray(CLI::App& command) {
   describe(command,
            "  meniscus export povray 1tii.pdb -o 1tii                 then: cd 1tii; povray surface.ini\n"
            "  meniscus export povray 1tii.pdb -o glass --material glass --size 1920x1080\n"
@@ -160,4 +158,7 @@ void add_export_povray(CLI::App& command) {
   });
 }
 
+const ExportCommand kPovray("povray", "Write a POV-Ray scene of the exact patches, without triangles", declare_povray);
+
+}  // namespace
 }  // namespace meniscus

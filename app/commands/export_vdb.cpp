@@ -73,9 +73,7 @@ void export_to_vdb(const VdbCommand& asked) {
   run.make(kBandBytesPerAtom, make_worker, [] {});
 }
 
-}  // namespace
-
-void add_export_vdb(CLI::App& command) {
+void declare_vdb(CLI::App& command) {
   describe(command,
            "  meniscus export vdb 1tii.pdb -o 1tii.vdb\n"
            "  meniscus export vdb 1tii.pdb -o 1tii.vdb --voxel 0.25 --band 8\n"
@@ -94,4 +92,8 @@ void add_export_vdb(CLI::App& command) {
   });
 }
 
+const ExportCommand kVdb("vdb", "Write the exact signed distance from the surface as an OpenVDB level set",
+                         declare_vdb);
+
+}  // namespace
 }  // namespace meniscus

@@ -30,7 +30,7 @@ ORDER = [
     ["core/scene"],
     ["exporters/mesh_files"],
     ["exporters/povray", "exporters/blender", "exporters/path_tracers", "exporters/msms", "exporters/vdb",
-     "exporters/page"],
+     "exporters/page", "exporters"],
     ["exporters/mvs"],
     ["exporters/bindings/c"],
     ["exporters/bindings/cpp"],
