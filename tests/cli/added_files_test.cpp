@@ -8,14 +8,12 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/walking_atoms.h"
+#include "tests/support/sample_files.h"
 
 namespace meniscus::test {
 namespace {
 
 using Json = nlohmann::json;
-
-constexpr const char* kToxin = "/usr/share/pymol/data/demo/1tii.pdb";
-constexpr const char* kUbiquitin = "/usr/share/freesasa/test-data/1ubq.pdb";
 
 /// The same file with its atoms turned about z and moved, as PDB rounds them.
 std::string turned(const std::string& pdb, double angle, double shift) {

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/run_program.h"
+#include "tests/support/sample_files.h"
 
 namespace meniscus {
 namespace {
@@ -19,9 +20,6 @@ namespace {
 using nlohmann::json;
 using test::ProgramResult;
 using test::TemporaryFolder;
-
-constexpr const char* kToxin = "/usr/share/pymol/data/demo/1tii.pdb";
-constexpr const char* kUbiquitin = "/usr/share/freesasa/test-data/1ubq.pdb";
 
 ProgramResult surface(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {"surface", "-q", "--device", "cpu"});

@@ -9,6 +9,7 @@
 
 #include "tests/support/run_program.h"
 #include "tests/support/pdb_line.h"
+#include "tests/support/sample_files.h"
 
 namespace meniscus {
 namespace {
@@ -18,7 +19,6 @@ using test::ProgramResult;
 using test::run_program;
 using test::TemporaryFolder;
 
-constexpr const char* kUbiquitin = "/usr/share/freesasa/test-data/1ubq.pdb";
 constexpr const char* kNmrEntry = "/usr/share/freesasa/test-data/1d3z.pdb";
 
 ProgramResult run_shell(const std::string& command) {

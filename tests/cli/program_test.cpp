@@ -9,6 +9,7 @@
 
 #include "core/base/version.h"
 #include "tests/support/run_program.h"
+#include "tests/support/sample_files.h"
 
 namespace meniscus {
 namespace {
@@ -16,9 +17,6 @@ namespace {
 using nlohmann::json;
 using test::ProgramResult;
 using test::TemporaryFolder;
-
-constexpr const char* kToxin = "/usr/share/pymol/data/demo/1tii.pdb";
-constexpr const char* kUbiquitin = "/usr/share/freesasa/test-data/1ubq.pdb";
 
 ProgramResult meniscus_says(const std::vector<std::string>& arguments) {
   return test::run_program(test::meniscus_program(), arguments);

@@ -17,7 +17,7 @@ namespace {
 using test::ProgramResult;
 using test::TemporaryFolder;
 
-constexpr const char* kTwoAtoms = "-4 0 0 1.7\n4 0 0 1.7\n";
+constexpr const char* kFarAtoms = "-4 0 0 1.7\n4 0 0 1.7\n";
 constexpr const char* kCamera =
     R"({"position":[0,0,30],"target":[0,0,0],"up":[0,1,0],"projection":"orthographic","height":12})";
 
@@ -35,7 +35,7 @@ class SceneFile : public ::testing::Test {
   std::string bytes(const std::string& name) const { return test::read_bytes(path(name)); }
 
   TemporaryFolder folder_;
-  std::string molecule_ = folder_.file("two.xyzr", kTwoAtoms);
+  std::string molecule_ = folder_.file("two.xyzr", kFarAtoms);
 };
 
 TEST_F(SceneFile, WhatIsSavedMakesTheSamePictureAgain) {
@@ -90,7 +90,7 @@ TEST_F(SceneFile, WhatIsSavedMakesTheSamePictureAgain) {
 // Version 0.1.0 wrote the number of an enumerator where the user had given a word.
 TEST_F(SceneFile, ALinkInItsFolderKeepsItsName) {
   const TemporaryFolder elsewhere;
-  std::filesystem::create_symlink(elsewhere.file("far.xyzr", kTwoAtoms), path("near.xyzr"));
+  std::filesystem::create_symlink(elsewhere.file("far.xyzr", kFarAtoms), path("near.xyzr"));
   ASSERT_EQ(render({path("near.xyzr"), "--size=32x24", "-o", path("a.png"), "--save-scene", path("a.json")}).exit_code,
             0);
   EXPECT_EQ(nlohmann::json::parse(bytes("a.json"))["molecule"]["file"], "near.xyzr");

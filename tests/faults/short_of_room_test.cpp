@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/run_program.h"
+#include "tests/support/sample_files.h"
 
 namespace meniscus {
 namespace {
@@ -17,7 +18,6 @@ using test::read_bytes;
 using test::TemporaryFolder;
 using Names = std::vector<std::string>;
 
-constexpr const char* kUbiquitin = "/usr/share/freesasa/test-data/1ubq.pdb";
 constexpr const char* kFourBalls = "0 0 0 1.7\n2.6 0 0 1.6\n1.2 2.2 0.1 1.8\n1.1 0.8 2.1 1.5\n";
 constexpr int kBytesOfABlock = 512;  // of the shell's ulimit -f
 

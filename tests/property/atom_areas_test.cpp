@@ -3,7 +3,6 @@
 #include "core/surface/atom_areas.h"
 
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <random>
 #include <vector>
@@ -19,8 +18,6 @@
 
 namespace meniscus::testing {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <random>
 #include <string>
@@ -20,15 +19,13 @@
 namespace meniscus::testing {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 struct Quantity {
   const char* name;
   double (*value)(const Surface&);
   Gradient (*gradient)(const Surface&);
 };
 
-double sum(const std::vector<double>& values) {
+double total_of(const std::vector<double>& values) {
   double total = 0;
   for (const double value : values) total += value;
   return total;
@@ -44,7 +41,7 @@ double accessible_volume(const Surface& surface) {
 const std::array<Quantity, 4> kQuantities{
     {{"area", [](const Surface& s) { return s.area; }, area_gradient},
      {"volume", [](const Surface& s) { return s.volume; }, volume_gradient},
-     {"accessible area", [](const Surface& s) { return sum(atom_areas(s).accessible); },
+     {"accessible area", [](const Surface& s) { return total_of(atom_areas(s).accessible); },
       [](const Surface& s) { return accessible_area_gradient(s); }},
      {"accessible volume", accessible_volume, accessible_volume_gradient}}};
 

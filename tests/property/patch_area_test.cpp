@@ -2,7 +2,6 @@
 // The two views of a surface agree: what the planes of a patch leave is what its faces measure in closed form.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <optional>
 #include <random>
@@ -18,8 +17,6 @@
 
 namespace meniscus::testing {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Every patch by itself: the share of random points that the planes keep, against the faces' Gauss-Bonnet areas.
 void expect_areas_agree(const Surface& s, int samples, std::mt19937& random) {

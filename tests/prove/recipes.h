@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -15,7 +14,6 @@
 
 namespace meniscus::testing {
 
-inline constexpr double kPi = std::numbers::pi;
 inline constexpr double kRadii[] = {1.2, 1.5, 1.52, 1.55, 1.7, 1.8, 2.0};
 inline constexpr double kProbes[] = {0.3, 0.5, 0.7, 1.0, 1.4, 1.4, 1.4, 2.0, 3.0, 5.0, 10.0, 50.0};
 

@@ -14,7 +14,6 @@
 namespace meniscus::testing {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kBond = 1.42;
 
 Balls balls_at(const std::vector<glm::dvec3>& points, double factor, double radius) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@ namespace meniscus::testing {
 
 using Balls = std::vector<Ball>;
 
+inline constexpr double kPi = std::numbers::pi;
 inline constexpr double kCarbon = 1.7;
 inline constexpr double kWater = 1.4;
 

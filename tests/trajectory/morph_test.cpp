@@ -14,11 +14,10 @@
 #include "core/structure/formats/read_structure.h"
 #include "core/structure/formats/write_pdb.h"
 #include "tests/support/run_program.h"
+#include "tests/support/sample_files.h"
 
 namespace meniscus {
 namespace {
-
-constexpr const char* kUbiquitin = "/usr/share/freesasa/test-data/1ubq.pdb";
 
 /// Ubiquitin, residues from `hinge` on turned by an angle about an axis through its alpha carbon.
 Structure bent(int hinge, double angle) {

@@ -17,11 +17,10 @@
 #include "core/structure/periodic_cell.h"
 #include "core/structure/superposition.h"
 #include "core/trajectory/prepared_frames.h"
+#include "tests/support/sample_files.h"
 
 namespace meniscus {
 namespace {
-
-constexpr const char* kUbiquitin = "/usr/share/freesasa/test-data/1ubq.pdb";
 
 std::mt19937 g_random(11);
 

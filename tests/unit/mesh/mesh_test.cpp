@@ -103,33 +103,33 @@ void expect_crisp_colors(const Surface& surface, const TriangleMesh& mesh) {
   }
 }
 
-struct Case {
+struct MeshCase {
   std::string name;
   Balls balls;
   double probe = kWater;
   double tolerance = 0.02;
 };
 
-std::vector<Case> cases() {
-  std::vector<Case> all{{"one", {{{1, 2, 3}, kCarbon}}},
-                        {"two", two_atoms(4.0)},
-                        {"free_spindle", two_atoms(5.8)},
-                        {"uneven_spindle", two_atoms(5.3, 1.7, 1.2)},
-                        {"nearly_tangent", two_atoms(6.2 - 1e-7)},
-                        {"one_sided_small_circle", {{{0, 0, 0}, 3.0}, {{2.6, 0, 0}, 0.5}}},
-                        {"apart", two_atoms(9.0)},
-                        {"collinear", collinear(3, 3.0)},
-                        {"square", ring(4, 3.0)},
-                        {"hexagon", ring(6, 3.6)},
-                        {"tetrahedron", tetrahedron(3.0)},
-                        {"c60_with_cavity", c60()},
-                        {"lattice", lattice(4, 4, 4, 2.0)},
-                        {"wide_lattice", lattice(3, 3, 3, 3.4), 0.7},
-                        {"small_probe", ring(5, 3.0), 0.3},
-                        {"coarse", ring(5, 3.0), 1.4, 0.5},
-                        {"fine", tetrahedron(3.0), 1.4, 0.001},
-                        {"gas", gas(3, 25, 9.0, 1.0, 2.0), 1.1},
-                        {"loose_gas", gas(4, 25, 14.0, 1.0, 2.0), 2.0}};
+std::vector<MeshCase> mesh_cases() {
+  std::vector<MeshCase> all{{"one", {{{1, 2, 3}, kCarbon}}},
+                            {"two", two_atoms(4.0)},
+                            {"free_spindle", two_atoms(5.8)},
+                            {"uneven_spindle", two_atoms(5.3, 1.7, 1.2)},
+                            {"nearly_tangent", two_atoms(6.2 - 1e-7)},
+                            {"one_sided_small_circle", {{{0, 0, 0}, 3.0}, {{2.6, 0, 0}, 0.5}}},
+                            {"apart", two_atoms(9.0)},
+                            {"collinear", collinear(3, 3.0)},
+                            {"square", ring(4, 3.0)},
+                            {"hexagon", ring(6, 3.6)},
+                            {"tetrahedron", tetrahedron(3.0)},
+                            {"c60_with_cavity", c60()},
+                            {"lattice", lattice(4, 4, 4, 2.0)},
+                            {"wide_lattice", lattice(3, 3, 3, 3.4), 0.7},
+                            {"small_probe", ring(5, 3.0), 0.3},
+                            {"coarse", ring(5, 3.0), 1.4, 0.5},
+                            {"fine", tetrahedron(3.0), 1.4, 0.001},
+                            {"gas", gas(3, 25, 9.0, 1.0, 2.0), 1.1},
+                            {"loose_gas", gas(4, 25, 14.0, 1.0, 2.0), 2.0}};
   for (const double step : {1e-3, 1e-9}) {  // the probe's circle hardly smaller or larger than the probe
     for (const double sign : {-1.0, 1.0}) {
       const double circle = kWater * (1.0 + sign * step);
@@ -140,10 +140,10 @@ std::vector<Case> cases() {
   return all;
 }
 
-class MeshOf : public ::testing::TestWithParam<Case> {};
+class MeshOf : public ::testing::TestWithParam<MeshCase> {};
 
 TEST_P(MeshOf, IsClosedOnTheSurfaceAndExactInItsNormals) {
-  const Case& c = GetParam();
+  const MeshCase& c = GetParam();
   const Surface surface = compute_surface_cpu(c.balls, c.probe);
   const TriangleMesh mesh = tessellate(surface, {c.tolerance, true});
   expect_closed_with_topology(surface, mesh);
@@ -156,7 +156,7 @@ TEST_P(MeshOf, IsClosedOnTheSurfaceAndExactInItsNormals) {
 }
 
 TEST_P(MeshOf, LeavesNoPointOfTheSurfaceOutOfTolerance) {
-  const Case& c = GetParam();
+  const MeshCase& c = GetParam();
   const Surface surface = compute_surface_cpu(c.balls, c.probe);
   for (const double tolerance : {c.tolerance, 0.1, 0.3}) {
     const std::vector<glm::dvec3> points = tessellate(surface, {tolerance / 8.0, false}).positions;
@@ -164,7 +164,7 @@ TEST_P(MeshOf, LeavesNoPointOfTheSurfaceOutOfTolerance) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Molecules, MeshOf, ::testing::ValuesIn(cases()),
+INSTANTIATE_TEST_SUITE_P(Molecules, MeshOf, ::testing::ValuesIn(mesh_cases()),
                          [](const auto& test) { return test.param.name; });
 
 TEST(Mesh, DegenerateMoleculesAreClosedAtAnyTolerance) {

@@ -2,7 +2,6 @@
 // Sections of solids: areas by closed forms and by volumes, points by the oracle, closed solids, borders of parts.
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <span>
 #include <vector>
@@ -20,8 +19,6 @@
 
 namespace meniscus::testing {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// Each atom a part of its own.
 CapAtoms every_atom(const Surface& surface) {

@@ -22,15 +22,13 @@
 #include "tests/support/run_program.h"
 #include "tests/support/pdb_line.h"
 #include "core/queries/colored_shapes.h"
+#include "tests/support/sample_files.h"
 
 namespace meniscus {
 namespace {
 
 using test::PdbLine;
 using test::TemporaryFolder;
-
-constexpr const char* kUbiquitin = "/usr/share/freesasa/test-data/1ubq.pdb";
-constexpr const char* kToxin = "/usr/share/pymol/data/demo/1tii.pdb";
 
 Structure read_text(const TemporaryFolder& folder, const std::string& text, const ReadOptions& options = {}) {
   return read_structure(folder.file("shapes.pdb", text), options);

@@ -75,34 +75,34 @@ TEST(Accessibility, IsThatOfWholeResidues) {
   EXPECT_TRUE(relative_accessibility({}, {}).empty());
 }
 
-struct Row {
+struct AtomRow {
   const char *name, *element;
   char altloc;
   double occupancy, x, y, z;
   const char* residue = "SER";
 };
 
-std::string pdb_of(const std::vector<Row>& rows) {
+std::string pdb_of(const std::vector<AtomRow>& rows) {
   std::string text;
-  for (const Row& r : rows)
+  for (const AtomRow& r : rows)
     text += fmt::format("ATOM      1 {:<4}{}{:>3} A   2    {:8.3f}{:8.3f}{:8.3f}{:6.2f} 10.00          {:>2}\n", r.name,
                         r.altloc, r.residue, r.x, r.y, r.z, r.occupancy, r.element);
   return text;
 }
 
-std::string mmcif_of(const std::vector<Row>& rows) {
+std::string mmcif_of(const std::vector<AtomRow>& rows) {
   std::string text = "data_a\nloop_\n";
   for (const char* column : {"type_symbol", "label_atom_id", "label_alt_id", "label_comp_id", "label_asym_id",
                              "label_seq_id", "Cartn_x", "Cartn_y", "Cartn_z", "occupancy", "B_iso_or_equiv"})
     text += fmt::format("_atom_site.{}\n", column);
-  for (const Row& r : rows)
+  for (const AtomRow& r : rows)
     text += fmt::format("{} {} {} {} A 2 {:.3f} {:.3f} {:.3f} {:.2f} 10.00\n", r.element, r.name,
                         r.altloc == ' ' ? '.' : r.altloc, r.residue, r.x, r.y, r.z, r.occupancy);
   return text;
 }
 
 /// The atoms that are kept, "N.A" of alternate location A, in the order of the file; the same from both formats.
-std::vector<std::string> kept_of(const std::vector<Row>& rows, const char* choice = "best",
+std::vector<std::string> kept_of(const std::vector<AtomRow>& rows, const char* choice = "best",
                                  std::vector<Warning>* warnings = nullptr) {
   const test::TemporaryFolder folder;
   ReadOptions options;
@@ -122,16 +122,16 @@ std::vector<std::string> kept_of(const std::vector<Row>& rows, const char* choic
 using Names = std::vector<std::string>;
 
 /// A is whole, B is the most occupied, C is as short as B: SER 437 of the entry 5U3A.
-const std::vector<Row> kSerine{{"N", "N", 'A', 0.30, 0, 0, 0},
-                               {"CA", "C", 'A', 0.30, 1.46, 0, 0},
-                               {"C", "C", 'A', 0.30, 2.0, 1.42, 0},
-                               {"O", "O", 'A', 0.30, 1.25, 2.39, 0},
-                               {"CB", "C", 'A', 0.30, 1.99, -.77, -1.21},
-                               {"OG", "O", 'A', 0.30, 1.57, -.22, -2.45},
-                               {"CB", "C", 'B', 0.45, 1.99, -.77, -1.11},
-                               {"OG", "O", 'B', 0.45, 2.47, .68, -2.15},
-                               {"CB", "C", 'C', 0.25, 1.99, -.67, -1.11},
-                               {"OG", "O", 'C', 0.25, .67, -1.12, -2.15}};
+const std::vector<AtomRow> kSerine{{"N", "N", 'A', 0.30, 0, 0, 0},
+                                   {"CA", "C", 'A', 0.30, 1.46, 0, 0},
+                                   {"C", "C", 'A', 0.30, 2.0, 1.42, 0},
+                                   {"O", "O", 'A', 0.30, 1.25, 2.39, 0},
+                                   {"CB", "C", 'A', 0.30, 1.99, -.77, -1.21},
+                                   {"OG", "O", 'A', 0.30, 1.57, -.22, -2.45},
+                                   {"CB", "C", 'B', 0.45, 1.99, -.77, -1.11},
+                                   {"OG", "O", 'B', 0.45, 2.47, .68, -2.15},
+                                   {"CB", "C", 'C', 0.25, 1.99, -.67, -1.11},
+                                   {"OG", "O", 'C', 0.25, .67, -1.12, -2.15}};
 
 TEST(Altloc, AResidueIsCompletedByName) {
   std::vector<Warning> warnings;
@@ -148,7 +148,7 @@ TEST(Altloc, AResidueIsCompletedByName) {
 }
 
 TEST(Altloc, TheNextIsTheMostOccupiedThenTheFirstOfTheFile) {
-  const std::vector<Row> rows{
+  const std::vector<AtomRow> rows{
       {"N", "N", ' ', 1, 0, 0, 0},       {"CA", "C", 'A', 0.2, 1.5, 0, 0}, {"CB", "C", 'A', 0.2, 2, 1.4, 0},
       {"CA", "C", 'C', 0.3, 1.5, .1, 0}, {"CB", "C", 'C', 0.3, 2, 1.5, 0}, {"OG", "O", 'C', 0.3, 3, 2.3, 0},
       {"CB", "C", 'B', 0.3, 2, 1.6, 0},  {"OG", "O", 'B', 0.3, 3, 2.4, 0}, {"CA", "C", 'D', 0.4, 1.5, .2, 0}};
@@ -156,9 +156,9 @@ TEST(Altloc, TheNextIsTheMostOccupiedThenTheFirstOfTheFile) {
 }
 
 TEST(Altloc, ResiduesOfOtherNamesGiveNothing) {
-  const std::vector<Row> rows{{"CB", "C", 'A', 0.4, 0, 0, 0, "SER"},
-                              {"OG", "O", 'A', 0.4, 1.4, 0, 0, "SER"},
-                              {"CB", "C", 'B', 0.6, 0, 0, 0, "ALA"}};
+  const std::vector<AtomRow> rows{{"CB", "C", 'A', 0.4, 0, 0, 0, "SER"},
+                                  {"OG", "O", 'A', 0.4, 1.4, 0, 0, "SER"},
+                                  {"CB", "C", 'B', 0.6, 0, 0, 0, "ALA"}};
   std::vector<Warning> warnings;
   EXPECT_EQ(kept_of(rows, "best", &warnings), (Names{"CB.B"}));
   EXPECT_TRUE(warnings.empty());
@@ -166,12 +166,12 @@ TEST(Altloc, ResiduesOfOtherNamesGiveNothing) {
 
 TEST(Altloc, HydrogensComeWithTheAtomThatTheyAreBondedTo) {
   // By neutrons, H and D share a place; by another conformer, hydrogens have other places about the same carbon.
-  const std::vector<Row> exchanged{
+  const std::vector<AtomRow> exchanged{
       {"N", "N", ' ', 1, 0, 0, 0}, {"H", "H", 'A', 0.4, 1, 0, 0}, {"D", "D", 'B', 0.6, 1, 0, 0}};
   EXPECT_EQ(kept_of(exchanged), (Names{"N", "D.B"}));
-  const std::vector<Row> turned{{"CB", "C", 'A', 0.4, 0, 0, 0},    {"HB1", "H", 'A', 0.4, 1, 0, 0},
-                                {"OG", "O", 'A', 0.4, -1.4, 0, 0}, {"HG", "H", 'A', 0.4, -2, .7, 0},
-                                {"CB", "C", 'B', 0.6, 0, 0, .5},   {"HB2", "H", 'B', 0.6, 0, 1, .5}};
+  const std::vector<AtomRow> turned{{"CB", "C", 'A', 0.4, 0, 0, 0},    {"HB1", "H", 'A', 0.4, 1, 0, 0},
+                                    {"OG", "O", 'A', 0.4, -1.4, 0, 0}, {"HG", "H", 'A', 0.4, -2, .7, 0},
+                                    {"CB", "C", 'B', 0.6, 0, 0, .5},   {"HB2", "H", 'B', 0.6, 0, 1, .5}};
   EXPECT_EQ(kept_of(turned), (Names{"OG.A", "HG.A", "CB.B", "HB2.B"}));
 }
 

@@ -3,7 +3,6 @@
 #include "core/surface/certificate.h"
 
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <string>
 
@@ -24,8 +23,6 @@
 
 namespace meniscus::testing {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 bool holds(Surface surface, const MeasurementDoubts& doubts = {}) {
   surface.certificate = {};

@@ -2,7 +2,6 @@
 // Regions on the unit sphere: areas from next to nothing to next to everything, moments, and sides of loops.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <vector>
 
@@ -14,8 +13,6 @@
 
 namespace meniscus::testing {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 SphereArc great_arc(const glm::dvec3& a, const glm::dvec3& b) {
   const glm::dvec3 normal = glm::cross(a, b);

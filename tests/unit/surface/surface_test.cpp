@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Surfaces that are known in closed form or from an independent enumeration: areas, volumes, counts, components.
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -14,8 +13,6 @@
 
 namespace meniscus::testing {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 double sphere_area(double r) { return 4 * kPi * r * r; }
 double sphere_volume(double r) { return 4 * kPi / 3 * r * r * r; }

@@ -3,7 +3,6 @@
 // are merged where they are within 10⁻⁶ Å, not farther apart.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -16,8 +15,6 @@
 
 namespace meniscus::testing {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// Unit vectors that cover the sphere evenly.
 std::vector<glm::dvec3> directions(int count) {

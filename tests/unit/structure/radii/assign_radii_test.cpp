@@ -11,13 +11,13 @@
 #include "core/structure/radii/radii_file.h"
 #include "core/structure/residue_names.h"
 #include "tests/support/run_program.h"
+#include "tests/support/sample_files.h"
 
 namespace meniscus {
 namespace {
 
 using test::TemporaryFolder;
 
-constexpr const char* kUbiquitin = "/usr/share/freesasa/test-data/1ubq.pdb";
 constexpr const char* kUbiquitinNmr = "/usr/share/freesasa/test-data/1d3z.pdb";
 constexpr const char* kToxin = "/usr/share/pymol/test/dat/1tii.pdb";
 

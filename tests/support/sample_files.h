@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Molecules that packages of Debian bring.
+#pragma once
+
+namespace meniscus {
+
+inline constexpr const char* kToxin = "/usr/share/pymol/data/demo/1tii.pdb";         ///< pymol-data
+inline constexpr const char* kUbiquitin = "/usr/share/freesasa/test-data/1ubq.pdb";  ///< freesasa; with 58 waters
+
+}  // namespace meniscus
