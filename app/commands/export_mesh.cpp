@@ -94,11 +94,12 @@ void write_numbered(const MeshFormat& format, const NumberedPath& path, Existing
 }
 
 /// Of microfacets whose highlight is as wide as that of the picture's material (B. Walter et al., Proc. EGSR 2007,
-/// 195).
-float roughness_of(const Scene& scene) {
+/// 195), and seen straight on as strong (Fresnel).
+FileMaterial material_of(const Scene& scene) {
+  constexpr float kMost = 0.95f;
   const Material material = look_of(scene.look, scene.picture.size(), std::nullopt, Hues::free).material;
-  if (material.specular == 0.0f) return 1.0f;
-  return std::sqrt(std::sqrt(2.0f / (material.shininess + 2.0f)));
+  const float amplitude = std::min(std::sqrt(material.specular), kMost);
+  return {std::sqrt(std::sqrt(2.0f / (material.shininess + 2.0f))), (1.0f + amplitude) / (1.0f - amplitude)};
 }
 
 /// The mesh of one figure.
@@ -114,14 +115,11 @@ MeshFile mesh_of(const SceneCommand& command, const MeshFormat& format, FigureFr
   if (is_told)
     warn_of_many(command, expected_triangles(molecule.objects, fineness,
                                              format.places ? CopiesOfMesh::shared : CopiesOfMesh::own));
-  const auto is_translucent = [](const SurfaceObject& object) { return object.coloring.is_translucent(); };
-  if (is_told && !format.opacity && std::ranges::any_of(molecule.objects, is_translucent))
-    say(command, fmt::format("note: {} has no opacity, so what is translucent is opaque there", format.title));
   const std::vector<Atom> atoms = shown_atoms(molecule.structure);
   const std::vector<double> buried =
       buried_by_chains(scene.molecule, molecule.structure, names, scene.mesh.attributes == "all");
   MeshFileMaker maker({fineness, names, scene.mesh.scale, atoms, buried, format.solid, frame.velocities, format.places,
-                       roughness_of(scene)},
+                       material_of(scene)},
                       about_line(kind_word(scene.molecule.surface.kind), scene.mesh.scale, fineness));
   for (SurfaceObject& object : molecule.objects) maker.add(std::exchange(object, {}));
   if (!beside.empty()) maker.add(shape_object(atoms, beside, fineness.tolerance));
@@ -151,6 +149,9 @@ void export_to_mesh(const SceneCommand& asked) {
   const auto numbered = NumberedPath::parse(asked.scene.output);
   const bool one_file = asked.scene.frames.asked() && !numbered;
   if (one_file) check_one_file(format, asked.scene);
+  const auto is_partial = [](const OpacityRule& rule) { return rule.opacity > 0.0f && rule.opacity < 1.0f; };
+  if (!format.opacity && std::ranges::any_of(asked.scene.molecule.color.opacities, is_partial))
+    say(asked, fmt::format("note: --opacity: {} has none, so what is translucent is opaque there", format.title));
   FigureRun run(asked, one_file);
   run.aim(asked.scene.picture, false);
   const SceneCommand& command = run.command();

@@ -59,7 +59,7 @@ std::string about_line(std::string_view surface, double scale, const MeshFinenes
 
 MeshFileMaker::MeshFileMaker(FileRequest request, std::string about) : request_(std::move(request)) {
   file_.scale = request_.scale;
-  file_.roughness = request_.roughness;
+  file_.material = request_.material;
   file_.about = std::move(about);
   for (const Atom& atom : request_.atoms) file_.atoms.push_back(file_atom(atom));
 }

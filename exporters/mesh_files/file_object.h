@@ -34,7 +34,7 @@ struct FileRequest {
   /// Å per frame, of each of these atoms; empty: unknown. A surface in several places has none.
   std::span<const glm::dvec3> velocities = {};
   bool places = false;  ///< the format has objects in several places
-  float roughness = 0.5f;
+  FileMaterial material = {};
 };
 
 /// One line about a file: the program, what 1 Å is, which surface ("solvent-excluded", say), how fine.

@@ -54,10 +54,13 @@ class Builder {
     json_["scene"] = 0;
     json_["scenes"] = Json::array({{{"nodes", Json::array()}}});
     json_["nodes"] = json_["meshes"] = json_["accessors"] = json_["bufferViews"] = Json::array();
-    const Json look = {{"metallicFactor", 0.0}, {"roughnessFactor", mesh.roughness}};
-    json_["materials"] = Json::array({{{"name", "surface"}, {"pbrMetallicRoughness", look}}});
+    const Json look = {{"metallicFactor", 0.0}, {"roughnessFactor", mesh.material.roughness}};
+    const Json more = {{"KHR_materials_ior", {{"ior", mesh.material.ior}}}};
+    json_["extensionsUsed"] = {"KHR_materials_ior"};
+    json_["materials"] = Json::array({{{"name", "surface"}, {"pbrMetallicRoughness", look}, {"extensions", more}}});
     if (std::ranges::any_of(mesh.objects, [](const FileObject& object) { return !object.opacities.empty(); }))
-      json_["materials"].push_back({{"name", "translucent"}, {"pbrMetallicRoughness", look}, {"alphaMode", "BLEND"}});
+      json_["materials"].push_back(
+          {{"name", "translucent"}, {"pbrMetallicRoughness", look}, {"alphaMode", "BLEND"}, {"extensions", more}});
     for (const FileObject& object : mesh.objects) add(object);
     json_["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
   }

@@ -56,13 +56,19 @@ struct FileObject {
   }
 };
 
+/// What a file's objects are made of, as renderers by microfacets have it.
+struct FileMaterial {
+  float roughness = 0.5f;  ///< in [0, 1]
+  float ior = 1.5f;        ///< index of refraction, at least 1, which has no highlights
+};
+
 /// All of a file.
 struct MeshFile {
   std::vector<FileObject> objects;  ///< at least one
   std::vector<FileAtom> atoms;
-  double scale = 1.0;      ///< of the file's unit: what 1 Å is
-  float roughness = 0.5f;  ///< of its material, as renderers by microfacets have it, in [0, 1]
-  std::string about;       ///< one line: the program, what it is, its scale
+  double scale = 1.0;  ///< of the file's unit: what 1 Å is
+  FileMaterial material;
+  std::string about;  ///< one line: the program, what it is, its scale
   /// A point inside each cavity, and inside each solid; with the number of its component.
   struct InnerPoint {
     glm::dvec3 position{0.0};  ///< in the unit of the file

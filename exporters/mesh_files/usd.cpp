@@ -42,7 +42,7 @@ struct MaterialLook {
   std::string_view more;  ///< one further input of UsdPreviewSurface, or none
 };
 
-/// The first has the roughness of the file.
+/// The first is that of the file.
 constexpr auto kLooks = std::to_array<MaterialLook>({{"figure", 0.5f, ""},
                                                      {"matte", 1.0f, ""},
                                                      {"plastic", 0.25f, "float inputs:clearcoat = 0.5"},
@@ -74,19 +74,21 @@ std::string material_text(std::string_view name, bool is_translucent) {
 }
 
 /// Another look changes the shaders of both materials; what is translucent keeps its opacity.
-std::string looks_text(float roughness, bool is_translucent) {
+std::string looks_text(const FileMaterial& material, bool is_translucent) {
   std::string text = "    variantSet \"look\" = {\n";
   for (const MaterialLook& look : kLooks) {
-    const float rough = &look == kLooks.begin() ? roughness : look.roughness;
-    const auto shader = [&](std::string_view material, std::string_view more) {
+    const bool is_own = &look == kLooks.begin();
+    const float rough = is_own ? material.roughness : look.roughness;
+    const std::string more = is_own ? fmt::format("float inputs:ior = {:.4g}", material.ior) : std::string(look.more);
+    const auto shader = [&](std::string_view name, std::string_view input) {
       return fmt::format(
           "                over \"{}\" {{\n                    over \"shader\" {{\n                        float "
           "inputs:roughness = {:.3g}\n{}                    }}\n                }}\n",
-          material, rough, more.empty() ? "" : fmt::format("                        {}\n", more));
+          name, rough, input.empty() ? "" : fmt::format("                        {}\n", input));
     };
     text += fmt::format("        \"{}\" {{\n            over \"looks\" {{\n{}{}            }}\n        }}\n", look.name,
-                        shader("surface", look.more),
-                        is_translucent ? shader("translucent", look.name == "glass" ? "" : look.more) : "");
+                        shader("surface", more),
+                        is_translucent ? shader("translucent", look.name == "glass" ? "" : more) : "");
   }
   return text + "    }\n";
 }
@@ -208,7 +210,7 @@ class UsdWriter {
       else
         write_instances(prim);
     }
-    sink_(looks_text(frames_.front().roughness, is_translucent) + "}\n");
+    sink_(looks_text(frames_.front().material, is_translucent) + "}\n");
   }
 
  private:

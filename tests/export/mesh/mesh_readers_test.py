@@ -315,20 +315,22 @@ class Contents(Case):
         self.assertTrue('string inputs:varname = "displayColor"' in opaque)
         self.assertEqual(opaque.count("pacity"), 1)  # of the look of glass
         self.assertEqual(re.findall(r'^        "(\w+)" \{$', opaque, re.M), ["figure", "matte", "plastic", "metal", "glass"])
-        scene = {"meniscus_scene": 1, "look": {"shininess": 14}}
+        scene = {"meniscus_scene": 1, "look": {"shininess": 14, "specular": 0.25}}
         (self.folder / "look.json").write_text(json.dumps(scene))
         words = (MOLECULE, *WORDS, "--opacity", "resid 1-20=0.25", "--scene", str(self.folder / "look.json"))
         text = self.export("look.usda", *words).read_text()
         self.assertTrue("rel material:binding = </molecule/looks/translucent>" in text)
         self.assertTrue("float inputs:roughness = 0.595" in text)  # the fourth root of 2 / (14 + 2)
+        self.assertTrue("float inputs:ior = 3\n" in text)  # reflects a quarter
         of_residue = np.where(self.vertices["res_id"] <= 20, 0.25, 1.0)
         np.testing.assert_allclose(usd_rows(text, "primvars:displayOpacity")[0][:, 0], of_residue)
         scene, array = read_glb(self.export("look.glb", *words))
         primitive = scene["meshes"][0]["primitives"][0]
-        self.assertEqual(scene["materials"][primitive["material"]]["alphaMode"], "BLEND")
+        material = scene["materials"][primitive["material"]]
+        self.assertEqual((material["alphaMode"], material["extensions"]), ("BLEND", {"KHR_materials_ior": {"ior": 3.0}}))
         np.testing.assert_allclose(array(primitive["attributes"]["COLOR_0"])[:, 3] / 65535, of_residue, atol=1e-5)
         done = export(self.folder / "look.stl", *(word for word in words if word != "-q"), "--force")
-        self.assertIn("STL, binary has no opacity", done.stderr)
+        self.assertIn("note: --opacity: STL, binary has none", done.stderr)
 
     def test_vtp(self):
         root, arrays = read_vtp(self.export("a.vtp", MOLECULE, *WORDS, *EXTRA))
