@@ -57,8 +57,11 @@ class Builder {
     const Json look = {{"metallicFactor", 0.0}, {"roughnessFactor", mesh.material.roughness}};
     const Json more = {{"KHR_materials_ior", {{"ior", mesh.material.ior}}}};
     json_["extensionsUsed"] = {"KHR_materials_ior"};
-    json_["materials"] = Json::array({{{"name", "surface"}, {"pbrMetallicRoughness", look}, {"extensions", more}}});
-    if (std::ranges::any_of(mesh.objects, [](const FileObject& object) { return !object.opacities.empty(); }))
+    const auto is_opaque = [](const FileObject& object) { return object.opacities.empty(); };
+    json_["materials"] = Json::array();
+    if (std::ranges::any_of(mesh.objects, is_opaque))
+      json_["materials"].push_back({{"name", "surface"}, {"pbrMetallicRoughness", look}, {"extensions", more}});
+    if (!std::ranges::all_of(mesh.objects, is_opaque))
       json_["materials"].push_back(
           {{"name", "translucent"}, {"pbrMetallicRoughness", look}, {"alphaMode", "BLEND"}, {"extensions", more}});
     for (const FileObject& object : mesh.objects) add(object);
@@ -95,11 +98,12 @@ class Builder {
     const std::size_t indices = accessor(std::span(object.triangles), kUnsignedInt, "SCALAR", kElementArrayBuffer, 3);
     const std::size_t number = json_["meshes"].size();
     const std::string name = plain_text(object.name);
-    json_["meshes"].push_back({{"name", name},
-                               {"primitives", Json::array({{{"attributes", attributes},
-                                                            {"indices", indices},
-                                                            {"material", object.opacities.empty() ? 0 : 1},
-                                                            {"mode", 4}}})}});
+    json_["meshes"].push_back(
+        {{"name", name},
+         {"primitives", Json::array({{{"attributes", attributes},
+                                      {"indices", indices},
+                                      {"material", object.opacities.empty() ? 0 : json_["materials"].size() - 1},
+                                      {"mode", 4}}})}});
     for (const RigidMotion& place : object.places) {
       json_["scenes"][0]["nodes"].push_back(json_["nodes"].size());
       Json node = {{"name", name}, {"mesh", number}};

@@ -239,8 +239,14 @@ class UsdWriter {
           fmt::format("      def Xform \"copy_{}\" (\n        instanceable = true\n        prepend references = "
                       "</molecule/prototypes/{}>\n      )\n      {{\n",
                       n + 1, prim.name));
-      add(prim, "matrix4d xformOp:transform", "",
-          [&](const FileObject& o) { return matrix_text(n < o.places.size() ? o.places[n] : RigidMotion{}); });
+      const auto place_of = [n](const FileObject& o) {
+        return matrix_text(n < o.places.size() ? o.places[n] : RigidMotion{});
+      };
+      const std::string place = place_of(prim.first());
+      if (std::ranges::all_of(prim.frames, [&](const FileObject* o) { return !o || place_of(*o) == place; }))
+        sink_(fmt::format("        matrix4d xformOp:transform = {}\n", place));
+      else
+        add(prim, "matrix4d xformOp:transform", "", place_of);
       sink_("        uniform token[] xformOpOrder = [\"xformOp:transform\"]\n      }\n");
     }
     sink_("    }\n");

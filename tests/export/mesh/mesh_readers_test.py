@@ -22,6 +22,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 MOLECULE = "/usr/share/freesasa/test-data/1ubq.pdb"  # two cavities
+ENSEMBLE = "/usr/share/freesasa/test-data/1d3z.pdb"
 PROGRAM = None
 BLENDER = None
 WORDS = ["--tolerance", "0.1", "--color", "residue", "--device", "cpu", "-q"]
@@ -112,8 +113,8 @@ def usd_rows(text, name):
     return [np.array(re.sub(r"[(),]", " ", row).split(), dtype=float).reshape(-1, columns) for row in rows]
 
 
-def write_capsid(path):
-    """MOLECULE as an assembly of three copies: where it is, turned by 90° about z, and turned by 120° about the diagonal.
+def write_capsid(path, molecule=MOLECULE):
+    """A molecule as an assembly of three copies: where it is, turned by 90° about z, and turned by 120° about the diagonal.
     Returns their matrices."""
     places = np.array([np.eye(4)] * 3)
     places[1][:3] = [[0, -1, 0, 60], [1, 0, 0, -5], [0, 0, 1, 0]]
@@ -122,7 +123,7 @@ def write_capsid(path):
     for n, place in enumerate(places):
         remarks += [f"REMARK 350   BIOMT{k + 1}{n + 1:4}" + "".join(f"{x:10.6f}" for x in place[k, :3]) +
                     f"{place[k, 3]:15.5f}" for k in range(3)]
-    path.write_text("\n".join(remarks) + "\n" + pathlib.Path(MOLECULE).read_text())
+    path.write_text("\n".join(remarks) + "\n" + pathlib.Path(molecule).read_text())
     return places
 
 
@@ -292,6 +293,16 @@ class Contents(Case):
         for ending, places in found.items():
             with self.subTest(ending):
                 np.testing.assert_allclose(places, wanted, atol=1e-6)
+
+    def test_copies_of_a_run_move_as_the_molecule(self):
+        write_capsid(self.folder / "moving.pdb", ENSEMBLE)
+        words = ("--frames", "0-2", "--density", "0.2", "--device", "cpu", "-q")
+        alone = self.export("alone.usda", ENSEMBLE, *words).read_text()
+        text = self.export("moving.usda", str(self.folder / "moving.pdb"), *words, *COPIES).read_text()
+        for name in ("points", "velocities"):
+            for of_copy, of_molecule in zip(usd_rows(text, name), usd_rows(alone, name), strict=True):
+                np.testing.assert_array_equal(of_copy, of_molecule)
+        self.assertEqual((text.count("instanceable"), text.count("matrix4d xformOp:transform = ")), (3, 3))
 
     def test_copies_that_differ_are_meshes_of_their_own(self):
         """Of colours by place, numbers of the whole, and formats without instances."""
