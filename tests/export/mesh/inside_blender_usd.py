@@ -95,7 +95,7 @@ class Usd(unittest.TestCase):
             x, y, z = places[:, :3, 3].T
             wanted = np.array(sorted(np.stack([x, -z, y], axis=1).tolist()))
             np.testing.assert_allclose(found, wanted, atol=1e-4, err_msg=ending)
-            if ending == "usda":
+            if ending == "usda" and bpy.app.version >= (4, 5):  # 4.2 knows no such primvar
                 tree = mesh.materials[0].node_tree
                 link, = (each for each in tree.links if each.to_socket.name == "Base Color")
                 self.assertEqual(link.from_node.attribute_name, "displayColor")
