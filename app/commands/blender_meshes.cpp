@@ -44,7 +44,6 @@ namespace {
 /// Cut, with caps.
 std::vector<blender::MeshedObject> cut_objects(const SceneCommand& command, Molecule& molecule,
                                                const blender::CutFile& cut, double tolerance) {
-  settle_copies(molecule.objects);
   std::vector<blender::MeshedObject> objects;
   for (const SurfaceObject& object : molecule.objects) {
     CappedMesh made = capped_mesh(object, cut.planes, cut.style.color.has_value(), tolerance);
@@ -148,6 +147,7 @@ void mesh_figure(const SceneCommand& command, FigureFrame& frame, const blender:
     const bool hides =
         std::ranges::any_of(molecule.objects, [](const SurfaceObject& o) { return o.coloring.hides_some(); });
     refuse_even_parts(fineness, hides, !cut.planes.empty());
+    settle_copies(molecule.objects, !cut.planes.empty());
     made.objects = cut.planes.empty() ? whole_objects(command, molecule, fineness, velocities)
                                       : cut_objects(command, molecule, cut, fineness.tolerance);
     if (beside.empty() && is_empty(made.objects))

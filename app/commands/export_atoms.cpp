@@ -41,6 +41,8 @@ void export_atoms(const SceneCommand& asked) {
     throw UsageError("--color-map-file colours points of a surface, not atoms; leave it out");
   if (command.scene.molecule.color.by == ColorScheme::By::lipophilicity)
     throw UsageError("--color lipophilicity colours points of a surface, not atoms; choose another --color");
+  if (command.scene.molecule.division.instances == InstanceMode::separate)
+    throw UsageError("--instances separate: of the atoms in the file one surface is made; leave it out");
   std::unique_ptr<FrameRun> run;
   if (command.scene.frames.asked()) {
     settle_selections(command.scene.molecule, command.scene.frames);

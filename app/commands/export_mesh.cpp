@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus export mesh`: writes the closed mesh in any format; `meniscus export ply` is its older form.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,6 +19,7 @@
 #include "app/process/program_error.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/render/look.h"
 #include "exporters/mesh_files/file_object.h"
 #include "exporters/mesh_files/mesh_formats.h"
 
@@ -26,6 +29,11 @@ namespace {
 /// Of the file to write. Throws UsageError where nothing says which it is.
 const MeshFormat& format_of(const Scene& scene) {
   const std::string& word = scene.mesh.format;
+  if (const std::filesystem::path path(scene.output); word == "usdc" || (word.empty() && path.extension() == ".usdc")) {
+    const std::string text = std::filesystem::path(path).replace_extension(".usda").string();
+    throw UsageError(fmt::format("{}: only USD as text is written; write that, then: usdcat {} -o {}",
+                                 in_quotes(scene.output), shell_word(text), shell_word(scene.output)));
+  }
   const MeshFormat* const found = word.empty() ? mesh_format_of_path(scene.output) : mesh_format(word);
   if (found) return *found;
   if (!word.empty())
@@ -53,7 +61,10 @@ void refuse_what_does_not_fit(const MeshFormat& format, const Figure& figure, co
 void tell(const SceneCommand& command, const MeshFormat& format, const MeshFileMaker& maker,
           const MeshFineness& fineness) {
   say(command,
-      fmt::format("{} triangles {}; {}", with_thousands(maker.triangle_count()),
+      fmt::format("{} triangles{} {}; {}", with_thousands(maker.triangle_count()),
+                  maker.further_places() > 0
+                      ? fmt::format(", shared with {} more copies,", with_thousands(maker.further_places()))
+                      : "",
                   fineness_words(command.scene.mesh, fineness), scale_sentence(format, command.scene.mesh.scale)));
   if (maker.joined_edges() + maker.flipped_edges() > 0)
     say(command, fmt::format("welded: {} edges shorter than {} Å, {}{} triangles without area",
@@ -82,6 +93,15 @@ void write_numbered(const MeshFormat& format, const NumberedPath& path, Existing
   for (const std::string& name : names) std::cout << escaped(name) << "\n";
 }
 
+/// Of microfacets whose highlight is as wide as that of the picture's material (B. Walter et al., Proc. EGSR 2007,
+/// 195), and seen straight on as strong (Fresnel).
+FileMaterial material_of(const Scene& scene) {
+  constexpr float kMost = 0.95f;
+  const Material material = look_of(scene.look, scene.picture.size(), std::nullopt, Hues::free).material;
+  const float amplitude = std::min(std::sqrt(material.specular), kMost);
+  return {std::sqrt(std::sqrt(2.0f / (material.shininess + 2.0f))), (1.0f + amplitude) / (1.0f - amplitude)};
+}
+
 /// The mesh of one figure.
 MeshFile mesh_of(const SceneCommand& command, const MeshFormat& format, FigureFrame frame, bool is_told) {
   const Scene& scene = command.scene;
@@ -92,11 +112,14 @@ MeshFile mesh_of(const SceneCommand& command, const MeshFormat& format, FigureFr
   const MeshFineness fineness = fineness_of(scene.mesh, scene.mesh.even, scene.mesh.density, scene.picture.size(),
                                             frame.camera, frame.figure.balls());
   refuse_what_does_not_fit(format, frame.figure, fineness);
-  if (is_told) warn_of_many(command, expected_triangles(molecule.objects, fineness, CopiesOfMesh::own));
+  if (is_told)
+    warn_of_many(command, expected_triangles(molecule.objects, fineness,
+                                             format.places ? CopiesOfMesh::shared : CopiesOfMesh::own));
   const std::vector<Atom> atoms = shown_atoms(molecule.structure);
   const std::vector<double> buried =
       buried_by_chains(scene.molecule, molecule.structure, names, scene.mesh.attributes == "all");
-  MeshFileMaker maker({fineness, names, scene.mesh.scale, atoms, buried, format.solid, frame.velocities},
+  MeshFileMaker maker({fineness, names, scene.mesh.scale, atoms, buried, format.solid, frame.velocities, format.places,
+                       material_of(scene)},
                       about_line(kind_word(scene.molecule.surface.kind), scene.mesh.scale, fineness));
   for (SurfaceObject& object : molecule.objects) maker.add(std::exchange(object, {}));
   if (!beside.empty()) maker.add(shape_object(atoms, beside, fineness.tolerance));
@@ -126,6 +149,9 @@ void export_to_mesh(const SceneCommand& asked) {
   const auto numbered = NumberedPath::parse(asked.scene.output);
   const bool one_file = asked.scene.frames.asked() && !numbered;
   if (one_file) check_one_file(format, asked.scene);
+  const auto is_partial = [](const OpacityRule& rule) { return rule.opacity > 0.0f && rule.opacity < 1.0f; };
+  if (!format.opacity && std::ranges::any_of(asked.scene.molecule.color.opacities, is_partial))
+    say(asked, fmt::format("note: --opacity: {} has none, so what is translucent is opaque there", format.title));
   FigureRun run(asked, one_file);
   run.aim(asked.scene.picture, false);
   const SceneCommand& command = run.command();

@@ -129,8 +129,9 @@ void FigureRun::make(const FigureWork& work, const std::function<Sink()>& make_s
   tell_beyond_map(command_, builders);
 }
 
-void settle_copies(std::vector<SurfaceObject>& objects) {
+void settle_copies(std::vector<SurfaceObject>& objects, bool are_cut) {
   if (std::ranges::none_of(objects, [](const SurfaceObject& object) { return object.copies.size() > 1; })) return;
+  if (!are_cut && !copies_differ(objects)) return;
   SurfaceObject whole = merged(std::move(objects));
   objects.clear();
   objects.push_back(std::move(whole));

@@ -101,8 +101,8 @@ class FigureRun {
   std::optional<ViewAim> aim_;
 };
 
-/// Makes one object of several copies. Before planes cut: where they are, a copy is cut as no other is.
-void settle_copies(std::vector<SurfaceObject>& objects);
+/// Makes one object of several copies where planes are to cut them, each elsewhere, or where they differ.
+void settle_copies(std::vector<SurfaceObject>& objects, bool are_cut);
 
 /// Throws UsageError if caps would have to show values of a map, which the files do not hold. reason: that sentence.
 void check_caps_of_map(const Scene& scene, std::string_view reason);

@@ -34,7 +34,7 @@ path_tracers::SceneItem item_of(const SurfaceObject& object, std::span<const Cli
 void add_surface(const Scene& asked, Figure figure, double tolerance, path_tracers::Scene& scene) {
   std::vector<SurfaceObject>& objects = figure.molecule.objects;
   const std::vector<ClipPlane> planes = surface_planes(asked.figure, figure.beside.cut_atoms, scene.camera, objects);
-  if (!planes.empty()) settle_copies(objects);
+  settle_copies(objects, !planes.empty());
   for (const SurfaceObject& object : objects)
     scene.items.push_back(item_of(object, planes, asked.figure.cap, tolerance, scene.origin));
 }

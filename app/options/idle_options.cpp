@@ -133,10 +133,17 @@ const std::vector<Need>& needs() {
       {{"--fps"},
        [](const Asked& asked) {
          if (!asked.has("--density")) return true;
-         return asked.is_run() &&
-                (ends_as(asked.value("--output"), {".usda", ".usdz"}) || asked.value("--format").starts_with("usd"));
+         return asked.is_run() && (ends_as(asked.value("--output"), {".usd", ".usda", ".usdz"}) ||
+                                   asked.value("--format").starts_with("usd"));
        },
        "of meshes USD alone has times; name a file of a run, such as -o a.usda"},
+      {{"--preset", "--specular", "--shininess"},
+       [](const Asked& asked) {
+         const std::string format = asked.value("--format");
+         return !asked.has("--density") || ends_as(asked.value("--output"), {".usd", ".usda", ".usdz", ".glb"}) ||
+                format.starts_with("usd") || format == "glb";
+       },
+       "of meshes USD and GLB alone have materials; name a file of one of them, such as -o a.usda"},
       {{"--film-opacity", "--patches"},
        [](const Asked& asked) { return !asked.given("--hide-surface"); },
        "the surface is hidden, and shapes beside it are no films, and have no patches"},

@@ -9,10 +9,11 @@ namespace {
 
 constexpr unsigned kShared = in_scene | in_bundle;
 constexpr unsigned kLook = kShared | live;
+constexpr unsigned kPictures = for_render | for_preview | for_page;
 constexpr std::string_view kLight = "Light", kLines = "Lines";
 
 constexpr auto kTable = of_commands(
-    for_render | for_preview | for_page,
+    kPictures,
     std::to_array<Property>({
         word("look.preset", "--preset", "WORD",
              "Look: publication, cover, flat, soft or classic. publication: shade, thin lines, colours as given; "
@@ -21,6 +22,7 @@ constexpr auto kTable = of_commands(
              "a legend explains them, light changes only their lightness")
             .one_of("publication|cover|flat|soft|classic")
             .initially("publication")
+            .of(kPictures | for_mesh)
             .in(kLight, kLook)
             .in_short_help(),
         text("look.light", "--light", "X,Y,Z", "Direction towards the lamp, as X,Y,Z: right, up, to the viewer")
@@ -41,9 +43,11 @@ constexpr auto kTable = of_commands(
             .in(kLight, kLook | of_objects),
         number("look.specular", "--specular", "F", "Strength of highlights, 0 (none) to 1")
             .from(0, 1)
+            .of(kPictures | for_mesh)
             .in(kLight, kLook | of_objects),
         number("look.shininess", "--shininess", "F", "Specular exponent, 1 to 1000; larger gives smaller highlights")
             .from(1, 1000)
+            .of(kPictures | for_mesh)
             .in(kLight, kLook | of_objects),
         number("look.ambient_occlusion", "--ambient-occlusion", "F",
                "Shade in pockets and clefts, 0 (none) to 1. Only what the picture shows casts shade")

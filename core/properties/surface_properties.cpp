@@ -161,7 +161,8 @@ constexpr auto kTable = of_commands(
         text("surface.opacity", "--opacity", "EXPR=N",
              "Opacity from 0 (hidden) to 1: a number, or EXPR=0.4 for some atoms. Repeatable; the last one counts")
             .in(kFigure, kSeen | live | repeatable | of_objects)
-            .in_short_help(),
+            .in_short_help()
+            .of(kForFigures | for_mesh),
         flag("surface.film_opacity", "--film-opacity",
              "Make transparent surfaces denser at grazing angles, like a thin film")
             .in(kFigure, kSeen | live | of_surfaces),

@@ -192,6 +192,11 @@ SurfaceObject merged(std::vector<SurfaceObject> objects) {
   return whole;
 }
 
+bool copies_differ(std::span<const SurfaceObject> objects) {
+  return std::ranges::any_of(
+      objects, [](const SurfaceObject& object) { return object.copies.size() > 1 && object.coloring.volume; });
+}
+
 std::uint32_t merged_atom(std::span<const SurfaceObject> objects, std::size_t atom) {
   for (const SurfaceObject& object : objects) {
     const std::size_t count = object.copies.size() * object.atom.size();

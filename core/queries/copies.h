@@ -30,6 +30,9 @@ void append(Surface& whole, const Surface& part, const RigidMotion& motion = {})
 /// either all objects are coloured by patch kind, alike, or none is. No objects: an empty one. Throws CapacityError.
 SurfaceObject merged(std::vector<SurfaceObject> objects);
 
+/// Whether copies look different, each by where it is: a map colours points of an object in several places.
+bool copies_differ(std::span<const SurfaceObject> objects);
+
 /// SurfaceObject::atom of an atom of merged(objects), without merging them.
 std::uint32_t merged_atom(std::span<const SurfaceObject> objects, std::size_t atom);
 

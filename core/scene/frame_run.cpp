@@ -261,13 +261,14 @@ void FrameRun::read(std::uint64_t number, Frame& frame) {
   const std::uint64_t step = number % copies_;
   if (!interpolates_ || step == 0) return frames_->read(source(number), frame);
   const std::uint64_t place = place_.at(number - step);
-  const auto at = [&](std::uint64_t there) -> std::optional<std::uint64_t> {
-    if (there >= run_.size()) return {};  // before the first one, too
-    return source(run_[there]);
-  };
-  frames_->read_between({at(place - copies_), *at(place), *at(place + copies_), at(place + 2 * copies_),
-                         static_cast<double>(step) / static_cast<double>(copies_)},
-                        frame);
+  const std::uint64_t next = place + copies_;
+  BetweenFrames between{{}, source(run_[place]), source(run_[next]), {}, 0.0};
+  between.share = static_cast<double>(step) / static_cast<double>(copies_);
+  for (std::uint64_t k = copies_; k <= kPathReach * copies_; k += copies_) {
+    if (k <= place) between.before.push_back(source(run_[place - k]));
+    if (next + k < run_.size()) between.behind.push_back(source(run_[next + k]));
+  }
+  frames_->read_between(between, frame);
 }
 
 void FrameRun::prepare(const MoleculeRequest& molecule, const RunRequest& request) {

@@ -3,7 +3,9 @@
 #include "core/trajectory/prepared_frames.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -23,6 +25,48 @@ glm::dvec3 mean_of(const std::vector<glm::dvec3>& positions, const std::vector<s
   glm::dvec3 sum(0.0);
   for (const std::uint32_t a : atoms) sum += positions[a];
   return sum / static_cast<double>(atoms.size());
+}
+
+/// Of the frames around a place, in order; from and to are in the middle.
+using PathWeights = std::array<double, 2 * kPathReach + 2>;
+
+/// The path between two frames has in both the speed and the acceleration that differences of frames give there. Those
+/// of the fourth order make it slow at frames that are independent of each other, for it turns there. kMore is the
+/// share of the next difference by which it is on the average as fast as halfway; so it is with the second derivatives.
+PathWeights path_weights(double t) {
+  constexpr double kMore = 0.076, kTwo = -0.42, kThree = -0.0485;
+  constexpr std::array kSpeed{2.0 / 3.0 + 5.0 * kMore, -1.0 / 12.0 - 4.0 * kMore, kMore};
+  constexpr std::array kAcceleration{1.0 - 4.0 * kTwo - 9.0 * kThree, kTwo, kThree};
+  static_assert(kSpeed.size() == kPathReach && kAcceleration.size() == kPathReach);
+  const double t2 = t * t, t3 = t2 * t, to = t3 * (10.0 - 15.0 * t + 6.0 * t2);
+  const std::array position{1.0 - to, to}, speed{t - t3 * (6.0 - 8.0 * t + 3.0 * t2), t3 * (7.0 * t - 4.0 - 3.0 * t2)},
+      acceleration{0.5 * t2 * (1.0 - t * (3.0 - 3.0 * t + t2)), t3 * (0.5 - t + 0.5 * t2)};
+  PathWeights weights{};
+  for (std::size_t end = 0; end < 2; ++end) {
+    const std::size_t here = kPathReach + end;
+    weights[here] += position[end];
+    for (std::size_t k = 1; k <= kPathReach; ++k) {
+      const double of_speed = speed[end] * kSpeed[k - 1], of_bend = acceleration[end] * kAcceleration[k - 1];
+      weights[here - k] += of_bend - of_speed;
+      weights[here] -= 2.0 * of_bend;
+      weights[here + k] += of_bend + of_speed;
+    }
+  }
+  return weights;
+}
+
+/// Without frames beyond the first and the last one: there all goes on straight, as fast as over the two steps before.
+PathWeights within(PathWeights weights, std::size_t first, std::size_t last) {
+  const std::size_t steps = std::min<std::size_t>(2, last - first);
+  const auto fold = [&](std::size_t beyond, std::size_t end, std::size_t other, std::size_t far) {
+    const double ways = static_cast<double>(far) / static_cast<double>(steps);
+    weights[end] += (1.0 + ways) * weights[beyond];
+    weights[other] -= ways * weights[beyond];
+    weights[beyond] = 0.0;
+  };
+  for (std::size_t n = 0; n < first; ++n) fold(n, first, first + steps, first - n);
+  for (std::size_t n = last + 1; n < weights.size(); ++n) fold(n, last, last - steps, n - last);
+  return weights;
 }
 
 }  // namespace
@@ -57,8 +101,9 @@ void PreparedFrames::read_placed(std::uint64_t number, Frame& frame) {
 const Frame& PreparedFrames::placed(std::uint64_t number) {
   for (const Kept& kept : kept_)
     if (kept.number == number) return kept.frame;
-  // One window of smoothing, and its neighbours for velocities; or those of a curve.
-  if (kept_.size() > 2 * preparation_.smooth_half + 5) kept_.pop_front();
+  // One window of smoothing, or those of a path, and one neighbour on each side for velocities.
+  const std::size_t around = preparation_.bonds ? 2 * kPathReach + 1 : 0;
+  if (kept_.size() > 2 * preparation_.smooth_half + around + 2) kept_.pop_front();
   Kept fresh{number, {}};
   read_placed(number, fresh.frame);
   return kept_.emplace_back(std::move(fresh)).frame;
@@ -92,39 +137,38 @@ void PreparedFrames::read(std::uint64_t number, Frame& frame) {
 }
 
 void PreparedFrames::read_between(const BetweenFrames& place, Frame& frame) {
-  Frame from, to, outer;
-  read(place.from, from);
-  read(place.to, to);
-  refuse_jumps(place, from, to);
-  const std::size_t count = from.positions.size();
-  std::vector<glm::dvec3> before, behind;
-  const auto read_outer = [&](std::optional<std::uint64_t> number, std::vector<glm::dvec3>& positions) {
-    if (!number) return;
-    read(*number, frame);
-    positions = std::move(frame.positions);
-  };
-  read_outer(place.before, before);
-  read_outer(place.behind, behind);
-  // Where the curve begins or ends, the frame beyond is where a parabola through the others would have it.
-  const auto add_beyond = [&](std::vector<glm::dvec3>& beyond, const std::vector<glm::dvec3>& other, const Frame& near,
-                              const Frame& far) {
-    beyond.resize(count);
-    for (std::size_t a = 0; a < count; ++a) {
-      const glm::dvec3 way = near.positions[a] - far.positions[a];
-      beyond[a] = other.empty() ? near.positions[a] + way : 3.0 * way + other[a];
+  std::array<Frame, std::tuple_size_v<PathWeights>> frames;
+  std::size_t first = kPathReach, last = kPathReach + 1;
+  const Frame &from = frames[first], &to = frames[last];
+  read(place.from, frames[first]);
+  read(place.to, frames[last]);
+  refuse_jumps(place.from, from, place.to, to);
+  // Where a frame cannot be read, or atoms jump, the path ends as the run does.
+  const auto read_on = [&](const std::vector<std::uint64_t>& numbers, std::uint64_t near, bool is_behind) {
+    std::size_t& end = is_behind ? last : first;
+    for (const std::uint64_t number : numbers) {
+      const std::size_t beyond = is_behind ? end + 1 : end - 1;
+      try {
+        read(number, frames[beyond]);
+        refuse_jumps(near, frames[end], number, frames[beyond]);
+      } catch (const InputError&) {
+        return;
+      }
+      end = beyond;
+      near = number;
     }
   };
-  if (before.empty()) add_beyond(before, behind, from, to);
-  if (behind.empty()) add_beyond(behind, place.before ? before : std::vector<glm::dvec3>{}, to, from);
+  read_on(place.before, place.from, false);
+  read_on(place.behind, place.to, true);
+  const PathWeights weights = within(path_weights(place.share), first, last);
   frame = from;
   if (from.time && to.time) frame.time = *from.time + place.share * (*to.time - *from.time);
-  const double t = place.share;
-  for (std::size_t a = 0; a < count; ++a) {
-    const glm::dvec3 begin = from.positions[a], way = to.positions[a] - begin;
-    const glm::dvec3 first = 0.5 * (to.positions[a] - before[a]), last = 0.5 * (behind[a] - begin);
-    frame.positions[a] = begin + t * (first + t * (3.0 * way - 2.0 * first - last + t * (first + last - 2.0 * way)));
+  for (std::size_t a = 0; a < frame.positions.size(); ++a) {
+    glm::dvec3 sum(0.0);
+    for (std::size_t n = first; n <= last; ++n) sum += weights[n] * frames[n].positions[a];
+    frame.positions[a] = sum;
   }
-  if (preparation_.bonds) path(place, from, to).correct(t, frame.positions);
+  if (preparation_.bonds) path(place, from, to).correct(place.share, frame.positions);
 }
 
 const BondedPath& PreparedFrames::path(const BetweenFrames& place, const Frame& from, const Frame& to) {
@@ -135,7 +179,7 @@ const BondedPath& PreparedFrames::path(const BetweenFrames& place, const Frame& 
 }
 
 /// Between two frames of a run nothing moves by half of the box; what does has come in at its other side.
-void PreparedFrames::refuse_jumps(const BetweenFrames& place, const Frame& from, const Frame& to) const {
+void PreparedFrames::refuse_jumps(std::uint64_t number, const Frame& from, std::uint64_t next, const Frame& to) const {
   if (!from.cell || !to.cell) return;
   const std::optional<PeriodicCell> cell = PeriodicCell::of(*to.cell);
   if (!cell) return;
@@ -143,10 +187,10 @@ void PreparedFrames::refuse_jumps(const BetweenFrames& place, const Frame& from,
     const glm::dvec3 step = to.positions[a] - from.positions[a];
     if (glm::length(step - cell->shortest(step)) < 1e-3) continue;
     throw InputError(
-        fmt::format("{}: frame {}", trajectory_.path(), place.to), 0,
+        fmt::format("{}: frame {}", trajectory_.path(), next), 0,
         fmt::format("atom {} is {:.1f} Å from where it was in frame {}, across the periodic box, so there is no way "
                     "between them; add {} bonds, or leave its molecule out by {}",
-                    a + 1, glm::length(step), place.from, option_name("whole"), option_name("select")));
+                    a + 1, glm::length(step), number, option_name("whole"), option_name("select")));
   }
 }
 

@@ -64,12 +64,15 @@ struct Preparation {
   std::optional<BondNetwork> bonds;
 };
 
+/// How many frames on each side of two a path between them depends on.
+inline constexpr std::size_t kPathReach = 3;
+
 /// A place between two frames, and the frames on both sides of these, by their numbers in the trajectory.
 struct BetweenFrames {
-  std::optional<std::uint64_t> before;
+  std::vector<std::uint64_t> before;  ///< kPathReach of them, or fewer where the run begins; the nearest first
   std::uint64_t from = 0, to = 0;
-  std::optional<std::uint64_t> behind;
-  double share = 0.0;  ///< of the way from `from` to `to`, in (0, 1)
+  std::vector<std::uint64_t> behind;  ///< likewise, to the end of the run
+  double share = 0.0;                 ///< of the way from `from` to `to`, in (0, 1)
 };
 
 /// A prepared frame depends on the trajectory and its number only, not on what was read before: processes that share a
@@ -83,10 +86,13 @@ class PreparedFrames {
   /// made whole, a molecule bonded to its own image.
   void read(std::uint64_t number, Frame& frame);
 
-  /// On the cubic curve through the four frames, with equal steps between them (E. Catmull & R. Rom, in Computer Aided
-  /// Geometric Design, 317, 1974); where one is missing at an end, a parabola through the other three; then as
-  /// BondedPath corrects it. Time goes evenly. Throws InputError as read() does, and for an atom of
-  /// Preparation::followed that jumps across the periodic box.
+  /// On a path through all frames, with equal steps between them, whose accelerations are continuous: polynomials of
+  /// the fifth degree. Its speeds and accelerations at frames are such that on the average atoms are as fast there as
+  /// halfway, also where frames are independent of each other. Uniform motion stays uniform, parabolas and cubics are
+  /// kept. Before the first frame and behind the last one it goes on straight; so it does where a frame beyond cannot
+  /// be read, or atoms jump on the way to it. Then it is corrected as by BondedPath. Time goes evenly. Throws
+  /// InputError as read() does, and for an atom of Preparation::followed that jumps across the periodic box from one to
+  /// the other.
   void read_between(const BetweenFrames& place, Frame& frame);
 
  private:
@@ -97,14 +103,14 @@ class PreparedFrames {
   void read_placed(std::uint64_t number, Frame& frame);
   const Frame& placed(std::uint64_t number);
   const BondedPath& path(const BetweenFrames& place, const Frame& from, const Frame& to);
-  void refuse_jumps(const BetweenFrames& place, const Frame& from, const Frame& to) const;
+  void refuse_jumps(std::uint64_t number, const Frame& from, std::uint64_t next, const Frame& to) const;
 
   Trajectory& trajectory_;
   Preparation preparation_;
   std::vector<glm::dvec3> reference_;  ///< all atoms of the reference frame, whole
   std::optional<BondedPath> path_;     ///< between the two frames that path_ends_ has
   std::pair<std::uint64_t, std::uint64_t> path_ends_;
-  std::deque<Kept> kept_;  ///< placed frames that smoothing and curves will ask for again
+  std::deque<Kept> kept_;  ///< placed frames that smoothing and paths will ask for again
 };
 
 /// A frame as it was read, or why it could not be.

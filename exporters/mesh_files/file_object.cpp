@@ -59,11 +59,28 @@ std::string about_line(std::string_view surface, double scale, const MeshFinenes
 
 MeshFileMaker::MeshFileMaker(FileRequest request, std::string about) : request_(std::move(request)) {
   file_.scale = request_.scale;
+  file_.material = request_.material;
   file_.about = std::move(about);
   for (const Atom& atom : request_.atoms) file_.atoms.push_back(file_atom(atom));
 }
 
+/// A map, the sky, and pixels of a camera differ from place to place.
+bool MeshFileMaker::may_share(const SurfaceObject& object) const {
+  return request_.places && !object.coloring.volume && !request_.fineness.tolerance_at &&
+         std::ranges::none_of(request_.numbers,
+                              [](const std::string& name) { return name == "open_sky" || name == "atom_open_sky"; });
+}
+
 void MeshFileMaker::add(SurfaceObject given) {
+  if (may_share(given)) {
+    const std::size_t before = file_.objects.size();
+    add(view_of(given), fine_mesh(given.surface, request_.fineness));
+    if (file_.objects.size() == before) return;
+    further_places_ += given.copies.size() - 1;
+    for (RigidMotion& place : given.copies) place.translation *= request_.scale;
+    file_.objects.back().places = std::move(given.copies);
+    return;
+  }
   if (given.copies.size() > 1) request_.velocities = {};
   std::vector<SurfaceObject> one;
   one.push_back(std::move(given));
@@ -121,6 +138,8 @@ void MeshFileMaker::put(const SurfaceView& object, FineMesh mesh, std::vector<gl
   for (const glm::dvec3& n : mesh.mesh.normals) made.normals.emplace_back(n);
   for (const glm::dvec3& v : velocities) made.velocities.emplace_back(request_.scale * v);
   for (const glm::vec3& color : vertex_colors(mesh.mesh, object.coloring)) made.colors.push_back(bytes_of(color));
+  if (object.coloring.is_translucent())
+    for (const std::uint32_t a : mesh.vertex_atom) made.opacities.push_back(object.coloring.opacity_of(a));
   if (!object.coloring.volume)
     for (std::size_t t = 0; t < mesh.mesh.triangles.size(); ++t)
       made.triangle_colors.push_back(bytes_of(triangle_color(mesh.mesh, object.coloring, t)));

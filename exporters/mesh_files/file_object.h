@@ -33,6 +33,8 @@ struct FileRequest {
   bool inner_points = false;
   /// Å per frame, of each of these atoms; empty: unknown. A surface in several places has none.
   std::span<const glm::dvec3> velocities = {};
+  bool places = false;  ///< the format has objects in several places
+  FileMaterial material = {};
 };
 
 /// One line about a file: the program, what 1 Å is, which surface ("solvent-excluded", say), how fine.
@@ -43,8 +45,9 @@ class MeshFileMaker {
  public:
   MeshFileMaker(FileRequest request, std::string about);
 
-  /// Meshes and welds all of a surface, in all its places; then what is hidden is left out. Throws what tessellate()
-  /// and even_mesh() throw.
+  /// Meshes and welds all of a surface, in all its places; then what is hidden is left out. One mesh is in all places
+  /// where the format has these and none of its colours, numbers and triangles depends on the place. Throws what
+  /// tessellate() and even_mesh() throw.
   void add(SurfaceObject object);
   /// Of a surface that has a mesh already.
   void add(const SurfaceView& object, FineMesh mesh);
@@ -52,6 +55,8 @@ class MeshFileMaker {
   void add(ShapeObject shapes);
 
   std::size_t triangle_count() const { return triangles_; }
+  /// In how many places the meshes are beyond their first ones.
+  std::size_t further_places() const { return further_places_; }
   std::size_t joined_edges() const { return joined_; }
   std::size_t flipped_edges() const { return flipped_; }
   std::size_t fins() const { return fins_; }
@@ -62,12 +67,13 @@ class MeshFileMaker {
   MeshFile take();
 
  private:
+  bool may_share(const SurfaceObject& object) const;
   void put(const SurfaceView& object, FineMesh mesh, std::vector<glm::dvec3> velocities = {});
 
   FileRequest request_;
   MeshFile file_;
   std::uint32_t components_ = 0;
-  std::size_t triangles_ = 0, joined_ = 0, fins_ = 0, flipped_ = 0, flat_ = 0;
+  std::size_t triangles_ = 0, further_places_ = 0, joined_ = 0, fins_ = 0, flipped_ = 0, flat_ = 0;
 };
 
 /// mesh: as pocket_mesh() makes it. Objects are named "pocket 1", ... by rank and have the rank as vertex number

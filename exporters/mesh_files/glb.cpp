@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes GLB files: a JSON chunk that describes the arrays of the binary chunk; one node, mesh and set of arrays per
-// object.
+// Writes GLB files: a JSON chunk that describes the arrays of the binary chunk; a mesh and a set of arrays per object,
+// and a node for each of its places.
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <limits>
 
 #include <glm/common.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
@@ -53,8 +54,16 @@ class Builder {
     json_["scene"] = 0;
     json_["scenes"] = Json::array({{{"nodes", Json::array()}}});
     json_["nodes"] = json_["meshes"] = json_["accessors"] = json_["bufferViews"] = Json::array();
-    json_["materials"] = Json::array(
-        {{{"name", "surface"}, {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", 0.5}}}}});
+    const Json look = {{"metallicFactor", 0.0}, {"roughnessFactor", mesh.material.roughness}};
+    const Json more = {{"KHR_materials_ior", {{"ior", mesh.material.ior}}}};
+    json_["extensionsUsed"] = {"KHR_materials_ior"};
+    const auto is_opaque = [](const FileObject& object) { return object.opacities.empty(); };
+    json_["materials"] = Json::array();
+    if (std::ranges::any_of(mesh.objects, is_opaque))
+      json_["materials"].push_back({{"name", "surface"}, {"pbrMetallicRoughness", look}, {"extensions", more}});
+    if (!std::ranges::all_of(mesh.objects, is_opaque))
+      json_["materials"].push_back(
+          {{"name", "translucent"}, {"pbrMetallicRoughness", look}, {"alphaMode", "BLEND"}, {"extensions", more}});
     for (const FileObject& object : mesh.objects) add(object);
     json_["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
   }
@@ -91,10 +100,20 @@ class Builder {
     const std::string name = plain_text(object.name);
     json_["meshes"].push_back(
         {{"name", name},
-         {"primitives",
-          Json::array({{{"attributes", attributes}, {"indices", indices}, {"material", 0}, {"mode", 4}}})}});
-    json_["nodes"].push_back({{"name", name}, {"mesh", number}});
-    json_["scenes"][0]["nodes"].push_back(number);
+         {"primitives", Json::array({{{"attributes", attributes},
+                                      {"indices", indices},
+                                      {"material", object.opacities.empty() ? 0 : json_["materials"].size() - 1},
+                                      {"mode", 4}}})}});
+    for (const RigidMotion& place : object.places) {
+      json_["scenes"][0]["nodes"].push_back(json_["nodes"].size());
+      Json node = {{"name", name}, {"mesh", number}};
+      if (!object.stands_once()) {
+        const glm::dquat turn = glm::normalize(glm::quat_cast(place.rotation));
+        node["rotation"] = {turn.x, turn.y, turn.z, turn.w};
+        node["translation"] = {place.translation.x, place.translation.y, place.translation.z};
+      }
+      json_["nodes"].push_back(std::move(node));
+    }
   }
 
   template <class Row>
@@ -127,14 +146,18 @@ class Builder {
     return made;
   }
 
-  /// With an alpha of one, so that each begins at a multiple of four bytes.
+  /// With an alpha also where all is opaque, so that each begins at a multiple of four bytes.
   std::size_t colors(const FileObject& object) {
     std::array<std::uint16_t, 256> of_channel{};
     for (std::size_t c = 0; c < of_channel.size(); ++c) of_channel[c] = linear(static_cast<std::uint8_t>(c));
     std::vector<std::array<std::uint16_t, 4>> rows;
     rows.reserve(object.colors.size());
-    for (const auto& [red, green, blue] : object.colors)
-      rows.push_back({of_channel[red], of_channel[green], of_channel[blue], 65535});
+    for (std::size_t v = 0; v < object.colors.size(); ++v) {
+      const auto& [red, green, blue] = object.colors[v];
+      const float opacity = object.opacities.empty() ? 1.0f : object.opacities[v];
+      rows.push_back({of_channel[red], of_channel[green], of_channel[blue],
+                      static_cast<std::uint16_t>(std::lround(65535.0f * opacity))});
+    }
     const std::size_t made = accessor(std::span(rows), kUnsignedShort, "VEC4", kArrayBuffer);
     json_["accessors"][made]["normalized"] = true;
     return made;

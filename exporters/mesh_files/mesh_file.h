@@ -9,6 +9,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/math/rigid_motion.h"
+
 namespace meniscus {
 
 enum class PatchKind : std::uint8_t;
@@ -33,6 +35,7 @@ struct FileObject {
   std::vector<glm::vec3> positions;                     ///< in the unit of the file
   std::vector<glm::vec3> normals;                       ///< unit, towards the solvent
   std::vector<std::array<std::uint8_t, 3>> colors;      ///< sRGB
+  std::vector<float> opacities;                         ///< in (0, 1]; empty: it is opaque
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from the solvent
   /// sRGB per triangle, which change exactly where patches do; empty where a map colours points, and of objects that
   /// were joined.
@@ -43,6 +46,20 @@ struct FileObject {
   std::vector<glm::vec3> velocities;     ///< in the unit of the file per frame of the run; empty: unknown
   std::vector<std::uint32_t> component;  ///< per triangle: each closed part of the file has a number of its own
   bool is_cavity = false;                ///< all of it bounds cavities
+  /// Where it is, of points in the unit of the file; at least one. More than one, or one that moves it, only in formats
+  /// that have MeshFormat::places.
+  std::vector<RigidMotion> places{RigidMotion{}};
+
+  /// It is not moved, and there is one of it.
+  bool stands_once() const {
+    return places.size() == 1 && places[0].rotation == glm::dmat3(1.0) && places[0].translation == glm::dvec3(0.0);
+  }
+};
+
+/// What a file's objects are made of, as renderers by microfacets have it.
+struct FileMaterial {
+  float roughness = 0.5f;  ///< in [0, 1]
+  float ior = 1.5f;        ///< index of refraction, at least 1, which has no highlights
 };
 
 /// All of a file.
@@ -50,7 +67,8 @@ struct MeshFile {
   std::vector<FileObject> objects;  ///< at least one
   std::vector<FileAtom> atoms;
   double scale = 1.0;  ///< of the file's unit: what 1 Å is
-  std::string about;   ///< one line: the program, what it is, its scale
+  FileMaterial material;
+  std::string about;  ///< one line: the program, what it is, its scale
   /// A point inside each cavity, and inside each solid; with the number of its component.
   struct InnerPoint {
     glm::dvec3 position{0.0};  ///< in the unit of the file

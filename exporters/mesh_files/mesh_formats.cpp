@@ -40,20 +40,20 @@ FileObject joined(std::vector<FileObject> objects) {
 }
 
 constexpr auto kFormats = std::to_array<MeshFormat>({
-    // word, title, unit, objects, colors, numbers, solid, atoms
-    {"stl", "STL, binary", "", false, false, false, false, false, write_stl},
-    {"3mf", "3MF", "mm", true, true, false, false, false, write_3mf},
-    {"obj", "Wavefront OBJ", "", true, true, false, false, false, write_obj},
-    {"off", "OFF", "", false, false, false, false, false, write_off},
-    {"glb", "glTF, binary", "m", true, true, true, false, false, write_glb},
-    {"vtp", "VTK polygons", "", false, true, true, false, true, write_vtp},
-    {"smesh", "TetGen's facets", "", false, false, false, true, false, write_smesh},
-    {"dms", "dots of dms", "Å", false, false, false, false, true, write_dms},
-    {"ply", "PLY, binary", "", false, true, true, false, false, write_ply},
-    {"ply-ascii", "PLY, text", "", false, true, true, false, false, write_ascii_ply},
-    {"py", "script for PyMOL", "", true, true, false, false, false, write_pymol_script},
-    {"usda", "USD, text", "m", true, true, true, false, false, write_usda, write_usda_run},
-    {"usdz", "USD, archive", "m", true, true, true, false, false, write_usdz, write_usdz_run},
+    // word, title, unit, objects, colors, numbers, solid, atoms, places, opacity
+    {"stl", "STL, binary", "", false, false, false, false, false, false, false, write_stl},
+    {"3mf", "3MF", "mm", true, true, false, false, false, true, false, write_3mf},
+    {"obj", "Wavefront OBJ", "", true, true, false, false, false, false, false, write_obj},
+    {"off", "OFF", "", false, false, false, false, false, false, false, write_off},
+    {"glb", "glTF, binary", "m", true, true, true, false, false, true, true, write_glb},
+    {"vtp", "VTK polygons", "", false, true, true, false, true, false, false, write_vtp},
+    {"smesh", "TetGen's facets", "", false, false, false, true, false, false, false, write_smesh},
+    {"dms", "dots of dms", "Å", false, false, false, false, true, false, false, write_dms},
+    {"ply", "PLY, binary", "", false, true, true, false, false, false, false, write_ply},
+    {"ply-ascii", "PLY, text", "", false, true, true, false, false, false, false, write_ascii_ply},
+    {"py", "script for PyMOL", "", true, true, false, false, false, false, false, write_pymol_script},
+    {"usda", "USD, text", "m", true, true, true, false, false, true, true, write_usda, write_usda_run},
+    {"usdz", "USD, archive", "m", true, true, true, false, false, true, true, write_usdz, write_usdz_run},
 });
 
 }  // namespace
@@ -70,7 +70,7 @@ const MeshFormat* mesh_format_of_path(std::string_view path) {
   if (dot == std::string_view::npos) return nullptr;
   std::string ending(path.substr(dot + 1));
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return mesh_format(ending);
+  return mesh_format(ending == "usd" ? "usda" : ending);  // readers look into the former, which may be text
 }
 
 std::string mesh_format_words() {

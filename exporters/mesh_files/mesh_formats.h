@@ -24,6 +24,8 @@ struct MeshFormat {
   bool numbers;  ///< of vertices: VertexNumbers
   bool solid;    ///< made for programs that fill it: needs one closed surface, with its inner points
   bool atoms;    ///< names them
+  bool places;   ///< an object may be in several places at once
+  bool opacity;  ///< of vertices
   void (*write)(OutputFile& file, const MeshFile& mesh);
   /// All frames of a run, at least one, in one file; nullptr: each needs a file of its own.
   void (*write_run)(OutputFile& file, std::span<const MeshFile> frames, const RunTimes& times) = nullptr;

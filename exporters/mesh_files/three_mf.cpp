@@ -70,6 +70,14 @@ std::string object_text(const FileObject& object, int id, const std::vector<Colo
   return text + "    </triangles>\n   </mesh>\n  </object>\n";
 }
 
+/// Rows are where the axes go, and where the origin goes.
+std::string transform_text(const RigidMotion& place) {
+  const auto& [x, y, z] = std::array{place.rotation[0], place.rotation[1], place.rotation[2]};
+  const glm::dvec3& to = place.translation;
+  return fmt::format(" transform=\"{} {} {} {} {} {} {} {} {} {} {} {}\"", x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z,
+                     to.x, to.y, to.z);
+}
+
 std::string model_text(const MeshFile& mesh) {
   const std::vector<Color> palette = palette_of(mesh);
   std::string text = text_of_rows(
@@ -87,7 +95,12 @@ std::string model_text(const MeshFile& mesh) {
   int id = kFirstObject;
   for (const FileObject& object : mesh.objects) text += object_text(object, id++, palette);
   text += " </resources>\n <build>\n";
-  for (int n = kFirstObject; n < id; ++n) text += fmt::format("  <item objectid=\"{}\"/>\n", n);
+  id = kFirstObject;
+  for (const FileObject& object : mesh.objects) {
+    for (const RigidMotion& place : object.places)
+      text += fmt::format("  <item objectid=\"{}\"{}/>\n", id, object.stands_once() ? "" : transform_text(place));
+    ++id;
+  }
   return text + " </build>\n</model>\n";
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes USD as text, a mesh each object: still, or with samples of all of it at each frame of a run.
+// Writes USD as text: a mesh each object, its instances, and a material whose looks are variants; still, or with
+// samples of all of it at each frame of a run.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -10,6 +11,7 @@
 #include <fmt/compile.h>
 #include <glm/common.hpp>
 
+#include "core/base/error.h"
 #include "core/base/version.h"
 #include "core/image/color_space.h"
 #include "exporters/mesh_files/writers.h"
@@ -21,7 +23,75 @@ namespace {
 struct Prim {
   std::string name;
   std::vector<const FileObject*> frames;
+
+  const FileObject& first() const {
+    return **std::ranges::find_if(frames, [](const FileObject* o) { return o != nullptr; });
+  }
+  bool stands_once() const {
+    return std::ranges::all_of(frames, [](const FileObject* o) { return !o || o->stands_once(); });
+  }
+  bool is_translucent() const {
+    return std::ranges::any_of(frames, [](const FileObject* o) { return o && !o->opacities.empty(); });
+  }
 };
+
+/// What a material is made of by one of the variants.
+struct MaterialLook {
+  std::string_view name;
+  float roughness = 0.5f;
+  std::string_view more;  ///< one further input of UsdPreviewSurface, or none
+};
+
+/// The first is that of the file.
+constexpr auto kLooks = std::to_array<MaterialLook>({{"figure", 0.5f, ""},
+                                                     {"matte", 1.0f, ""},
+                                                     {"plastic", 0.25f, "float inputs:clearcoat = 0.5"},
+                                                     {"metal", 0.35f, "float inputs:metallic = 1"},
+                                                     {"glass", 0.05f, "float inputs:opacity = 0.35"}});
+
+/// Its base color and, where it is translucent, its opacity are primvars of the mesh that it is bound to.
+std::string material_text(std::string_view name, bool is_translucent) {
+  const std::string path = fmt::format("/molecule/looks/{}", name);
+  const auto reader = [](std::string_view of, std::string_view type, std::string_view primvar, std::string_view other) {
+    return fmt::format(
+        "            def Shader \"{0}\"\n            {{\n                uniform token info:id = "
+        "\"UsdPrimvarReader_{1}\"\n                string inputs:varname = \"{2}\"\n                {1} "
+        "inputs:fallback = {3}\n                {1} outputs:result\n            }}\n",
+        of, type, primvar, other);
+  };
+  std::string text = fmt::format(
+      "        def Material \"{0}\"\n        {{\n            token outputs:surface.connect = "
+      "<{1}/shader.outputs:surface>\n\n            def Shader \"shader\"\n            {{\n                uniform "
+      "token info:id = \"UsdPreviewSurface\"\n                color3f inputs:diffuseColor.connect = "
+      "<{1}/color.outputs:result>\n",
+      name, path);
+  if (is_translucent)
+    text += fmt::format("                float inputs:opacity.connect = <{}/opacity.outputs:result>\n", path);
+  text += "                token outputs:surface\n            }\n";
+  text += reader("color", "float3", "displayColor", "(0.5, 0.5, 0.5)");
+  if (is_translucent) text += reader("opacity", "float", "displayOpacity", "1");
+  return text + "        }\n";
+}
+
+/// Another look changes the shaders of both materials; what is translucent keeps its opacity.
+std::string looks_text(const FileMaterial& material, bool is_translucent) {
+  std::string text = "    variantSet \"look\" = {\n";
+  for (const MaterialLook& look : kLooks) {
+    const bool is_own = &look == kLooks.begin();
+    const float rough = is_own ? material.roughness : look.roughness;
+    const std::string more = is_own ? fmt::format("float inputs:ior = {:.4g}", material.ior) : std::string(look.more);
+    const auto shader = [&](std::string_view name, std::string_view input) {
+      return fmt::format(
+          "                over \"{}\" {{\n                    over \"shader\" {{\n                        float "
+          "inputs:roughness = {:.3g}\n{}                    }}\n                }}\n",
+          name, rough, input.empty() ? "" : fmt::format("                        {}\n", input));
+    };
+    text += fmt::format("        \"{}\" {{\n            over \"looks\" {{\n{}{}            }}\n        }}\n", look.name,
+                        shader("surface", more),
+                        is_translucent ? shader("translucent", look.name == "glass" ? "" : more) : "");
+  }
+  return text + "    }\n";
+}
 
 /// A letter or underscore, then those and digits; no other of the file has it.
 std::string identifier(const std::string& name, std::set<std::string>& taken) {
@@ -38,7 +108,7 @@ std::string identifier(const std::string& name, std::set<std::string>& taken) {
 std::vector<Prim> prims_of(std::span<const MeshFile> frames) {
   std::vector<Prim> prims;
   for (std::size_t f = 0; f < frames.size(); ++f) {
-    std::set<std::string> taken;
+    std::set<std::string> taken{"looks", "prototypes"};
     for (const FileObject& object : frames[f].objects) {
       const std::string name = identifier(object.name, taken);
       auto at = std::ranges::find(prims, name, &Prim::name);
@@ -88,6 +158,24 @@ std::string numbers_text(const std::vector<float>& rows) {
   return array_text(values.size(), [&](std::size_t n, auto out) { fmt::format_to(out, FMT_COMPILE("{}"), values[n]); });
 }
 
+/// Of an object that is translucent in another frame there may be none.
+std::string opacities_text(const FileObject& object) {
+  return array_text(object.positions.size(), [&](std::size_t v, auto out) {
+    fmt::format_to(out, FMT_COMPILE("{:.4g}"), object.opacities.empty() ? 1.0f : object.opacities[v]);
+  });
+}
+
+/// Rows are where the axes go, and where the origin goes.
+std::string matrix_text(const RigidMotion& place) {
+  std::string text = "( ";
+  for (int axis = 0; axis < 3; ++axis) {
+    const glm::dvec3& to = place.rotation[axis];
+    text += fmt::format("({}, {}, {}, 0), ", to.x, to.y, to.z);
+  }
+  const glm::dvec3& to = place.translation;
+  return text + fmt::format("({}, {}, {}, 1) )", to.x, to.y, to.z);
+}
+
 std::vector<glm::vec3> per_second(std::vector<glm::vec3> velocities, double frames_per_second) {
   for (glm::vec3& v : velocities) v *= static_cast<float>(frames_per_second);
   return velocities;
@@ -100,6 +188,8 @@ class UsdWriter {
       : sink_(sink), frames_(frames), times_(times) {}
 
   void write() {
+    const std::vector<Prim> prims = prims_of(frames_);
+    const bool is_translucent = std::ranges::any_of(prims, &Prim::is_translucent);
     const std::string range =
         times_ ? fmt::format(
                      "    startTimeCode = {}\n    endTimeCode = {}\n    timeCodesPerSecond = {:g}\n"
@@ -108,18 +198,67 @@ class UsdWriter {
                : "";
     sink_(
         fmt::format("#usda 1.0\n(\n    defaultPrim = \"molecule\"\n    doc = \"{}\"\n    metersPerUnit = 1\n"
-                    "    upAxis = \"Y\"\n{})\n\ndef Xform \"molecule\" (\n    kind = \"component\"\n)\n{{\n",
-                    frames_.front().about, range));
-    for (const Prim& prim : prims_of(frames_)) write(prim);
-    sink_("}\n");
+                    "    upAxis = \"Y\"\n{})\n\ndef Xform \"molecule\" (\n    kind = \"component\"\n    variants = {{\n"
+                    "        string look = \"{}\"\n    }}\n    prepend variantSets = \"look\"\n)\n{{\n",
+                    frames_.front().about, range, kLooks.front().name));
+    sink_("    def Scope \"looks\"\n    {\n" + material_text("surface", false) +
+          (is_translucent ? material_text("translucent", true) : "") + "    }\n");
+    write_prototypes(prims);
+    for (const Prim& prim : prims) {
+      if (prim.stands_once())
+        write_mesh(prim, prim.name);
+      else
+        write_instances(prim);
+    }
+    sink_(looks_text(frames_.front().material, is_translucent) + "}\n");
   }
 
  private:
-  void write(const Prim& prim) {
+  /// Of what is in several places; no program shows them where they are.
+  void write_prototypes(const std::vector<Prim>& prims) {
+    if (std::ranges::all_of(prims, &Prim::stands_once)) return;
+    sink_("    class Scope \"prototypes\"\n    {\n");
+    for (const Prim& prim : prims) {
+      if (prim.stands_once()) continue;
+      sink_(fmt::format("    def Xform \"{}\"\n    {{\n", prim.name));
+      write_mesh(prim, "mesh");
+      sink_("    }\n");
+    }
+    sink_("    }\n");
+  }
+
+  /// An instance of the prototype for each place.
+  void write_instances(const Prim& prim) {
+    const std::size_t count = prim.first().places.size();
+    if (std::ranges::any_of(prim.frames, [&](const FileObject* o) { return o && o->places.size() != count; }))
+      throw RequestError(
+          "there are not as many copies in each frame; put # into the name of the file, for one a frame");
+    sink_(fmt::format("    def Xform \"{}\"\n    {{\n", prim.name));
+    for (std::size_t n = 0; n < count; ++n) {
+      sink_(
+          fmt::format("      def Xform \"copy_{}\" (\n        instanceable = true\n        prepend references = "
+                      "</molecule/prototypes/{}>\n      )\n      {{\n",
+                      n + 1, prim.name));
+      const auto place_of = [n](const FileObject& o) {
+        return matrix_text(n < o.places.size() ? o.places[n] : RigidMotion{});
+      };
+      const std::string place = place_of(prim.first());
+      if (std::ranges::all_of(prim.frames, [&](const FileObject* o) { return !o || place_of(*o) == place; }))
+        sink_(fmt::format("        matrix4d xformOp:transform = {}\n", place));
+      else
+        add(prim, "matrix4d xformOp:transform", "", place_of);
+      sink_("        uniform token[] xformOpOrder = [\"xformOp:transform\"]\n      }\n");
+    }
+    sink_("    }\n");
+  }
+
+  void write_mesh(const Prim& prim, const std::string& name) {
+    const bool is_translucent = prim.is_translucent();
     sink_(
-        fmt::format("    def Mesh \"{}\"\n    {{\n        uniform bool doubleSided = 1\n"
+        fmt::format("    def Mesh \"{}\" (\n        prepend apiSchemas = [\"MaterialBindingAPI\"]\n    )\n    {{\n"
+                    "        rel material:binding = </molecule/looks/{}>\n        uniform bool doubleSided = 1\n"
                     "        uniform token subdivisionScheme = \"none\"\n",
-                    prim.name));
+                    name, is_translucent ? "translucent" : "surface"));
     add(prim, "float3[] extent", "", [](const FileObject& o) { return extent_text(o.positions); });
     add(prim, "int[] faceVertexCounts", "",
         [](const FileObject& o) { return array_text(o.triangles.size(), [](std::size_t, auto out) { *out = '3'; }); });
@@ -137,7 +276,8 @@ class UsdWriter {
       add(prim, "vector3f[] velocities", "",
           [&](const FileObject& o) { return vectors_text(per_second(o.velocities, times_->per_second)); });
     add(prim, "color3f[] primvars:displayColor", "vertex", [](const FileObject& o) { return colors_text(o.colors); });
-    const FileObject& first = **std::ranges::find_if(prim.frames, [](const FileObject* o) { return o != nullptr; });
+    if (is_translucent) add(prim, "float[] primvars:displayOpacity", "vertex", opacities_text);
+    const FileObject& first = prim.first();
     for (std::size_t k = 0; k < first.numbers.size(); ++k)
       add(prim, "float[] primvars:" + first.numbers[k].name, "vertex",
           [&](const FileObject& o) { return o.numbers.empty() ? "[]" : numbers_text(o.numbers[k].values); });

@@ -116,8 +116,8 @@ void write_caps(OutputFile& file, const Caps& caps, const SurfaceCut& cut, const
 CutObjects::CutObjects(std::span<const SurfaceObject> objects, const SurfaceCut& cut, const Camera& camera,
                        const SceneOptions& options)
     : cuts_(!cut.planes.empty() && !objects.empty()), objects_(objects) {
-  if (!cuts_) return;
-  caps_ = make_caps(objects, cut, camera, options.width, options.height);
+  if (!cuts_ && !copies_differ(objects)) return;
+  if (cuts_) caps_ = make_caps(objects, cut, camera, options.width, options.height);
   whole_ = merged({objects.begin(), objects.end()});
   objects_ = {&whole_, 1};
 }

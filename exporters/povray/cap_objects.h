@@ -36,7 +36,7 @@ Caps colored_caps(CapMesh mesh, std::span<const SurfaceObject> objects, const Ca
 /// Error for a number that is not finite.
 void write_caps(OutputFile& file, const Caps& caps, const SurfaceCut& cut, const glm::dvec3& origin);
 
-/// Keeps what it makes; without planes it only looks at the objects given, which must outlive it.
+/// Keeps what it makes; else it only looks at the objects given, which must outlive it.
 class CutObjects {
  public:
   /// camera and options: how fine caps have to be. Throws as section_caps() and merged() do.
@@ -45,7 +45,7 @@ class CutObjects {
   CutObjects(const CutObjects&) = delete;
   CutObjects& operator=(const CutObjects&) = delete;
 
-  /// All copies as one object where there are planes: each copy is cut elsewhere.
+  /// All copies as one object where there are planes, for each copy is cut elsewhere, and where they differ.
   std::span<const SurfaceObject> objects() const { return objects_; }
   bool has_caps() const { return cuts_; }
   /// CapMesh::atom: into the atoms of the one object.

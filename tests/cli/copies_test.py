@@ -8,10 +8,12 @@ import json
 import math
 import pathlib
 import re
+import struct
 import subprocess
 import sys
 import tempfile
 import unittest
+import zipfile
 
 import numpy
 import OpenImageIO
@@ -181,6 +183,32 @@ class Copies(unittest.TestCase):
             self.call(["export", "povray", "trimer.pdb", "--assembly", "1", "--color", "chain", "-o", "s.pov", "--force", *more])
             colors = [json.loads(path.read_text()).get("colors") for path in self.folder.rglob("*objects.json")]
             self.assertEqual([entry["name"] for entry in colors[0]["classes"]], ["A", "B"])
+
+    def test_copies_in_a_map_have_the_colors_of_their_places(self):
+        """They share a surface in files of other programs only where they look alike."""
+        (self.folder / "x.dx").write_text(
+            "object 1 class gridpositions counts 2 2 2\norigin -100 -100 -100\ndelta 200 0 0\ndelta 0 200 0\ndelta 0 0 200\n"
+            "object 2 class gridconnections counts 2 2 2\nobject 3 class array type double rank 0 items 8 data follows\n"
+            "-1 -1 -1 -1 1 1 1 1\n")
+        for format, path, mark in (("blender", "", None), ("mitsuba", "/surface.xml", b'type="instance"'),
+                                   ("povray", "/surface_geometry.inc", b"\nobject{object_"), ("mvs", "", b'"instances"')):
+            found = []
+            for colors in (["--color", "chain"], ["--color-map-file", "x.dx", "--color-range=-1:1"]):
+                out = f"{format}{len(found)}" + {"blender": ".mns", "mvs": ".mvsx"}.get(format, "")
+                self.call(["export", format, "trimer.pdb", "--assembly", "1", "--instances", "separate", *colors, "--device", "cpu",
+                           *(["--tolerance", "0.5"] if format != "povray" else []), "-o", out])
+                content = (self.folder / (out + path)).read_bytes()
+                if format == "mvs":
+                    with zipfile.ZipFile(self.folder / out) as archive:
+                        content = archive.read("index.mvsj")
+                if format == "blender":  # a matrix each
+                    length = struct.unpack_from("<Q", content, 16)[0]
+                    found.append(sum(len(each["copies"]) for each in json.loads(content[64:64 + length])["objects"]))
+                else:
+                    found.append(content.count(mark))
+            with self.subTest(format):
+                self.assertGreater(found[0], found[1], found)
+                self.assertLessEqual(found[1], 1)
 
 
 if __name__ == "__main__":

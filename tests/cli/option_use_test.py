@@ -263,6 +263,7 @@ for shape in ("--sticks", "--balls", "--spheres", "--tube", "--bases", "--glycan
     OWN_ROWS["export page", shape] = (ROWS[shape][0], "covered ring" if shape in ("--bases", "--glycans") else "plain")
 OWN_ROWS["export page", "--background"] = ("black", "plain")
 OWN_ROWS["export page", "--named-view"] = ("Back={camera.json}", "plain")
+OWN_ROWS["export mesh", "--preset"] = ("cover", "plain")
 for export in ("mesh", "ply"):
     OWN_ROWS["export " + export, "--stick-radius"] = ("0.7", "mesh sticks")
     OWN_ROWS["export " + export, "--tube-radius"] = ("0.9", "mesh tube")
@@ -429,7 +430,7 @@ REFUSED = {("pockets", "--instances"), ("export vdb", "--instances"), ("render",
            ("export pbrt", "--cap-hatching"), ("export pbrt", "--film-opacity"), ("export page", "--object"),
            ("export mvs", "--cap-hatching"), ("export mvs", "--film-opacity"), ("export mvs", "--material")}
 # There are no pockets in what is made whole, a cavity is not seen from outside, and copies that stand apart look the same.
-SILENT = {("pockets", "--whole"), ("render", "--instances"), ("render", "--cavities")}
+SILENT = {("pockets", "--whole"), ("export ply", "--preset"), ("render", "--instances"), ("render", "--cavities")}
 
 if __name__ == "__main__":
     unittest.main()

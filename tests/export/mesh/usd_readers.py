@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """usd_readers.py PROGRAM: USD files in OpenUSD itself (usd-core of PyPI): its validators, which usdchecker runs, find nothing;
-points, triangles, colours and boxes are those of the PLY files of the same molecule, frame by frame. At the end "cases N
+points, triangles, colours and boxes are those of the PLY files of the same molecule, frame by frame; each mesh, also those of
+instances, has a material that takes its colours, whose looks can be chosen in the scene that refers to it. At the end "cases N
 failures M"."""
 
 import pathlib
@@ -9,9 +10,9 @@ import sys
 import tempfile
 
 import numpy as np
-from pxr import Usd, UsdGeom, UsdValidation
+from pxr import Usd, UsdGeom, UsdShade, UsdValidation
 
-from mesh_readers_test import read_ply, positions_of, volume_of
+from mesh_readers_test import COPIES, read_ply, positions_of, volume_of, write_capsid
 
 STILL = ["/usr/share/pymol/data/demo/1tii.pdb", "--tolerance", "0.2", "--device", "cpu", "-q"]
 RUN = ["/usr/share/freesasa/test-data/1d3z.pdb", "--frames", "0-4", "--density", "0.5", "--device", "cpu", "-q"]
@@ -28,7 +29,23 @@ def complaints(path):
 
 
 def meshes_of(stage):
-    return [UsdGeom.Mesh(prim) for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh)]
+    """Those of instances each for itself."""
+    return [UsdGeom.Mesh(prim) for prim in stage.Traverse(Usd.TraverseInstanceProxies()) if prim.IsA(UsdGeom.Mesh)]
+
+
+def material_faults(mesh, **wanted):
+    """Of the material that the mesh is drawn with; wanted: its numbers."""
+    material, _ = UsdShade.MaterialBindingAPI(mesh).ComputeBoundMaterial()
+    if not material:
+        return [f"{mesh.GetPath()}: no material"]
+    shader, _, _ = material.ComputeSurfaceSource()
+    faults = [f"{mesh.GetPath()}: {name} {shader.GetInput(name).Get()}" for name, value in wanted.items()
+              if abs(shader.GetInput(name).Get() - value) > 1e-3]
+    source, = shader.GetInput("diffuseColor").GetConnectedSources()[0]
+    reader = UsdShade.Shader(source.source)
+    if shader.GetIdAttr().Get() != "UsdPreviewSurface" or reader.GetInput("varname").Get() != "displayColor":
+        faults.append("shaders")
+    return faults
 
 
 def encoded(light):
@@ -79,7 +96,39 @@ def still_faults(folder, ending):
         faults.append("units")
     if [mesh.GetPrim().GetName() for mesh in meshes] != [f"chain_{c}" for c in "DEFGHAC"]:
         faults.append(f"names {[mesh.GetPrim().GetName() for mesh in meshes]}")
+    for mesh in meshes:
+        faults += material_faults(mesh, roughness=(2 / 62) ** 0.25)  # of the highlight of the usual look
     return faults + differences(meshes, Usd.TimeCode.Default(), *read_ply(folder / "still.ply"), 0.1)
+
+
+def copies_faults(folder, ending):
+    """As they are, and in the scene of a shot that chooses another look."""
+    places = write_capsid(folder / "capsid.pdb")
+    export(folder / f"copies.{ending}", str(folder / "capsid.pdb"), *COPIES, *STILL[1:], "--opacity", "resid 1-20=0.3", "--force")
+    shot = Usd.Stage.CreateNew(str(folder / f"shot_{ending}.usda"))
+    UsdGeom.SetStageUpAxis(shot, "Y")
+    UsdGeom.SetStageMetersPerUnit(shot, 1)
+    shot.SetDefaultPrim(UsdGeom.Xform.Define(shot, "/shot").GetPrim())
+    virus = UsdGeom.Xform.Define(shot, "/shot/virus").GetPrim()
+    virus.GetReferences().AddReference(f"./copies.{ending}")
+    virus.GetVariantSets().SetSelection("look", "metal")
+    shot.Save()
+    faults = []
+    for name, wanted in ((f"copies.{ending}", {}), (f"shot_{ending}.usda", {"roughness": 0.35, "metallic": 1})):
+        faults += complaints(folder / name)
+        stage = Usd.Stage.Open(str(folder / name))
+        meshes = meshes_of(stage)
+        if len(stage.GetPrototypes()) != 1 or len(meshes) != len(places):
+            faults.append(f"{len(meshes)} meshes of {len(stage.GetPrototypes())} prototypes")
+        for mesh, place in zip(meshes, places):
+            found = np.array(mesh.ComputeLocalToWorldTransform(Usd.TimeCode.Default())).T
+            if not np.allclose(found, place, atol=1e-9):
+                faults.append(f"{mesh.GetPath()} at {found}")
+            faults += material_faults(mesh, **wanted)
+            opacity = UsdGeom.Gprim(mesh).GetDisplayOpacityPrimvar()
+            if opacity.GetInterpolation() != "vertex" or set(np.round(opacity.Get(), 4)) != {np.float32(0.3), np.float32(1)}:
+                faults.append("opacity")
+    return faults
 
 
 def run_faults(folder, ending):
@@ -108,7 +157,7 @@ def run_faults(folder, ending):
 def main():
     failures = 0
     with tempfile.TemporaryDirectory() as room:
-        cases = [(check, ending) for check in (still_faults, run_faults) for ending in ("usda", "usdz")]
+        cases = [(check, ending) for check in (still_faults, copies_faults, run_faults) for ending in ("usda", "usdz")]
         for check, ending in cases:
             faults = check(pathlib.Path(room), ending)
             failures += bool(faults)
