@@ -16,7 +16,7 @@ import os
 import bpy
 from bpy_extras.io_utils import ImportHelper
 
-from . import build, compat, computed, mns_reader, panel, sequence, sequence_reader, settings, storyboard
+from . import bake_run, build, compat, computed, mns_reader, panel, sequence, sequence_reader, settings, storyboard
 
 
 class Looks:
@@ -224,12 +224,12 @@ def register():
     bpy.types.TOPBAR_MT_file_import.append(menu_entry)
     bpy.types.VIEW3D_MT_object.append(object_menu_entry)
     sequence.register()
-    for module in (settings, computed, panel):
+    for module in (settings, computed, bake_run, panel):
         module.register()
 
 
 def unregister():
-    for module in (panel, computed, settings):
+    for module in (panel, bake_run, computed, settings):
         module.unregister()
     sequence.unregister()
     bpy.types.VIEW3D_MT_object.remove(object_menu_entry)

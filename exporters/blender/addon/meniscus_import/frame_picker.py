@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""An object whose Geometry Nodes show the object of a collection that belongs to the scene's time. No script is
-needed."""
+"""The frames of a run as meshes of the file, of which an object's Geometry Nodes show that of the scene's time. No script is needed."""
 
 import bpy
 
@@ -15,18 +14,35 @@ TYPES = {START: "NodeSocketFloat", SPEED: "NodeSocketFloat", OUTSIDE: "NodeSocke
          FRAME: "NodeSocketFloat", OWN: "NodeSocketBool"}
 
 
-def add(name, collection, count, timing):
-    """An object that shows the n-th object of `collection`, by name, when a sequence_reader.Timing has place n of `count`."""
-    tree = bpy.data.node_groups.new(name + " by frame", "GeometryNodeTree")
-    values = {START: timing.start, SPEED: timing.speed, OUTSIDE: sequence_reader.OUTSIDE.index(timing.outside),
-              BY_HAND: False, FRAME: 1.0, OWN: True}
-    _fill(tree, collection, count, values)
-    item = bpy.data.objects.new(name, bpy.data.meshes.new(name))
-    modifier = item.modifiers.new("Frame", "NODES")
-    modifier.node_group = tree
-    for socket, value in values.items():
-        compat.set_input(modifier, socket, value)
-    return item
+class Frames:
+    """Meshes in the order of their frames, in a collection of no scene: what is hidden in one view layer shows in others."""
+
+    def __init__(self, stem):
+        self.stem, self.collection = stem[:40], bpy.data.collections.new(stem + ".frames")
+
+    def add(self, mesh):
+        # Geometry Nodes sort a collection by name; short names, since Blender cuts long ones.
+        mesh.name = f"{self.stem}.{len(self.collection.objects) + 1:07d}"
+        self.collection.objects.link(bpy.data.objects.new(mesh.name, mesh))
+
+    def remove(self):
+        for item in list(self.collection.objects):
+            bpy.data.meshes.remove(item.data)  # with the object
+        bpy.data.collections.remove(self.collection)
+
+    def show_in(self, item, timing, by_hand=False, frame=1.0):
+        """Has an object show the frame that a sequence_reader.Timing has at the scene's time, or `frame` by hand. Its modifiers stand
+        behind that which does so, which is returned."""
+        tree = bpy.data.node_groups.new(item.name + " by frame", "GeometryNodeTree")
+        values = {START: timing.start, SPEED: timing.speed, OUTSIDE: sequence_reader.OUTSIDE.index(timing.outside),
+                  BY_HAND: by_hand, FRAME: frame, OWN: True}
+        _fill(tree, self.collection, len(self.collection.objects), values)
+        modifier = item.modifiers.new("Frame", "NODES")
+        modifier.node_group = tree
+        for socket, value in values.items():
+            compat.set_input(modifier, socket, value)
+        compat.move_first(item, modifier)
+        return modifier
 
 
 def _fill(tree, collection, count, values):

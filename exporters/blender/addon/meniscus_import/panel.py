@@ -6,7 +6,7 @@ import os
 import bpy
 from bpy_extras.io_utils import ImportHelper
 
-from . import build, compat, computed, libraries, looks, mns_reader, molecular_nodes
+from . import bake_run, build, compat, computed, libraries, looks, mns_reader, molecular_nodes
 from .computing import preparation
 from .settings import DETAILS
 
@@ -210,9 +210,11 @@ class VIEW3D_PT_meniscus(InSidebar, bpy.types.Panel):
             layout.label(text="Linked: stays as it was saved", icon="LINKED")
         if not computed.is_computed(item):
             self.draw_error(item)
+            bake_run.draw(layout, context)
             return
         layout.use_property_split, layout.use_property_decorate = True, False
         self.draw_state(item)
+        bake_run.draw(layout, context)
         self.draw_request(item)
 
     def draw_error(self, item):
