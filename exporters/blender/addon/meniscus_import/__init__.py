@@ -16,7 +16,7 @@ import os
 import bpy
 from bpy_extras.io_utils import ImportHelper
 
-from . import bake_run, build, compat, computed, mns_reader, panel, sequence, sequence_reader, settings, storyboard
+from . import bake_run, build, compat, computed, mns_reader, panel, scene_import, sequence, sequence_reader, settings, storyboard
 
 
 class Looks:
@@ -194,6 +194,7 @@ def menu_entry(self, _context):
     self.layout.operator(IMPORT_SCENE_OT_meniscus.bl_idname, text="Meniscus surface (.mns)")
     self.layout.operator(IMPORT_SCENE_OT_meniscus_sequence.bl_idname, text="Meniscus sequence (.json)")
     self.layout.operator(IMPORT_SCENE_OT_meniscus_storyboard.bl_idname, text="Meniscus storyboard (.json)")
+    self.layout.operator("object.meniscus_from_scene", text="Meniscus scene (.json)")
 
 
 def object_menu_entry(self, context):
@@ -224,12 +225,12 @@ def register():
     bpy.types.TOPBAR_MT_file_import.append(menu_entry)
     bpy.types.VIEW3D_MT_object.append(object_menu_entry)
     sequence.register()
-    for module in (settings, computed, bake_run, panel):
+    for module in (settings, computed, bake_run, scene_import, panel):
         module.register()
 
 
 def unregister():
-    for module in (panel, bake_run, computed, settings):
+    for module in (panel, scene_import, bake_run, computed, settings):
         module.unregister()
     sequence.unregister()
     bpy.types.VIEW3D_MT_object.remove(object_menu_entry)

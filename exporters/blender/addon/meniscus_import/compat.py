@@ -253,6 +253,11 @@ def keeps_realized_normals():
     return bpy.app.version >= (4, 5, 0)
 
 
+def exports_by_mesh_name():
+    """Whether Alembic and USD make another mesh where the name of what an object shows changes."""
+    return bpy.app.version >= (5, 2, 0)
+
+
 def input_identifier(tree, name):
     """The key of an input in a modifier."""
     sockets = tree.interface.items_tree if hasattr(tree, "interface") else tree.inputs

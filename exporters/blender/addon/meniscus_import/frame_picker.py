@@ -65,17 +65,32 @@ def _fill(tree, collection, count, values):
     tree.links.new(frames.outputs[0], show.inputs["Instance"])
     tree.links.new(index, show.inputs["Instance Index"])
     # Modifiers behind and exporters (Alembic, USD) see the object's own mesh, not its instances.
-    own = _realized(tree, show.outputs[0]) if compat.keeps_realized_normals() else _chosen(tree, collection, index, inside)
+    material = next((each for item in collection.objects for each in item.data.materials), None)
+    own = _realized(tree, show.outputs[0], material) if compat.keeps_realized_normals() else _chosen(tree, collection, index, inside)
     shown = compat.switch_geometry(tree, group_input.outputs[OWN], own, show.outputs[0])
     tree.links.new(shown, group_output.inputs[0])
     for column, node in enumerate(tree.nodes):
         node.location = (180 * (column // 3), -200 * (column % 3))
 
 
-def _realized(tree, instances):
-    node = tree.nodes.new("GeometryNodeRealizeInstances")
-    tree.links.new(instances, node.inputs[0])
-    return node.outputs[0]
+def _realized(tree, instances, material):
+    """The mesh of the frame that shows, by one name at all times: exporters of 5.2 make a mesh for each name, and that of a lone instance
+    is the frame's. So a face is joined to it that goes again; its material is one of the frame's, which needs no other slot."""
+    realize = tree.nodes.new("GeometryNodeRealizeInstances")
+    if not compat.exports_by_mesh_name():
+        tree.links.new(instances, realize.inputs[0])
+        return realize.outputs[0]
+    face, dressed, filled, both, rest = (tree.nodes.new("GeometryNode" + name) for name in (
+        "MeshGrid", "SetMaterial", "ReplaceMaterial", "JoinGeometry", "DeleteGeometry"))
+    face.inputs["Vertices X"].default_value = face.inputs["Vertices Y"].default_value = 2
+    dressed.inputs["Material"].default_value = filled.inputs["New"].default_value = material  # the former leaves an empty slot
+    rest.domain = "FACE"
+    for source, target in ((face, dressed), (dressed, filled), (filled, both), (both, realize), (realize, rest)):
+        tree.links.new(source.outputs[0], target.inputs[0])
+    tree.links.new(instances, both.inputs[0])  # behind the face
+    is_first = compat.math_node(tree, "LESS_THAN", tree.nodes.new("GeometryNodeInputIndex").outputs[0], 0.5)
+    tree.links.new(is_first, rest.inputs["Selection"])
+    return rest.outputs[0]
 
 
 def _chosen(tree, collection, index, inside):

@@ -8,7 +8,7 @@ from bpy_extras.io_utils import ImportHelper
 
 from . import bake_run, build, compat, computed, libraries, looks, mns_reader, molecular_nodes
 from .computing import preparation
-from .settings import DETAILS
+from .settings import DETAILS, OF_NUMBERS, OWN_COLORS
 
 
 def new_object(context, name, source, **values):
@@ -206,6 +206,7 @@ class VIEW3D_PT_meniscus(InSidebar, bpy.types.Panel):
         column = layout.column(align=True)
         column.operator("object.meniscus_from_file", icon="FILE_FOLDER")
         column.operator("object.meniscus_from_atoms", icon="OUTLINER_OB_POINTCLOUD")
+        column.operator("object.meniscus_from_scene", icon="SCENE_DATA")
         if item is not None and item.library is not None and is_surface(item):
             layout.label(text="Linked: stays as it was saved", icon="LINKED")
         if not computed.is_computed(item):
@@ -241,6 +242,10 @@ class VIEW3D_PT_meniscus(InSidebar, bpy.types.Panel):
             layout.prop(settings, "file")
             layout.prop(settings, "selection")
             layout.prop(settings, "color")
+            if settings.color == OWN_COLORS:
+                layout.prop(settings, "colors")
+            if settings.color in (*OF_NUMBERS, OWN_COLORS):
+                layout.prop(settings, "numbers")
         else:
             layout.prop(settings, "atoms")
             if settings.atoms is not None:
