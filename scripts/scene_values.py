@@ -73,8 +73,8 @@ def panel_text():
     rows = [known[key] for key in PANEL]
     return PANEL_HEAD + "".join(
         f"    Row({p.key!r}, {PANEL_TYPES[p.type]!r}, {tuple(p.words)!r}, {p.initial!r}, {p.lowest:g}, {p.highest:g},\n        {p.help!r}),\n"
-        for p in rows) + ")\n\n#: Colour schemes, and whether they need more than the atoms of a file.\nSCHEMES = (\n" + "".join(
-            f"    {pair!r},\n" for pair in schemes()) + ")\n"
+        for p in rows) + ")\n\n#: Colour schemes, and whether they need more than the atoms of a file.\nSCHEMES = (\n" + textwrap.fill(
+            ", ".join(map(repr, schemes())), 140, initial_indent="    ", subsequent_indent="    ") + ")\n"
 
 
 def type_of(known):

@@ -247,8 +247,6 @@ def render_to(scene, path, file_format, depth):
     beside = f"{root}.unfinished-{os.getpid()}{extension}"
     scene.render.filepath = beside
     bpy.ops.render.render(write_still=True)
-    if CHATTER:
-        CHATTER.tell_faults()
     if not os.path.exists(beside) or os.path.getsize(beside) == 0:
         raise OSError(f"{path}: the picture was not written")
     os.replace(beside, path)
@@ -459,32 +457,21 @@ def main():
     finally:
         sequence.unregister()
         if CHATTER:
-            CHATTER.tell_faults()
+            tell_faults()
     sys.exit(code)
 
 
-class Chatter:
-    """What Blender prints, in a file instead of on standard output: a thread that reads a pipe would crash Blender 3.4."""
-
-    def __init__(self):
-        self.file, self.told = tempfile.TemporaryFile(), 0
-        os.dup2(self.file.fileno(), 1)
-
-    def tell_faults(self):
-        """Passes on errors and warnings that are new."""
-        sys.stdout.flush()
-        ctypes.CDLL(None).fflush(None)  # the C library holds lines back
-        said = os.pread(self.file.fileno(), 1 << 24, self.told)
-        self.told += len(said)
-        for line in said.decode("utf-8", "replace").splitlines(True):
-            if re.search(r"\b(error|warning|failed)\b", line, re.IGNORECASE):
-                sys.stderr.write(line)
-        sys.stderr.flush()
+def tell_faults():
+    """Passes on errors and warnings that Blender has printed."""
+    sys.stdout.flush()
+    ctypes.CDLL(None).fflush(None)  # the C library holds lines back
+    said = os.pread(CHATTER.fileno(), 1 << 24, 0)
+    faults = [line for line in said.decode("utf-8", "replace").splitlines(True) if re.search(r"\b(error|warning|failed)\b", line, re.IGNORECASE)]
+    sys.stderr.write("".join(faults))
 
 
 RESULTS = os.fdopen(os.dup(1), "w", encoding="utf-8")
-# Windows has no pread.
-CHATTER = Chatter() if hasattr(os, "pread") and "--verbose" not in sys.argv else None
-if CHATTER is None:
-    os.dup2(2, 1)
+# In a file, since a thread that reads a pipe would crash Blender 3.4. Windows has no pread.
+CHATTER = tempfile.TemporaryFile("a+b") if hasattr(os, "pread") and "--verbose" not in sys.argv else None
+os.dup2(CHATTER.fileno() if CHATTER else 2, 1)
 main()

@@ -115,6 +115,7 @@ class IMPORT_SCENE_OT_meniscus_sequence(Looks, bpy.types.Operator, ImportHelper)
     set_time: bpy.props.BoolProperty(
         name="Set frame range and rate", description="The scene gets the range and the rate of the run", default=True)
 
+    @compat.tells_errors
     def execute(self, context):
         options = {name: getattr(self, name) for name in ("crisp_colors", "own_materials", "center", "import_camera",
                                                           "use_camera", "set_time")}
@@ -128,9 +129,6 @@ class IMPORT_SCENE_OT_meniscus_sequence(Looks, bpy.types.Operator, ImportHelper)
                               **options)
             else:
                 sequence.stream(self.filepath, context, **options)
-        except (mns_reader.MnsError, OSError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
         finally:
             window.progress_end()
         self.tell(context)
@@ -157,14 +155,11 @@ class IMPORT_SCENE_OT_meniscus_storyboard(Looks, bpy.types.Operator, ImportHelpe
         name="Background", description="The camera sees the colours of the film where there is no object; what lights the scene stays",
         default=True)
 
+    @compat.tells_errors
     def execute(self, context):
         options = {name: getattr(self, name) for name in ("crisp_colors", "own_materials", "center", "import_camera",
                                                           "use_camera", "set_time", "set_background")}
-        try:
-            storyboard.import_file(self.filepath, context, scale=self.scale or None, **options)
-        except (mns_reader.MnsError, OSError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        storyboard.import_file(self.filepath, context, scale=self.scale or None, **options)
         self.tell(context)
         return {"FINISHED"}
 
@@ -181,12 +176,9 @@ class OBJECT_OT_meniscus_reload(bpy.types.Operator):
         item = context.active_object
         return item is not None and item.mode == "OBJECT" and "meniscus_file" in item and item.data.library is None
 
+    @compat.tells_errors
     def execute(self, context):
-        try:
-            build.reload(context.active_object, context)
-        except (mns_reader.MnsError, OSError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        build.reload(context.active_object, context)
         return {"FINISHED"}
 
 

@@ -45,7 +45,6 @@ class Panel:
         ("by_hand", frame_picker.BY_HAND), ("frame", frame_picker.FRAME))}
 
     def __init__(self, item, _scene):
-        computed.count_frames(item)
         settings = item.meniscus
         self.count, self.timing = computed.frame_count(item), settings.timing()
         self.by_hand, self.frame = settings.by_hand, settings.frame
@@ -93,11 +92,8 @@ def kind_of(item):
 
 def count_of(item, scene):
     """How many frames a bake has; 0: not known yet."""
-    kind = kind_of(item)
-    if kind is Panel:
-        return showing.frame_count(item)
     try:
-        return kind(item, scene).count
+        return kind_of(item)(item, scene).count
     except (mns_reader.MnsError, OSError):
         return 0
 
@@ -120,9 +116,11 @@ def _rounded(megabytes):
     return f"{megabytes / 1000:.1f} GB" if megabytes >= 1000 else f"{megabytes:.0f} MB" if megabytes >= 10 else f"{megabytes:.1f} MB"
 
 
-def bake(item, scene, keep=False):
-    """Yields the number of frames that are done and of all. At the end the object shows meshes of the file; keep: what it was before
-    stays beside it, hidden. If it is closed before, or ends with MnsError or OSError, nothing has changed."""
+def bake(item, scene):
+    """Yields the number of frames that are done and of all. At the end the object shows meshes of the file. If it is closed before, or ends
+    with MnsError or OSError, nothing has changed."""
+    if kind_of(item) is Panel:
+        computed.count_frames(item)
     live = kind_of(item)(item, scene)
     frames = frame_picker.Frames(item.name)
     stand_in = item.copy()  # in no scene: what the object itself shows stays
@@ -134,7 +132,7 @@ def bake(item, scene, keep=False):
             live.show(stand_in, place)
             frames.add(_frame_of(stand_in.data, item))
             yield place, live.count
-        _replace(item, stand_in, live, frames, keep)
+        _replace(item, stand_in, live, frames)
     except BaseException:
         frames.remove()
         raise
@@ -155,15 +153,9 @@ def _frame_of(shown, item):
     return mesh
 
 
-def _replace(item, stand_in, live, frames, keep):
+def _replace(item, stand_in, live, frames):
     """Has the object show the frames instead: its place, parents, modifiers, and keys of its times stay."""
     before = item.data
-    if keep:
-        other = item.copy()
-        other.name = item.name + ".live"
-        for collection in item.users_collection:
-            collection.objects.link(other)
-        other.hide_render = other.hide_viewport = True
     item.data = bpy.data.meshes.new(item.name)
     modifier = frames.show_in(item, live.timing, live.by_hand, live.frame)
     compat.rename_curves(item, {path: compat.input_path(modifier, socket) for path, socket in live.TIMES.items()})
@@ -183,15 +175,13 @@ class OBJECT_OT_meniscus_bake(bpy.types.Operator):
     bl_label = "Bake run"
     bl_options = {"UNDO"}
 
-    keep: bpy.props.BoolProperty(name="Keep the live run", description="It stays beside the baked one, hidden", default=False)
-
     @classmethod
     def poll(cls, context):
         return kind_of(context.active_object) is not None and context.active_object.mode == "OBJECT"
 
     def invoke(self, context, _event):
         """In steps, while the window shows how far it is. No other event gets through: an undo would take away what is being made."""
-        self.steps = bake(context.active_object, context.scene, self.keep)
+        self.steps = bake(context.active_object, context.scene)
         self.timer = context.window_manager.event_timer_add(0.01, window=context.window)
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
@@ -202,41 +192,34 @@ class OBJECT_OT_meniscus_bake(bpy.types.Operator):
             return self.end(context, {"CANCELLED"})
         if event.type != "TIMER":
             return {"RUNNING_MODAL"}
-        try:
-            done, count = next(self.steps)
-        except StopIteration:
-            return self.end(context, {"FINISHED"})
-        except (mns_reader.MnsError, OSError) as error:
-            self.report({"ERROR"}, f"Not baked: {error}")
-            return self.end(context, {"CANCELLED"})
-        context.workspace.status_text_set(f"Frame {done:,} of {count:,} is baked; Esc cancels")
-        return {"RUNNING_MODAL"}
+        result = self.step(context)
+        return result if result == {"RUNNING_MODAL"} else self.end(context, result)
+
+    @compat.tells_errors
+    def step(self, context):
+        for done, count in self.steps:
+            context.workspace.status_text_set(f"Frame {done:,} of {count:,} is baked; Esc cancels")
+            return {"RUNNING_MODAL"}
+        return {"FINISHED"}
 
     def end(self, context, result):
         context.window_manager.event_timer_remove(self.timer)
         context.workspace.status_text_set(None)
         return result
 
+    @compat.tells_errors
     def execute(self, context):
-        try:
-            for _ in bake(context.active_object, context.scene, self.keep):
-                pass
-        except (mns_reader.MnsError, OSError) as error:
-            self.report({"ERROR"}, f"Not baked: {error}")
-            return {"CANCELLED"}
+        for _ in bake(context.active_object, context.scene):
+            pass
         return {"FINISHED"}
 
 
 def draw(layout, context):
     """The button, and how large the file becomes."""
     item = context.active_object
-    if kind_of(item) is None:
-        return
-    column = layout.column(align=True)
-    row = column.row(align=True)
-    row.operator("object.meniscus_bake", icon="RENDER_ANIMATION")
-    row.operator("object.meniscus_bake", text="Keep live").keep = True
-    column.label(text=told_size(item, context.scene))
+    if kind_of(item) is not None:
+        layout.operator("object.meniscus_bake", icon="RENDER_ANIMATION")
+        layout.label(text=told_size(item, context.scene))
 
 
 def register():

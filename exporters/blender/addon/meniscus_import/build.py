@@ -197,9 +197,7 @@ def present(context, items):
         item.select_set(True)
         show_all_in_viewports(context, item)
     context.view_layer.objects.active = items[0]
-    for space in views_of(context):
-        if space.shading.color_type == "MATERIAL":
-            space.shading.color_type = "VERTEX"
+    compat.color_solid_views(context)
 
 
 def let_rays_through(scene, meshes):

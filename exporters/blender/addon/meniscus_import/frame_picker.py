@@ -31,8 +31,8 @@ class Frames:
         bpy.data.collections.remove(self.collection)
 
     def show_in(self, item, timing, by_hand=False, frame=1.0):
-        """Has an object show the frame that a sequence_reader.Timing has at the scene's time, or `frame` by hand. Its modifiers stand
-        behind that which does so, which is returned."""
+        """Has an object show the frame that a sequence_reader.Timing has at the scene's time, or `frame` by hand. Returns the modifier
+        that does so, the first of the object."""
         tree = bpy.data.node_groups.new(item.name + " by frame", "GeometryNodeTree")
         values = {START: timing.start, SPEED: timing.speed, OUTSIDE: sequence_reader.OUTSIDE.index(timing.outside),
                   BY_HAND: by_hand, FRAME: frame, OWN: True}
@@ -87,7 +87,7 @@ def _realized(tree, instances, material):
     rest.domain = "FACE"
     for source, target in ((face, dressed), (dressed, filled), (filled, both), (both, realize), (realize, rest)):
         tree.links.new(source.outputs[0], target.inputs[0])
-    tree.links.new(instances, both.inputs[0])  # behind the face
+    tree.links.new(instances, both.inputs[0])  # after the face
     is_first = compat.math_node(tree, "LESS_THAN", tree.nodes.new("GeometryNodeInputIndex").outputs[0], 0.5)
     tree.links.new(is_first, rest.inputs["Selection"])
     return rest.outputs[0]

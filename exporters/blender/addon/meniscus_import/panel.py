@@ -89,13 +89,10 @@ class OBJECT_OT_meniscus_from_atoms(Making, bpy.types.Operator):
     def poll(cls, context):
         return molecular_nodes.is_molecule(context.active_object)
 
+    @compat.tells_errors
     def execute(self, context):
         atoms = context.active_object
-        try:
-            scale = molecular_nodes.scale_of(atoms)
-        except mns_reader.MnsError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        scale = molecular_nodes.scale_of(atoms)
         item = new_object(context, atoms.name + ".surface", "OBJECT", atoms=atoms, scale=scale, selection=self.selection, detail=self.detail)
         item.parent = atoms  # without the inverse: it stands where its atoms are
         computed.come_last()
@@ -114,14 +111,11 @@ class OBJECT_OT_meniscus_update(Waiting, bpy.types.Operator):
         item = context.active_object
         return computed.is_computed(item) and item.mode == "OBJECT"
 
+    @compat.tells_errors
     def execute(self, context):
         item = context.active_object
-        try:
-            if not computed.working().told()["library"]:
-                computed.look_for_tools()
-        except mns_reader.MnsError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        if not computed.working().told()["library"]:
+            computed.look_for_tools()
         libraries.own_mesh(item, lambda _other: True)[computed.SHOWN] = ""
         return start(self, item)
 
@@ -163,17 +157,13 @@ class OBJECT_OT_meniscus_look(bpy.types.Operator):
     def poll(cls, context):
         return is_surface(context.active_object) and context.active_object.data.library is None
 
+    @compat.tells_errors
     def execute(self, context):
         item = context.active_object
         name = looks.ATTRIBUTES[self.coloring]
         if name not in item.data.attributes:
-            self.report({"ERROR"}, f"{item.name} has no attribute {name}")
-            return {"CANCELLED"}
-        try:
-            looks.dress(item, self.look, self.coloring)
-        except mns_reader.MnsError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+            raise mns_reader.MnsError(f"{item.name} has no attribute {name}")
+        looks.dress(item, self.look, self.coloring)
         if self.lines:
             looks.add_lines(context, item)
         return {"FINISHED"}

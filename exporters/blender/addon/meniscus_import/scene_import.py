@@ -8,7 +8,7 @@ import tempfile
 import bpy
 from bpy_extras.io_utils import ImportHelper
 
-from . import build, computed, mns_reader, panel, scene_reader, sequence
+from . import build, compat, computed, mns_reader, panel, scene_reader, sequence
 
 
 class OBJECT_OT_meniscus_from_scene(panel.Waiting, bpy.types.Operator, ImportHelper):
@@ -22,16 +22,13 @@ class OBJECT_OT_meniscus_from_scene(panel.Waiting, bpy.types.Operator, ImportHel
     filter_glob: bpy.props.StringProperty(default="*.json", options={"HIDDEN"})
     filepath: bpy.props.StringProperty(subtype="FILE_PATH", options={"SKIP_SAVE"})
 
+    @compat.tells_errors
     def execute(self, context):
-        try:
-            scene = scene_reader.read(self.filepath)
-            if scene.others:
-                self.import_exported(context, scene)
-                return {"FINISHED"}
-            item = self.make(context, scene)
-        except (mns_reader.MnsError, OSError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        scene = scene_reader.read(self.filepath)
+        if scene.others:
+            self.import_exported(context, scene)
+            return {"FINISHED"}
+        item = self.make(context, scene)
         if scene.unseen:
             self.report({"INFO"}, f"Left out: {', '.join(scene.unseen)}")
         return panel.start(self, item)

@@ -111,7 +111,7 @@ def _plain(key, name, value):
 
 
 def _colors(values):
-    """A scheme stands in the menu; all else is written."""
+    """A scheme is in the menu; all else is written."""
     if len(values) == 1 and values[0] in dict(preparation_table.SCHEMES):
         return {"color": values[0]}
     return {"color": "own", "colors": "; ".join(str(value) for value in values)}

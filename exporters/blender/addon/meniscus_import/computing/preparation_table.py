@@ -32,29 +32,7 @@ ROWS = (
 
 #: Colour schemes, and whether they need more than the atoms of a file.
 SCHEMES = (
-    ('element', False),
-    ('chain', False),
-    ('copy', False),
-    ('model', False),
-    ('residue', False),
-    ('kind', True),
-    ('component', True),
-    ('bfactor', False),
-    ('occupancy', False),
-    ('charge', False),
-    ('hydrophobicity', False),
-    ('element-cpk', False),
-    ('index', False),
-    ('radial', False),
-    ('secondary', False),
-    ('rainbow', False),
-    ('plddt', False),
-    ('snfg', False),
-    ('bead', False),
-    ('buried', True),
-    ('lipophilicity', True),
-    ('relative-accessibility', True),
-    ('rmsf', True),
-    ('file', True),
-    ('conservation', True),
-)
+    ('element', False), ('chain', False), ('copy', False), ('model', False), ('residue', False), ('kind', True), ('component', True),
+    ('bfactor', False), ('occupancy', False), ('charge', False), ('hydrophobicity', False), ('element-cpk', False), ('index', False),
+    ('radial', False), ('secondary', False), ('rainbow', False), ('plddt', False), ('snfg', False), ('bead', False), ('buried', True),
+    ('lipophilicity', True), ('relative-accessibility', True), ('rmsf', True), ('file', True), ('conservation', True))

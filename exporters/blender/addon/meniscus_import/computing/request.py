@@ -18,8 +18,7 @@ CAVITIES = ("KEEP", "DROP", "ONLY")
 @dataclasses.dataclass(frozen=True)
 class Request:
     """file: of a molecule, an absolute path; "": atoms come from Blender. preparation: what preparation.asked gives. trajectory, frames, trajectory_atoms: of a run, as the
-    program takes them; "" for none. selection, color: likewise; of colours several stand with ";" between them. numbers: a file of them, for schemes
-    that need one. place: in the run, from 1; 0: none. probe, tolerance: Å. density: vertices
+    program takes them; "" for none. selection, color: likewise; several colours have ";" between them. numbers: a file of them, for schemes that need one. place: in the run, from 1; 0: none. probe, tolerance: Å. density: vertices
     per Å² of a proxy, an even mesh however far from the surface; 0: a mesh within the tolerance. cavities: one of CAVITIES."""
 
     file: str = ""
