@@ -13,8 +13,8 @@ program=$(realpath "${1:?usage: scripts/newer_blenders.sh PROGRAM [VERSION...]}"
 shift
 versions=("${@:-4.2}")
 (($#)) || versions=(4.2 4.5 5.0 5.1 5.2 5.3)
-# 4.2.12 does not say which databpy it needs.
-declare -A molecular_nodes=([4.2]="4.2.12 databpy==0.0.14" [4.5]=4.5.11 [5.0]=4.5.11)
+# 4.2.12 does not say which databpy it needs; a newer nodebpy breaks 520.2.0.
+declare -A molecular_nodes=([4.2]="4.2.12 databpy==0.0.14" [4.5]=4.5.11 [5.0]=4.5.11 [5.2]="520.2.0 nodebpy==520.30.0")
 tests=$PWD/tests/export/blender
 addon=$PWD/exporters/blender/addon
 export MENISCUS_LIBRARY=${program%/*}/exporters/bindings/c/libmeniscus.so MENISCUS_PACKAGE=$PWD/exporters/bindings/python/meniscus
