@@ -115,7 +115,7 @@ class IMPORT_SCENE_OT_meniscus_sequence(Looks, bpy.types.Operator, ImportHelper)
     set_time: bpy.props.BoolProperty(
         name="Set frame range and rate", description="The scene gets the range and the rate of the run", default=True)
 
-    @compat.tells_errors
+    @build.tells_errors
     def execute(self, context):
         options = {name: getattr(self, name) for name in ("crisp_colors", "own_materials", "center", "import_camera",
                                                           "use_camera", "set_time")}
@@ -155,7 +155,7 @@ class IMPORT_SCENE_OT_meniscus_storyboard(Looks, bpy.types.Operator, ImportHelpe
         name="Background", description="The camera sees the colours of the film where there is no object; what lights the scene stays",
         default=True)
 
-    @compat.tells_errors
+    @build.tells_errors
     def execute(self, context):
         options = {name: getattr(self, name) for name in ("crisp_colors", "own_materials", "center", "import_camera",
                                                           "use_camera", "set_time", "set_background")}
@@ -176,7 +176,7 @@ class OBJECT_OT_meniscus_reload(bpy.types.Operator):
         item = context.active_object
         return item is not None and item.mode == "OBJECT" and "meniscus_file" in item and item.data.library is None
 
-    @compat.tells_errors
+    @build.tells_errors
     def execute(self, context):
         build.reload(context.active_object, context)
         return {"FINISHED"}

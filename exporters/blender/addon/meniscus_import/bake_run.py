@@ -195,7 +195,7 @@ class OBJECT_OT_meniscus_bake(bpy.types.Operator):
         result = self.step(context)
         return result if result == {"RUNNING_MODAL"} else self.end(context, result)
 
-    @compat.tells_errors
+    @build.tells_errors
     def step(self, context):
         for done, count in self.steps:
             context.workspace.status_text_set(f"Frame {done:,} of {count:,} is baked; Esc cancels")
@@ -207,7 +207,7 @@ class OBJECT_OT_meniscus_bake(bpy.types.Operator):
         context.workspace.status_text_set(None)
         return result
 
-    @compat.tells_errors
+    @build.tells_errors
     def execute(self, context):
         for _ in bake(context.active_object, context.scene):
             pass

@@ -1,31 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Everything that differs between Blender 3.4 and 5.3; run on 3.4.1, and by scripts/newer_blenders.sh on the versions that it lists."""
 
-import functools
 import math
 
 import numpy as np
-
-from . import mns_reader
 
 try:
     import bpy
 except ImportError:  # what follows from numbers alone is tested by any Python
     bpy = None
-
-
-def tells_errors(execute):
-    """Has an operator report what a file or the engine says, and end as cancelled."""
-
-    @functools.wraps(execute)
-    def told(operator, context):
-        try:
-            return execute(operator, context)
-        except (mns_reader.MnsError, OSError) as error:
-            operator.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-
-    return told
 
 
 def set_normals(mesh, normals):

@@ -89,7 +89,7 @@ class OBJECT_OT_meniscus_from_atoms(Making, bpy.types.Operator):
     def poll(cls, context):
         return molecular_nodes.is_molecule(context.active_object)
 
-    @compat.tells_errors
+    @build.tells_errors
     def execute(self, context):
         atoms = context.active_object
         scale = molecular_nodes.scale_of(atoms)
@@ -111,7 +111,7 @@ class OBJECT_OT_meniscus_update(Waiting, bpy.types.Operator):
         item = context.active_object
         return computed.is_computed(item) and item.mode == "OBJECT"
 
-    @compat.tells_errors
+    @build.tells_errors
     def execute(self, context):
         item = context.active_object
         if not computed.working().told()["library"]:
@@ -157,7 +157,7 @@ class OBJECT_OT_meniscus_look(bpy.types.Operator):
     def poll(cls, context):
         return is_surface(context.active_object) and context.active_object.data.library is None
 
-    @compat.tells_errors
+    @build.tells_errors
     def execute(self, context):
         item = context.active_object
         name = looks.ATTRIBUTES[self.coloring]

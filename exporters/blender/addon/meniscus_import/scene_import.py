@@ -8,7 +8,7 @@ import tempfile
 import bpy
 from bpy_extras.io_utils import ImportHelper
 
-from . import build, compat, computed, mns_reader, panel, scene_reader, sequence
+from . import build, computed, mns_reader, panel, scene_reader, sequence
 
 
 class OBJECT_OT_meniscus_from_scene(panel.Waiting, bpy.types.Operator, ImportHelper):
@@ -22,7 +22,7 @@ class OBJECT_OT_meniscus_from_scene(panel.Waiting, bpy.types.Operator, ImportHel
     filter_glob: bpy.props.StringProperty(default="*.json", options={"HIDDEN"})
     filepath: bpy.props.StringProperty(subtype="FILE_PATH", options={"SKIP_SAVE"})
 
-    @compat.tells_errors
+    @build.tells_errors
     def execute(self, context):
         scene = scene_reader.read(self.filepath)
         if scene.others:
