@@ -106,10 +106,10 @@ def frame_bytes(mesh):
 
 
 def told_size(item, scene):
-    """A sentence: how many frames, and how large they are if all are like the one that shows."""
+    """Short lines: how many frames, and how large they are if all are like the one that shows."""
     count = count_of(item, scene)
     size = count * frame_bytes(item.data) / 1e6
-    return f"{count:,} frames, about {_rounded(size)} ({_rounded(COMPRESSED * size)} in a compressed file)" if size else "Frames of unknown size"
+    return (f"{count:,} frames, {_rounded(size)}", f"{_rounded(COMPRESSED * size)} compressed") if size else ("Frames of unknown size",)
 
 
 def _rounded(megabytes):
@@ -219,7 +219,8 @@ def draw(layout, context):
     item = context.active_object
     if kind_of(item) is not None:
         layout.operator("object.meniscus_bake", icon="RENDER_ANIMATION")
-        layout.label(text=told_size(item, context.scene))
+        for line in told_size(item, context.scene):
+            layout.label(text=line)
 
 
 def register():
