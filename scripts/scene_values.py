@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """scene_values.py [--check]: writes two files from the table of properties of the library that MENISCUS_LIBRARY names: the
-types of a scene's values for Python, exporters/bindings/python/meniscus/_scene_values.py, and the fields of the panel in
-Blender about molecules and runs, exporters/blender/addon/meniscus_import/computing/preparation_table.py. --check: writes
-nothing, and fails where a file is not what it would write."""
+types of a scene's values for Python, exporters/bindings/python/meniscus/_scene_values.py, and of the panel in Blender the fields
+about molecules and runs and the colour schemes, exporters/blender/addon/meniscus_import/computing/preparation_table.py. --check:
+writes nothing, and fails where a file is not what it would write."""
 import pathlib
+import re
 import sys
+import tempfile
 import textwrap
 
 EXPORTERS = pathlib.Path(__file__).resolve().parents[1] / "exporters"
@@ -47,12 +49,32 @@ ROWS = (
 PANEL_TYPES = {lib.VALUE_FLAG: "flag", lib.VALUE_COUNT: "count", lib.VALUE_WORD: "word", lib.VALUE_TEXT: "text"}
 
 
+def refusal(atoms, scheme):
+    """What the library says of a colour scheme that it does not give."""
+    try:
+        atoms.colors(scheme)
+    except meniscus.Error as error:
+        return str(error)
+    return ""
+
+
+def schemes():
+    """Pairs of a colour scheme's word and whether it needs more than the atoms of a file."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "atom.xyz"
+        path.write_text("1\n\nC 0 0 0\n")
+        atom = meniscus.read(path)
+    words = re.search(r" is not one of (.*), a name such as red", refusal(atom, "?")).group(1).split(", ")
+    return [(word, "needs more than the atoms" in refusal(atom, word)) for word in words]
+
+
 def panel_text():
     known = {p.key: p for p in meniscus.properties()}
     rows = [known[key] for key in PANEL]
     return PANEL_HEAD + "".join(
         f"    Row({p.key!r}, {PANEL_TYPES[p.type]!r}, {tuple(p.words)!r}, {p.initial!r}, {p.lowest:g}, {p.highest:g},\n        {p.help!r}),\n"
-        for p in rows) + ")\n"
+        for p in rows) + ")\n\n#: Colour schemes, and whether they need more than the atoms of a file.\nSCHEMES = (\n" + textwrap.fill(
+            ", ".join(map(repr, schemes())), 140, initial_indent="    ", subsequent_indent="    ") + ")\n"
 
 
 def type_of(known):

@@ -11,14 +11,14 @@ source scripts/packages.sh
 step() { printf '\n== %s (%s s)\n' "$1" "$SECONDS"; }
 failed=()
 
-step "1/7 packages"
+step "1/8 packages"
 install_packages "${build_packages[@]}" "${run_packages[@]}" "${film_packages[@]}" "${sample_packages[@]}" \
   "${test_packages[@]}" "${check_packages[@]}"
 
-step "2/7 format"
+step "2/8 format"
 bash scripts/format.sh --check || failed+=("format")
 
-step "3/7 build"
+step "3/8 build"
 build=${MENISCUS_BUILD:-$PWD/build/test}
 results=$PWD/build/results
 cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DMENISCUS_TESTS=ON >/dev/null
@@ -27,22 +27,27 @@ rm -rf "$results"
 mkdir -p "$results"
 
 # Tests wait for each other, for screens and for clocks. What they leave of the processors builds what comes next.
-step "4/7 tests, and beside them the build with asserts and sanitizers, where warnings are errors"
+step "4/8 tests, and beside them the build with asserts and sanitizers, where warnings are errors"
 cmake --preset asan >/dev/null
 nice -n 19 cmake --build --preset asan >"$results/sanitized_build.log" 2>&1 &
 sanitized_build=$!
 ctest --test-dir "$build" -LE long --output-on-failure --timeout 600 -j "$(nproc)" --output-junit "$results/release.xml" \
   --test-output-size-passed 16384 "$@" || failed+=("tests")
 
-step "5/7 the rest of that build"
+step "5/8 the rest of that build"
 wait "$sanitized_build" || { tail -n 100 "$results/sanitized_build.log" >&2; exit 1; }
 
-step "6/7 tests with asserts and sanitizers"
+step "6/8 tests with asserts and sanitizers"
 ctest --preset asan --timeout 600 -j "$(nproc)" --output-junit "$results/sanitized.xml" \
   --test-output-size-passed 16384 "$@" || failed+=("sanitized tests")
 
-step "7/7 clang-tidy"
+step "7/8 clang-tidy"
 bash scripts/lint.sh || failed+=("clang-tidy")
+
+step "8/8 the add-on in the newest Blender"
+if [[ $(uname -m) == x86_64 ]]; then  # PyPI has no other
+  MENISCUS_INSIDE="inside_baked inside_blender inside_handed_on inside_sequence inside_shot" scripts/newer_blenders.sh "$build/meniscus" newest || failed+=("newest Blender")
+fi
 
 step "what was tried"
 strict=()

@@ -11,7 +11,7 @@
 namespace meniscus {
 namespace {
 
-constexpr int kColumn = 17;
+constexpr int kColumn = 24;
 
 void print_row(std::string_view word, std::string_view description, std::string_view source) {
   fmt::print(std::cout, "  {:<{}}{}\n", word, kColumn, description);

@@ -52,7 +52,8 @@ struct Sequence {
   std::filesystem::path written;
 };
 
-std::string megabytes(double bytes) {
+std::string told_bytes(double bytes) {
+  if (bytes >= 999.5e6) return fmt::format("{:.3g} GB", bytes / 1e9);
   return bytes < 1e6 ? fmt::format("{:.2g} MB", bytes / 1e6) : fmt::format("{:.3g} MB", bytes / 1e6);
 }
 
@@ -61,11 +62,12 @@ void tell_size(const SceneCommand& command, const FigureMeshes& meshes, const Me
                std::size_t frames) {
   std::size_t triangles = 0;
   for (const blender::MeshedObject& object : meshes.objects) triangles += object.mesh.triangles.size();
-  say(command, fmt::format("{} triangles {}, {}{}", with_thousands(triangles),
-                           fineness_words(command.scene.mesh, fineness), megabytes(bytes),
-                           frames == 0 ? ""
-                                       : fmt::format(" a frame; about {} for {} frames",
-                                                     megabytes(bytes * static_cast<double>(frames)), frames)));
+  const double all = bytes * static_cast<double>(frames);
+  constexpr double kLargeRun = 1e9;
+  say(command, fmt::format("{} triangles {}, {}{}{}", with_thousands(triangles),
+                           fineness_words(command.scene.mesh, fineness), told_bytes(bytes),
+                           frames == 0 ? "" : fmt::format(" a frame; about {} for {} frames", told_bytes(all), frames),
+                           all < kLargeRun ? "" : "; fewer --frames, or a larger --tolerance, make it smaller"));
 }
 
 // A file of one molecule, or one for each frame of the chunk beside a manifest for all of the run, the same from every
@@ -133,7 +135,7 @@ void declare_blender(CLI::App& command) {
            "  meniscus export blender adk.psf --trajectory adk.dcd --frames all -o adk   one file per frame, and a "
            "manifest\n"
            "  meniscus export blender 1tii.pdb -o 1tii.mns --density 1   even triangles, for modifiers and sculpting",
-           "The default tolerance is half a pixel of --camera; without a camera it is 0.05 Å.");
+           "The default tolerance is half a pixel of --camera; without a camera it is 0.05 Å, of frames 0.2 Å.");
   auto declared = std::make_shared<DeclaredCommand<>>(command, for_blender);
   declared->options.describe_output(".mns file to write; for frames, a folder");
   declared->options.option("mesh.attributes")
@@ -141,14 +143,16 @@ void declare_blender(CLI::App& command) {
           "Numbers of the surface, separated by commas: usual (exact curvature, areas of atoms and patches), all, "
           "none, or the names of export mesh [usual]");
   const Property& tolerance = property_of("mesh.tolerance");
-  declared->options.option(tolerance.key)->description(fmt::format("{} [{:g}]", tolerance.help, blender::kTolerance));
+  declared->options.option(tolerance.key)
+      ->description(
+          fmt::format("{} [{:g}; of frames {:g}]", tolerance.help, blender::kTolerance, blender::kRunTolerance));
   declared->options.option("frames.fps")->description("Frames per second of a run [25]");
   command.callback([declared] {
     declared->options.take();
     Scene& scene = declared->state.scene;
     if (!has_fineness(declared->options)) {
       if (scene.picture.camera_file.empty())
-        scene.mesh.tolerance = blender::kTolerance;
+        scene.mesh.tolerance = scene.frames.asked() ? blender::kRunTolerance : blender::kTolerance;
       else
         scene.mesh.tolerance_pixels = kPixelsOfACamera;
     }

@@ -2,7 +2,6 @@
 // `meniscus export page`: writes one HTML file in which readers turn the exact surface.
 #include <iostream>
 #include <memory>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -56,17 +55,6 @@ page::StillPicture jpeg_still(const Framebuffer& drawn, const Look& look) {
   const std::unique_ptr<RowEncoder> encoder = image_codec().begin(image);
   encoder->add(pixels);
   return {"image/jpeg", encoder->finish()};
-}
-
-/// What the scene file says and the page does not show, in a sentence.
-void tell_left_out(const SceneCommand& command, std::span<const std::string> keys) {
-  std::string names;
-  for (const std::string& key : keys) {
-    const bool is_seen = key.starts_with("annotations.") || key.starts_with("look.") || key.starts_with("camera.") ||
-                         key == "frames.motion_blur" || (key.starts_with("legend.") && key != "legend.shown");
-    if (is_seen) names += (names.empty() ? "" : ", ") + key;
-  }
-  if (!names.empty()) say(command, "note: the page does not show what the scene says of " + names);
 }
 
 page::StillPicture still_picture(const Framebuffer& drawn, const Look& look) {
@@ -148,9 +136,8 @@ class PageRun {
   double longest_ = 0.0;  // ps
 };
 
-void export_page(const PageCommand& asked, std::span<const std::string> left_out, bool trusts_scenes) {
+void export_page(const PageCommand& asked, bool trusts_scenes) {
   page::check_scene(asked.scene);
-  tell_left_out(asked, left_out);
   check_output(asked.scene.output, asked.existing());
   check_saved_camera(asked);
   NamedViews views(asked.named_views, asked, trusts_scenes);
@@ -180,8 +167,7 @@ void declare_page(CLI::App& command) {
   command.callback([declared, &command] {
     declared->options.take();
     const bool trusts_scenes = command.count("--trust-scene") > 0;
-    run_and_save_scene(declared->state,
-                       [&] { export_page(declared->state, declared->options.left_out(), trusts_scenes); });
+    run_and_save_scene(declared->state, [&] { export_page(declared->state, trusts_scenes); });
   });
 }
 

@@ -325,9 +325,32 @@ void SceneOptions::take(const std::vector<std::string>& named) {
   }
   settings.insert(settings.end(), typed_by_key.begin(), typed_by_key.end());
   guard_files(command_, file_, settings);
-  for (const std::string& sentence :
-       idle_options({command_, into_.scene, [this](std::string_view key) { return is_given(key); }}))
+  std::vector<std::string> sentences =
+      idle_options({command_, into_.scene, [this](std::string_view key) { return is_given(key); }});
+  if (std::string left_out = told_left_out(); !left_out.empty()) sentences.push_back(std::move(left_out));
+  for (const std::string& sentence : sentences)
     if (!into_.reporting.quiet) std::cerr << "meniscus: " << escaped(sentence) << std::endl;
+}
+
+/// What the scene file says of the picture and this command, which shows the molecule, does not show: a sentence.
+/// Empty: nothing.
+std::string SceneOptions::told_left_out() const {
+  if (!has_option(property_of("surface.color"), bit_)) return "";
+  const auto has_any_of = [&](std::string_view section) {
+    return std::ranges::any_of(properties(), [&](const Property* property) {
+      return property->section() == section && has_option(*property, bit_);
+    });
+  };
+  std::string names;
+  for (const std::string& key : left_out_) {
+    const std::string_view section = property_of(key).section();
+    const bool is_seen = section == "annotations" || key == "frames.motion_blur" || key == "image.background" ||
+                         (section == "legend" && (key != "legend.shown" || bit_ != for_page)) ||
+                         ((section == "look" || section == "camera") && has_any_of(section));
+    if (is_seen) names += (names.empty() ? "" : ", ") + key;
+  }
+  return names.empty() ? ""
+                       : fmt::format("note: {} does not show what the scene says of {}", command_path(command_), names);
 }
 
 /// A camera that turns around one molecule makes a film of some seconds, unless it is said how many pictures it has.

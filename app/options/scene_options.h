@@ -90,8 +90,6 @@ class SceneOptions {
   bool typed(std::string_view key) const;
   /// What the command line says of it: one text, of repeatable ones all, of a flag an empty one.
   std::vector<std::string> typed_texts(const Property& property) const;
-  /// Keys of what the scene file sets and this command has no option for.
-  const std::vector<std::string>& left_out() const { return left_out_; }
   /// The path of the scene file; empty: there is none.
   const std::string& file() const { return file_; }
   const CLI::App& command() const { return command_; }
@@ -102,6 +100,7 @@ class SceneOptions {
   std::vector<SceneSetting> read_scene_file(const std::vector<std::string>& named);
   std::vector<SceneSetting> typed_settings() const;
   void take_setting(const SceneSetting& setting);
+  std::string told_left_out() const;
   void set(const Property& property, const std::vector<std::string>& texts);
   void check_table() const;
   void check_inputs() const;

@@ -59,9 +59,13 @@ NOT_RUN = [
     (r"\b(1ihm\.pdb|capsid\.cif)\b", "a capsid of 677,040 atoms"),
     (r"\b1ubq\.(pqr|in)\b", "tests/export/color/electrostatics_test.py"),
     (r"\b(adk\.xtc|film\.json|pymol\.txt|membrane\.gro)\b", "a file that only the reader has"),
-    (r"\b(tetgen|pymol|blender -b) ", "other programs: tests/export"),
+    (r"\b(tetgen|pymol) ", "other programs: tests/export"),
     (r"^ln -s|^export ", "changes settings of the reader"),
 ]
+
+
+if not shutil.which("blender"):
+    NOT_RUN.append((r"\bblender -b ", "there is no Blender"))
 
 
 def commands_of(text):
@@ -108,11 +112,13 @@ def write_tools(folder):
     """Commands by the names that pages call them by."""
     folder.mkdir()
     smaller = f"exec /usr/bin/python3 -B {shlex.quote(str(ROOT / 'tests/docs/smaller_command.py'))} {shlex.quote(PROGRAM)}"
-    tools = {"meniscus": f'{smaller} "$@"', "povray": 'exec /usr/bin/povray -D "$@" +W80 +H60 -A'}
+    addon = shlex.quote(str(ROOT / "exporters/blender/addon"))
+    tools = {"meniscus": f'{smaller} "$@"', "povray": 'exec /usr/bin/povray -D "$@" +W80 +H60 -A',
+             "blender": f'exec {shutil.which("blender")} "${{@/#\\/usr\\/share\\/meniscus\\/addon/{addon}}}" --size 80x60 --samples 1'}
     for name in ("msms", "nanoshaper", "pdb_to_xyzr"):
         tools["meniscus-" + name] = f'exec {shlex.quote(str(pathlib.Path(PROGRAM).parent / f"meniscus-{name}"))} "$@"'
     for name, line in tools.items():
-        (folder / name).write_text(f"#!/bin/sh\n{line}\n")
+        (folder / name).write_text(f"#!/bin/bash\n{line}\n")
         (folder / name).chmod(0o755)
 
 

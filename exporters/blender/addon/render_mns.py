@@ -13,7 +13,8 @@ read them, and with these two --blend keeps the scene. One unit is one Å unless
 --look glass and the others are the add-on's; they need light (--style film, their default) but for flat, which may have outlines (--lines).
 --engine eevee draws by OpenGL, without a screen too.
 
-Standard output holds, after Blender's name, one JSON line a frame, for a sequence
+Of what Blender and Cycles print, errors and warnings go to standard error, with --verbose everything. Standard output holds, after
+Blender's name, one JSON line a frame, for a sequence
   {"frame": 42, "scene_frame": 5, "state": "done", "files": ["DIR/frame_00042.png"], "triangles": 6120, "ms": 812.4}
   {"frame": 43, "scene_frame": 6, "state": "failed", "exit": 3, "error": "surface_00043.mns: missing"}
 Pictures appear whole or not at all. After a frame that fails the others are rendered all the same.
@@ -21,11 +22,13 @@ Exit codes: 0 done, 2 wrong usage, 3 bad input or failed import, 6 output not wr
 """
 
 import argparse
+import ctypes
 import json
 import math
 import os
 import re
 import sys
+import tempfile
 import time
 
 import bpy
@@ -86,6 +89,7 @@ def parse(arguments):
     parser.add_argument("--engine", choices=("cycles", "eevee"), default="cycles", help="of --output; --passes are by Cycles")
     parser.add_argument("--blend", help="save the scene here, too")
     parser.add_argument("--transparent", action="store_true", help="no background")
+    parser.add_argument("--verbose", action="store_true", help="what Blender and Cycles print, too")
     options = parser.parse_args(arguments)
     options.is_sequence = options.file.endswith(".json")
     options.samples = options.samples or (128 if options.engine == "cycles" and options.look in THROUGH else 32)
@@ -452,10 +456,22 @@ def main():
         fail(exit_code(error), error)
     finally:
         sequence.unregister()
+        if CHATTER:
+            tell_faults()
     sys.exit(code)
 
 
-# Blender's own lines, which its C library holds back and cuts anywhere, go to standard error.
+def tell_faults():
+    """Passes on errors and warnings that Blender has printed."""
+    sys.stdout.flush()
+    ctypes.CDLL(None).fflush(None)  # the C library holds lines back
+    said = os.pread(CHATTER.fileno(), 1 << 24, 0)
+    faults = [line for line in said.decode("utf-8", "replace").splitlines(True) if re.search(r"\b(error|warning|failed)\b", line, re.IGNORECASE)]
+    sys.stderr.write("".join(faults))
+
+
 RESULTS = os.fdopen(os.dup(1), "w", encoding="utf-8")
-os.dup2(2, 1)
+# In a file, since a thread that reads a pipe would crash Blender 3.4. Windows has no pread.
+CHATTER = tempfile.TemporaryFile("a+b") if hasattr(os, "pread") and "--verbose" not in sys.argv else None
+os.dup2(CHATTER.fileno() if CHATTER else 2, 1)
 main()

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What computes surfaces for the Blender add-on, under plain Python: files of atoms, molecules, library and program, and its words."""
 
-import ast
 import os
 import re
 import subprocess
@@ -16,12 +15,11 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import samples  # noqa: E402
 from computing_case import ADDON, PACKAGE, PROGRAM, Quiet, WithFolder  # noqa: E402
 from meniscus_import import mesh_arrays, mns_reader  # noqa: E402
-from meniscus_import.computing import atoms, engines, jobs, molecules, preparation, request, wording  # noqa: E402
+from meniscus_import.computing import atoms, engines, jobs, molecules, preparation, preparation_table, request, wording  # noqa: E402
 
 
-def colors_of_panel():
-    with open(os.path.join(ADDON, "meniscus_import", "settings.py"), encoding="utf-8") as file:
-        return [color for color, *_ in ast.literal_eval(re.search(r"^COLORS = (\(.*?\)\))$", file.read(), re.M | re.S).group(1))]
+def colors_by_library():
+    return [color for color, _ in preparation_table.SCHEMES if not request.Request(color=color).needs_program()]
 
 
 class AtomFiles(WithFolder):
@@ -97,7 +95,7 @@ class Molecules(WithFolder):
     def test_atoms_are_those_of_the_program_in_all_colours(self):
         refused = []
         for file in self.files:
-            for color in colors_of_panel():
+            for color in colors_by_library():
                 wanted, asked = self.by_program(file, "--color", color), request.Request(file=file, color=color)
                 if wanted is None:
                     refused.append((os.path.basename(file), color))

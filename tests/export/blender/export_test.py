@@ -110,6 +110,15 @@ class Export(unittest.TestCase):
                 self.assertIn(word, said)
                 self.assertFalse(os.path.exists(self.path("none.mns")))
 
+    def test_a_large_run_says_how_to_make_it_smaller(self):
+        """Before its second frame; frames are coarser than a single surface."""
+        words = [PROGRAM, "export", "blender", UBIQUITIN, "--repeat", "300", "-o", self.path("many"), "--device", "cpu"]
+        with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as child:
+            line = next(line for line in child.stderr if " triangles " in line)
+            child.kill()
+        self.assertRegex(line, r"within 0\.2 Å of the surface, [0-9.]+ MB a frame; about [0-9.]+ GB for 3000 frames; "
+                         r"fewer --frames, or a larger --tolerance, make it smaller$")
+
     def test_the_size_of_a_run_is_said_before_it(self):
         path, said = self.export("--frames", "0-4", "--density", "0.5", "--save-camera", self.path("run.json"), name="run")
         (line,) = [line for line in said.splitlines() if " triangles " in line]

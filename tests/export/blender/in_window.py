@@ -18,7 +18,7 @@ FOLDER = os.path.dirname(TOLD)
 MARGIN = 90
 addon_utils.enable("meniscus_import", default_set=True)
 bpy.context.preferences.view.show_splash = False
-from meniscus_import import computed, panel  # noqa: E402
+from meniscus_import import bake_run, computed, panel  # noqa: E402
 
 found = {"error": "", "shown_while_dragging": 0, "threads": 1, "played": []}
 
@@ -181,6 +181,16 @@ def play(before):
         yield
     yield from picture("saved")
     bpy.ops.wm.save_as_mainfile(filepath=os.path.join(FOLDER, "saved.blend"))
+    return item
+
+
+def bake(item):
+    """In steps, between which the window goes on."""
+    with bpy.context.temp_override(**view()):
+        found["baking"] = list(bpy.ops.object.meniscus_bake("INVOKE_DEFAULT"))
+    while bake_run.kind_of(item) is not None:
+        yield
+    found["baked"] = [modifier.name for modifier in item.modifiers]
 
 
 def steps():
@@ -191,7 +201,8 @@ def steps():
     item = yield from compute_drag_and_undo()
     yield from rest(item)
     yield from recolour(item)
-    yield from play(item)
+    item = yield from play(item)
+    yield from bake(item)
 
 
 going = steps()

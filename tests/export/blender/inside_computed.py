@@ -272,7 +272,7 @@ class Computed(ComputedCase):
             computed._deliver(computed.working().take(1.0))
         self.assertEqual(computed._awaited, {})
         with unittest.mock.patch.object(computed.Wanted, "ask", side_effect=AssertionError("it was not ahead")):
-            with unittest.mock.patch.object(computed, "_compute_ahead"):
+            with unittest.mock.patch.object(computed, "compute_ahead"):
                 for frame in range(3, 3 + computed.AHEAD):
                     bpy.context.scene.frame_set(frame)
                     self.assertEqual(item["meniscus_error"], "", frame)

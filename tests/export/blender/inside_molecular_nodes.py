@@ -35,7 +35,9 @@ def load(path):
 def trajectory(path):
     import MDAnalysis
 
-    kind = molecularnodes.entities.Trajectory
+    kind = getattr(molecularnodes.entities, "Trajectory", None)
+    if kind is None:  # of 520: every molecule has frames, which show as the timeline reaches them
+        return load(path)
     made = kind(MDAnalysis.Universe(path, path))
     if "create_object" not in inspect.signature(kind).parameters:  # before 4.5 it did not do so by itself
         made.create_object(name="run")
@@ -97,7 +99,9 @@ class MolecularNodes(unittest.TestCase):
         self.assertTrue(chosen[np.unique(attributes.read(item.data, "atom_index", "INT"))].all())
 
     def test_its_trajectory_is_followed(self):
-        atoms = trajectory(samples.UBIQUITIN)
+        self.check_that_it_is_followed(trajectory(samples.UBIQUITIN))
+
+    def check_that_it_is_followed(self, atoms):
         item = self.surface_of(atoms)
         scale, areas = item.meniscus.scale, []
         radii = attributes.read(atoms.data, "vdw_radii", "FLOAT")[:, 0] / scale
@@ -111,6 +115,9 @@ class MolecularNodes(unittest.TestCase):
     def test_models_of_a_molecule_are_frames(self):
         atoms = load(samples.UBIQUITIN)
         frames = molecular_nodes.frames_of(atoms)
+        if not hasattr(molecularnodes.entities, "Trajectory"):
+            self.assertEqual(frames, [])
+            return self.check_that_it_is_followed(atoms)
         self.assertEqual(len(frames), 10)
         item = self.surface_of(atoms)
         radii = attributes.read(atoms.data, "vdw_radii", "FLOAT")[:, 0] / item.meniscus.scale

@@ -127,12 +127,13 @@ class Sequence(unittest.TestCase):
     def test_a_bake_of_many_frames_shows_each(self):
         """More than a node group has."""
         count = 2 * frame_picker.MOST_OF_A_GROUP + 7
-        store = bpy.data.collections.new("many")
+        frames = frame_picker.Frames("many")
         for number in range(count):
-            mesh = bpy.data.meshes.new(f"many.{number + 1:07d}")
+            mesh = bpy.data.meshes.new("many")
             mesh.from_pydata([(0, 0, 0), (1, 0, number), (0, 1, 0)], [], [(0, 1, 2)])
-            store.objects.link(bpy.data.objects.new(mesh.name, mesh))
-        item = frame_picker.add("many", store, count, sequence_reader.Timing())
+            frames.add(mesh)
+        item = bpy.data.objects.new("many", bpy.data.meshes.new("shown"))
+        frames.show_in(item, sequence_reader.Timing())
         bpy.context.scene.collection.objects.link(item)
         for time in range(0, count + 2):
             bpy.context.scene.frame_set(time)
@@ -149,8 +150,7 @@ class Sequence(unittest.TestCase):
             if mode == "BAKE":
                 modifier = item.modifiers["Frame"]
                 compat.set_input(modifier, frame_picker.BY_HAND, True)
-                identifier = compat.input_identifier(modifier.node_group, frame_picker.FRAME)
-                path = f'modifiers["Frame"].properties.inputs.{identifier}.value' if hasattr(modifier, "properties") else f'modifiers["Frame"]["{identifier}"]'
+                path = compat.input_path(modifier, frame_picker.FRAME)
             else:
                 item["meniscus_by_hand"], path = True, '["meniscus_frame"]'
             for time, place in ((10, 3.0), (20, 1.0)):

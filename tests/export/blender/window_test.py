@@ -142,6 +142,9 @@ class Window(unittest.TestCase):
             self.assertAlmostEqual(area / wanted[frame - 1], 1.0, places=6, msg=f"frame {frame}")
         self.assertGreater(self.share_that_differs("playing", "saved"), 0.1)  # the first frame
 
+    def test_a_run_is_baked_while_the_window_goes_on(self):
+        self.assertEqual((self.found["baking"], self.found["baked"]), (["RUNNING_MODAL"], ["Frame"]))
+
     def test_a_file_opens_without_the_add_on(self):
         self.assertLess(self.share_that_differs("saved", "reopened"), 0.005)  # edges are smoothed a little otherwise
 

@@ -16,7 +16,7 @@ import os
 import bpy
 from bpy_extras.io_utils import ImportHelper
 
-from . import build, compat, computed, mns_reader, panel, sequence, sequence_reader, settings, storyboard
+from . import bake_run, build, compat, computed, mns_reader, panel, scene_import, sequence, sequence_reader, settings, storyboard
 
 
 class Looks:
@@ -115,6 +115,7 @@ class IMPORT_SCENE_OT_meniscus_sequence(Looks, bpy.types.Operator, ImportHelper)
     set_time: bpy.props.BoolProperty(
         name="Set frame range and rate", description="The scene gets the range and the rate of the run", default=True)
 
+    @build.tells_errors
     def execute(self, context):
         options = {name: getattr(self, name) for name in ("crisp_colors", "own_materials", "center", "import_camera",
                                                           "use_camera", "set_time")}
@@ -128,9 +129,6 @@ class IMPORT_SCENE_OT_meniscus_sequence(Looks, bpy.types.Operator, ImportHelper)
                               **options)
             else:
                 sequence.stream(self.filepath, context, **options)
-        except (mns_reader.MnsError, OSError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
         finally:
             window.progress_end()
         self.tell(context)
@@ -157,14 +155,11 @@ class IMPORT_SCENE_OT_meniscus_storyboard(Looks, bpy.types.Operator, ImportHelpe
         name="Background", description="The camera sees the colours of the film where there is no object; what lights the scene stays",
         default=True)
 
+    @build.tells_errors
     def execute(self, context):
         options = {name: getattr(self, name) for name in ("crisp_colors", "own_materials", "center", "import_camera",
                                                           "use_camera", "set_time", "set_background")}
-        try:
-            storyboard.import_file(self.filepath, context, scale=self.scale or None, **options)
-        except (mns_reader.MnsError, OSError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        storyboard.import_file(self.filepath, context, scale=self.scale or None, **options)
         self.tell(context)
         return {"FINISHED"}
 
@@ -181,12 +176,9 @@ class OBJECT_OT_meniscus_reload(bpy.types.Operator):
         item = context.active_object
         return item is not None and item.mode == "OBJECT" and "meniscus_file" in item and item.data.library is None
 
+    @build.tells_errors
     def execute(self, context):
-        try:
-            build.reload(context.active_object, context)
-        except (mns_reader.MnsError, OSError) as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        build.reload(context.active_object, context)
         return {"FINISHED"}
 
 
@@ -194,6 +186,7 @@ def menu_entry(self, _context):
     self.layout.operator(IMPORT_SCENE_OT_meniscus.bl_idname, text="Meniscus surface (.mns)")
     self.layout.operator(IMPORT_SCENE_OT_meniscus_sequence.bl_idname, text="Meniscus sequence (.json)")
     self.layout.operator(IMPORT_SCENE_OT_meniscus_storyboard.bl_idname, text="Meniscus storyboard (.json)")
+    self.layout.operator("object.meniscus_from_scene", text="Meniscus scene (.json)")
 
 
 def object_menu_entry(self, context):
@@ -224,12 +217,12 @@ def register():
     bpy.types.TOPBAR_MT_file_import.append(menu_entry)
     bpy.types.VIEW3D_MT_object.append(object_menu_entry)
     sequence.register()
-    for module in (settings, computed, panel):
+    for module in (settings, computed, bake_run, scene_import, panel):
         module.register()
 
 
 def unregister():
-    for module in (panel, computed, settings):
+    for module in (panel, scene_import, bake_run, computed, settings):
         module.unregister()
     sequence.unregister()
     bpy.types.VIEW3D_MT_object.remove(object_menu_entry)

@@ -3,6 +3,8 @@
 
 import numpy as np
 
+from . import compat
+
 #: Types that can be carried: the field of a value, its columns, its numpy type.
 TYPES = {
     "FLOAT": ("value", 1, np.float32), "INT": ("value", 1, np.int32), "BOOLEAN": ("value", 1, bool),
@@ -14,6 +16,8 @@ DOMAINS = ("POINT", "FACE", "CORNER")
 KEYS = ("ses_atom", "atom_index")
 #: What Blender itself, or the import, keeps in attributes.
 BLENDERS = {"position", "material_index", "sharp_edge", "sharp_face", "custom_normal", "crease_edge", "crease_vert"}
+
+_of_user = {}  # identity of a mesh -> (whose atoms, the attributes of the user by atom)
 
 
 class Kept:
@@ -60,6 +64,24 @@ def keep(mesh, ours, older=()):
         known[atom] = True
         result.append(Kept(name, kind, domain, by_atom, known).with_older(before.get(name)))
     return result
+
+
+def keep_through(mesh, ours, source):
+    """The same of a mesh that shows one frame after the other of `source`: also the attributes of atoms that it does not show now."""
+    of, older = _of_user.get(compat.identity(mesh), (None, ()))
+    kept = keep(mesh, ours, older if of == source else ())
+    _of_user[compat.identity(mesh)] = source, kept
+    return kept
+
+
+def hand_on(mesh, other):
+    """Has another mesh keep what this one keeps."""
+    if compat.identity(mesh) in _of_user:
+        _of_user[compat.identity(other)] = _of_user[compat.identity(mesh)]
+
+
+def forget():
+    _of_user.clear()
 
 
 def give_back(mesh, kept, arrays):

@@ -2,6 +2,7 @@
 """Turns a checked surface into Blender data, completely or not at all: on an error everything is removed."""
 
 import contextlib
+import functools
 import math
 import os
 
@@ -55,6 +56,20 @@ def whole_or_nothing():
             for item in set(store) - kept:
                 store.remove(item)
         raise
+
+
+def tells_errors(execute):
+    """Has an operator report what a file or the engine says, and end as cancelled."""
+
+    @functools.wraps(execute)
+    def told(operator, context):
+        try:
+            return execute(operator, context)
+        except (mns_reader.MnsError, OSError) as error:
+            operator.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+
+    return told
 
 
 def import_file(path, context=None, **options):
@@ -197,9 +212,7 @@ def present(context, items):
         item.select_set(True)
         show_all_in_viewports(context, item)
     context.view_layer.objects.active = items[0]
-    for space in views_of(context):
-        if space.shading.color_type == "MATERIAL":
-            space.shading.color_type = "VERTEX"
+    compat.color_solid_views(context)
 
 
 def let_rays_through(scene, meshes):

@@ -253,6 +253,11 @@ def keeps_realized_normals():
     return bpy.app.version >= (4, 5, 0)
 
 
+def exports_by_mesh_name():
+    """Whether Alembic and USD make another mesh where the name of what an object shows changes."""
+    return bpy.app.version >= (5, 2, 0)
+
+
 def input_identifier(tree, name):
     """The key of an input in a modifier."""
     sockets = tree.interface.items_tree if hasattr(tree, "interface") else tree.inputs
@@ -278,6 +283,21 @@ def set_input(modifier, name, value):
         modifier[identifier] = value
 
 
+def input_path(modifier, name):
+    """The path of such an input from its object, as curves have it."""
+    identifier, modifiers = input_identifier(modifier.node_group, name), f'modifiers["{bpy.utils.escape_identifier(modifier.name)}"]'
+    return f"{modifiers}.properties.inputs.{identifier}.value" if hasattr(modifier, "properties") else f'{modifiers}["{identifier}"]'
+
+
+def move_first(item, modifier):
+    """Puts a modifier before all others of its object."""
+    if hasattr(item.modifiers, "move"):
+        item.modifiers.move(len(item.modifiers) - 1, 0)
+    elif len(item.modifiers) > 1:
+        with bpy.context.temp_override(object=item):
+            bpy.ops.object.modifier_move_to_index(modifier=modifier.name, index=0)
+
+
 def value_at(item, path, time):
     """A property at a moment of the scene: keyed by the object's action, or as it is. path: as curves have it, '["name"]'."""
     found = next((curve for curve in action_curves(item) if curve.data_path == path), None)
@@ -293,6 +313,17 @@ def action_curves(item):
         return animation.action.fcurves
     bags = [strip.channelbag(animation.action_slot) for layer in animation.action.layers for strip in layer.strips]
     return [curve for bag in bags if bag is not None for curve in bag.fcurves]
+
+
+def rename_curves(item, paths):
+    """Has what animates a property of an object animate another. paths: from old to new ones."""
+    animation = item.animation_data
+    if animation is None:
+        return
+    if animation.action is not None and animation.action.users > 1 and any(curve.data_path in paths for curve in action_curves(item)):
+        animation.action = animation.action.copy()
+    for curve in (*action_curves(item), *animation.drivers):
+        curve.data_path = paths.get(curve.data_path, curve.data_path)
 
 
 def frame_rate(fps):

@@ -169,12 +169,21 @@ def _take_frames(item, job):
     item["meniscus_frames"], item["meniscus_frames_of"] = job.result, job.key
 
 
+def count_frames(item):
+    """Has its run counted, if that is not known, and waits for it."""
+    if needs_frames(item):
+        _take_frames(item, _finished(_ask_for_frames(item)))
+
+
 def compute_now(item, time=None, in_motion=False):
     """The same, and waits for it. Raises MnsError or OSError, and leaves the mesh as it was."""
     working().drop(compat.identity(item))
-    if needs_frames(item):
-        _take_frames(item, _finished(_ask_for_frames(item)))
-    place = place_at(item, bpy.context.scene.frame_current_final if time is None else time)
+    count_frames(item)
+    show_place(item, place_at(item, bpy.context.scene.frame_current_final if time is None else time), in_motion)
+
+
+def show_place(item, place, in_motion=False):
+    """Computes what an object shows at a place of its run, None for nothing, and waits for it."""
     if place is None:
         empty(item)
         libraries.succeed(item)
@@ -287,13 +296,10 @@ def wait():
 
 # ---- time
 
-def _compute_ahead(item, time, in_motion):
-    """Has the next frames computed. Only for its own frames: where atoms that come from Blender will be is not known."""
+def compute_ahead(item, places, in_motion=False):
+    """Has frames of its run computed, and no others. Only its own frames: where atoms that come from Blender will be is not known."""
     wanted_keys = set()
-    for step in range(1, AHEAD + 1):
-        place = place_at(item, time + step)
-        if not place:
-            continue
+    for place in filter(None, places):
         wanted = Wanted(item, place, in_motion)
         wanted_keys.add(wanted.key)
         if wanted.key not in _awaited and wanted.key not in _kept:
@@ -321,7 +327,7 @@ def follow(scene):
             _wait_for_rest(item, in_motion)
             compute_now(item, time, in_motion)
             if frame_count(item) > 1:
-                _compute_ahead(item, time, in_motion)
+                compute_ahead(item, [place_at(item, time + step) for step in range(1, AHEAD + 1)], in_motion)
         except Exception as error:  # a handler that raises changes nothing: Blender goes on and renders
             empty(item)
             fail(item, error)

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""An object whose Geometry Nodes show the object of a collection that belongs to the scene's time. No script is
-needed."""
+"""The frames of a run as meshes of the file, of which an object's Geometry Nodes show that of the scene's time. No script is needed."""
 
 import bpy
 
@@ -15,18 +14,35 @@ TYPES = {START: "NodeSocketFloat", SPEED: "NodeSocketFloat", OUTSIDE: "NodeSocke
          FRAME: "NodeSocketFloat", OWN: "NodeSocketBool"}
 
 
-def add(name, collection, count, timing):
-    """An object that shows the n-th object of `collection`, by name, when a sequence_reader.Timing has place n of `count`."""
-    tree = bpy.data.node_groups.new(name + " by frame", "GeometryNodeTree")
-    values = {START: timing.start, SPEED: timing.speed, OUTSIDE: sequence_reader.OUTSIDE.index(timing.outside),
-              BY_HAND: False, FRAME: 1.0, OWN: True}
-    _fill(tree, collection, count, values)
-    item = bpy.data.objects.new(name, bpy.data.meshes.new(name))
-    modifier = item.modifiers.new("Frame", "NODES")
-    modifier.node_group = tree
-    for socket, value in values.items():
-        compat.set_input(modifier, socket, value)
-    return item
+class Frames:
+    """Meshes in the order of their frames, in a collection of no scene: what is hidden in one view layer shows in others."""
+
+    def __init__(self, stem):
+        self.stem, self.collection = stem[:40], bpy.data.collections.new(stem + ".frames")
+
+    def add(self, mesh):
+        # Geometry Nodes sort a collection by name; short names, since Blender cuts long ones.
+        mesh.name = f"{self.stem}.{len(self.collection.objects) + 1:07d}"
+        self.collection.objects.link(bpy.data.objects.new(mesh.name, mesh))
+
+    def remove(self):
+        for item in list(self.collection.objects):
+            bpy.data.meshes.remove(item.data)  # with the object
+        bpy.data.collections.remove(self.collection)
+
+    def show_in(self, item, timing, by_hand=False, frame=1.0):
+        """Has an object show the frame that a sequence_reader.Timing has at the scene's time, or `frame` by hand. Returns the modifier
+        that does so, the first of the object."""
+        tree = bpy.data.node_groups.new(item.name + " by frame", "GeometryNodeTree")
+        values = {START: timing.start, SPEED: timing.speed, OUTSIDE: sequence_reader.OUTSIDE.index(timing.outside),
+                  BY_HAND: by_hand, FRAME: frame, OWN: True}
+        _fill(tree, self.collection, len(self.collection.objects), values)
+        modifier = item.modifiers.new("Frame", "NODES")
+        modifier.node_group = tree
+        for socket, value in values.items():
+            compat.set_input(modifier, socket, value)
+        compat.move_first(item, modifier)
+        return modifier
 
 
 def _fill(tree, collection, count, values):
@@ -49,17 +65,32 @@ def _fill(tree, collection, count, values):
     tree.links.new(frames.outputs[0], show.inputs["Instance"])
     tree.links.new(index, show.inputs["Instance Index"])
     # Modifiers behind and exporters (Alembic, USD) see the object's own mesh, not its instances.
-    own = _realized(tree, show.outputs[0]) if compat.keeps_realized_normals() else _chosen(tree, collection, index, inside)
+    material = next((each for item in collection.objects for each in item.data.materials), None)
+    own = _realized(tree, show.outputs[0], material) if compat.keeps_realized_normals() else _chosen(tree, collection, index, inside)
     shown = compat.switch_geometry(tree, group_input.outputs[OWN], own, show.outputs[0])
     tree.links.new(shown, group_output.inputs[0])
     for column, node in enumerate(tree.nodes):
         node.location = (180 * (column // 3), -200 * (column % 3))
 
 
-def _realized(tree, instances):
-    node = tree.nodes.new("GeometryNodeRealizeInstances")
-    tree.links.new(instances, node.inputs[0])
-    return node.outputs[0]
+def _realized(tree, instances, material):
+    """The mesh of the frame that shows, by one name at all times: exporters of 5.2 make a mesh for each name, and that of a lone instance
+    is the frame's. So a face is joined to it that goes again; its material is one of the frame's, which needs no other slot."""
+    realize = tree.nodes.new("GeometryNodeRealizeInstances")
+    if not compat.exports_by_mesh_name():
+        tree.links.new(instances, realize.inputs[0])
+        return realize.outputs[0]
+    face, dressed, filled, both, rest = (tree.nodes.new("GeometryNode" + name) for name in (
+        "MeshGrid", "SetMaterial", "ReplaceMaterial", "JoinGeometry", "DeleteGeometry"))
+    face.inputs["Vertices X"].default_value = face.inputs["Vertices Y"].default_value = 2
+    dressed.inputs["Material"].default_value = filled.inputs["New"].default_value = material  # the former leaves an empty slot
+    rest.domain = "FACE"
+    for source, target in ((face, dressed), (dressed, filled), (filled, both), (both, realize), (realize, rest)):
+        tree.links.new(source.outputs[0], target.inputs[0])
+    tree.links.new(instances, both.inputs[0])  # after the face
+    is_first = compat.math_node(tree, "LESS_THAN", tree.nodes.new("GeometryNodeInputIndex").outputs[0], 0.5)
+    tree.links.new(is_first, rest.inputs["Selection"])
+    return rest.outputs[0]
 
 
 def _chosen(tree, collection, index, inside):

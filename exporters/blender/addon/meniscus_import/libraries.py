@@ -12,7 +12,7 @@ from . import compat, motion
 #: Of an object: what went wrong when it was last shown.
 ERROR = "meniscus_error"
 #: Where objects store paths: in custom properties, and in their settings.
-CUSTOM, SETTINGS = ("meniscus_file", "meniscus_sequence"), ("file", "trajectory")
+CUSTOM, SETTINGS = ("meniscus_file", "meniscus_sequence"), ("file", "trajectory", "numbers")
 #: The custom property beside each: the path as it is stored, and the absolute one that it stands for.
 AT = "meniscus_at_"
 #: Blender's options that render from the command line.

@@ -6,9 +6,9 @@ import os
 import bpy
 from bpy_extras.io_utils import ImportHelper
 
-from . import build, compat, computed, libraries, looks, mns_reader, molecular_nodes
+from . import bake_run, build, compat, computed, libraries, looks, mns_reader, molecular_nodes
 from .computing import preparation
-from .settings import DETAILS
+from .settings import DETAILS, OF_NUMBERS, OWN_COLORS
 
 
 def new_object(context, name, source, **values):
@@ -89,13 +89,10 @@ class OBJECT_OT_meniscus_from_atoms(Making, bpy.types.Operator):
     def poll(cls, context):
         return molecular_nodes.is_molecule(context.active_object)
 
+    @build.tells_errors
     def execute(self, context):
         atoms = context.active_object
-        try:
-            scale = molecular_nodes.scale_of(atoms)
-        except mns_reader.MnsError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        scale = molecular_nodes.scale_of(atoms)
         item = new_object(context, atoms.name + ".surface", "OBJECT", atoms=atoms, scale=scale, selection=self.selection, detail=self.detail)
         item.parent = atoms  # without the inverse: it stands where its atoms are
         computed.come_last()
@@ -114,14 +111,11 @@ class OBJECT_OT_meniscus_update(Waiting, bpy.types.Operator):
         item = context.active_object
         return computed.is_computed(item) and item.mode == "OBJECT"
 
+    @build.tells_errors
     def execute(self, context):
         item = context.active_object
-        try:
-            if not computed.working().told()["library"]:
-                computed.look_for_tools()
-        except mns_reader.MnsError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        if not computed.working().told()["library"]:
+            computed.look_for_tools()
         libraries.own_mesh(item, lambda _other: True)[computed.SHOWN] = ""
         return start(self, item)
 
@@ -163,17 +157,13 @@ class OBJECT_OT_meniscus_look(bpy.types.Operator):
     def poll(cls, context):
         return is_surface(context.active_object) and context.active_object.data.library is None
 
+    @build.tells_errors
     def execute(self, context):
         item = context.active_object
         name = looks.ATTRIBUTES[self.coloring]
         if name not in item.data.attributes:
-            self.report({"ERROR"}, f"{item.name} has no attribute {name}")
-            return {"CANCELLED"}
-        try:
-            looks.dress(item, self.look, self.coloring)
-        except mns_reader.MnsError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+            raise mns_reader.MnsError(f"{item.name} has no attribute {name}")
+        looks.dress(item, self.look, self.coloring)
         if self.lines:
             looks.add_lines(context, item)
         return {"FINISHED"}
@@ -206,13 +196,16 @@ class VIEW3D_PT_meniscus(InSidebar, bpy.types.Panel):
         column = layout.column(align=True)
         column.operator("object.meniscus_from_file", icon="FILE_FOLDER")
         column.operator("object.meniscus_from_atoms", icon="OUTLINER_OB_POINTCLOUD")
+        column.operator("object.meniscus_from_scene", icon="SCENE_DATA")
         if item is not None and item.library is not None and is_surface(item):
             layout.label(text="Linked: stays as it was saved", icon="LINKED")
         if not computed.is_computed(item):
             self.draw_error(item)
+            bake_run.draw(layout, context)
             return
         layout.use_property_split, layout.use_property_decorate = True, False
         self.draw_state(item)
+        bake_run.draw(layout, context)
         self.draw_request(item)
 
     def draw_error(self, item):
@@ -239,6 +232,10 @@ class VIEW3D_PT_meniscus(InSidebar, bpy.types.Panel):
             layout.prop(settings, "file")
             layout.prop(settings, "selection")
             layout.prop(settings, "color")
+            if settings.color == OWN_COLORS:
+                layout.prop(settings, "colors")
+            if settings.color in (*OF_NUMBERS, OWN_COLORS):
+                layout.prop(settings, "numbers")
         else:
             layout.prop(settings, "atoms")
             if settings.atoms is not None:

@@ -188,28 +188,28 @@ def bake(path, context=None, progress=None, **options):
     camera = None
     try:
         with build.whole_or_nothing():
-            store = bpy.data.collections.new(sequence.stem + ".frames")
+            store = frame_picker.Frames(sequence.stem)
             collection = bpy.data.collections.new(sequence.stem)
             if run.import_camera:
                 camera = add_camera(collection, placement)
             for scene_frame in range(1, len(sequence.frames) + 1):
-                # Geometry Nodes sort a collection by name; short names, since Blender cuts long ones.
-                mesh = bpy.data.meshes.new(f"{sequence.stem[:40]}.{scene_frame:07d}")
-                store.objects.link(bpy.data.objects.new(mesh.name, mesh))
-                if scene_frame < len(sequence.frames):
-                    _ahead.ask(placement, scene_frame + 1)
+                mesh = bpy.data.meshes.new(sequence.stem)
+                read_ahead(placement, scene_frame + 1)
                 prepared = placement.refill(mesh, scene_frame)
+                store.add(mesh)
                 if camera is not None:
                     build.reach_all(camera, prepared.points, placement.scale, placement.origin)
                 if progress:
                     progress(scene_frame, len(sequence.frames))
-            item = frame_picker.add(sequence.stem + ".surface", store, len(sequence.frames), placement.timing)
+            name = sequence.stem + ".surface"
+            item = bpy.data.objects.new(name, bpy.data.meshes.new(name))
+            store.show_in(item, placement.timing)
             remember(item, placement)
             collection.objects.link(item)
     finally:
         _ahead.forget()
-    context.scene.collection.children.link(collection)  # without the store: what is hidden in one view layer shows in others
-    run.finish(context, item, camera, [each.data for each in store.objects])
+    context.scene.collection.children.link(collection)
+    run.finish(context, item, camera, [each.data for each in store.collection.objects])
     return item
 
 
@@ -245,7 +245,6 @@ def stream(path, context=None, **options):
 
 
 _manifests = frames.Manifests()
-_kept = {}  # identity of a mesh -> (run, attributes of the user by atom)
 
 
 def placement_of(item, scene):
@@ -285,6 +284,22 @@ def shows(item, scene):
     return placement, scene_frame, (shown_key(placement.sequence, scene_frame), placement.scale, *placement.origin, placement.crisp_colors)
 
 
+def show_place(item, placement, scene_frame):
+    """Fills the mesh of an object with a frame of its run, None for nothing; attributes of the user go with their atoms."""
+    kept = attributes.keep_through(item.data, build.OURS, placement.sequence.run)
+    if scene_frame is None:
+        build.clear_geometry(item.data)
+    else:
+        placement.refill(item.data, scene_frame, kept)
+        build.set_names(item, placement.names)
+
+
+def read_ahead(placement, scene_frame):
+    """Has a frame of a run read by the other process, if there is such a frame."""
+    if scene_frame is not None and scene_frame <= len(placement.sequence.frames):
+        _ahead.ask(placement, scene_frame)
+
+
 def refresh(item, scene):
     gone = libraries.gone(item, "meniscus_sequence")
     if gone:
@@ -298,17 +313,10 @@ def refresh(item, scene):
             return
         mesh = libraries.own_mesh(item, lambda other: not other.get("meniscus_stream") or shows(other, scene)[2] == key)
         mesh["meniscus_shown"] = ""
-        run, older = _kept.get(compat.identity(mesh), ("", ()))
-        kept = attributes.keep(mesh, build.OURS, older if run == placement.sequence.run else ())
-        _kept[compat.identity(mesh)] = (placement.sequence.run, kept)
-        if scene_frame is None:  # outside of the run there is nothing to see
-            build.clear_geometry(mesh)
-        else:
-            placement.refill(mesh, scene_frame, kept)
-            build.set_names(item, placement.names)
-            after = place_at(item, placement, scene.frame_current_final + 1.0)
-            if after not in (None, scene_frame):
-                _ahead.ask(placement, after)
+        show_place(item, placement, scene_frame)
+        after = place_at(item, placement, scene.frame_current_final + 1.0)
+        if scene_frame is not None and after != scene_frame:
+            read_ahead(placement, after)
         mesh["meniscus_shown"] = key[0]
         libraries.succeed(item)
     except Exception as error:  # a handler that raises changes nothing: Blender goes on and renders
@@ -334,5 +342,4 @@ def unregister():
     if on_frame_change in bpy.app.handlers.frame_change_pre:
         bpy.app.handlers.frame_change_pre.remove(on_frame_change)
     _manifests.clear()
-    _kept.clear()
     _ahead.forget()

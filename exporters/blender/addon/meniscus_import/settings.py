@@ -1,18 +1,29 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The settings of a computed surface, stored in its object, and where the add-on finds the engine."""
 
+import zlib
+
 import bpy
 
 from . import libraries, sequence_reader
-from .computing import preparation, request
+from .computing import preparation, preparation_table, request
 
-#: Of what the program colours by; more on its command line.
-COLORS = (
+#: The first colours keep their places, which are in files of 0.2.0.
+_FIRST_COLORS = (
     ("element", "Element", "Chemical element, in pale colours"), ("element-cpk", "Element (CPK)", "In the colours of models"),
     ("chain", "Chain", "Chains in order of appearance"), ("residue", "Residue", "Residue type"),
     ("bfactor", "B-factor", "B-factor; viridis, smallest to largest"), ("occupancy", "Occupancy", "Occupancy; viridis"),
     ("hydrophobicity", "Hydrophobicity", "Hydropathy of the amino acid"), ("charge", "Charge", "Partial charge, of PQR files"),
     ("radial", "Radial", "Distance from the middle"), ("kind", "Patch", "Kind of patch: convex, toroidal, concave"))
+#: Colours as the user writes them.
+OWN_COLORS = "own"
+#: What the program colours by. Numbers of the others come from their words, since the list may grow.
+COLORS = (*((*row, "", place) for place, row in enumerate(_FIRST_COLORS)),
+          *((word, word.replace("-", " ").capitalize(), "The program meniscus computes it" if of_more else "", "", 1000 + zlib.crc32(word.encode()) % 10**6)
+            for word, of_more in preparation_table.SCHEMES if word not in {row[0] for row in _FIRST_COLORS}),
+          (OWN_COLORS, "As written", "The colours below", "", 999))
+#: Schemes of numbers that a file has.
+OF_NUMBERS = ("file", "conservation")
 
 #: Their numbers are in files of 0.2.0.
 DETAILS = (("AUTO", "Fine at rest", "A proxy while sliders move and while the timeline plays, else a fine mesh", "", 2),
@@ -82,6 +93,11 @@ class MeniscusSettings(bpy.types.PropertyGroup):
         name="Probe", description="Radius of the probe in Å; 1.4 is water", default=1.4, min=0.0, max=100.0, soft_min=0.5, soft_max=5.0,
         step=5, precision=2, update=on_change)
     color: bpy.props.EnumProperty(name="Colour", default="element", items=COLORS, update=on_change)
+    colors: bpy.props.StringProperty(
+        name="Colours", description="Schemes, colours (red, #rrggbb) and EXPR=COLOR with semicolons between them, such as "
+        "chain; resid 25=red. The last one counts", update=on_change)
+    numbers: bpy.props.StringProperty(name="Numbers", description="A file with a number for each residue or atom: CSV, ConSurf, JSON, ...",
+                                      subtype="FILE_PATH", update=on_change)
     detail: bpy.props.EnumProperty(name="Detail", default="AUTO", items=DETAILS, update=on_change)
     density: bpy.props.FloatProperty(
         name="Density", description="Vertices per Å² of a proxy; 1 shows atoms, 0.1 makes about a triangle an atom", default=1.0, min=0.005, max=1000.0,
@@ -123,6 +139,9 @@ class MeniscusSettings(bpy.types.PropertyGroup):
         """All values that say which surfaces show when, to be compared."""
         return [getattr(self, name) for name in type(self).__annotations__ if name not in APART]
 
+    def written_color(self):
+        return self.colors if self.color == OWN_COLORS else self.color
+
     def timing(self):
         return sequence_reader.Timing(self.start, self.speed, self.outside)
 
@@ -138,7 +157,8 @@ class MeniscusSettings(bpy.types.PropertyGroup):
             trajectory=libraries.path_of(self.id_data, "trajectory") if of_file and self.is_run else "",
             frames=self.frames if of_file and self.is_run else "",
             trajectory_atoms=self.trajectory_atoms if of_file and self.is_run else "", preparation=self.preparation(), selection=self.selection,
-            color=self.color if of_file else "", place=place, kind=self.kind, probe=short(self.probe),
+            color=self.written_color() if of_file else "",
+            numbers=libraries.path_of(self.id_data, "numbers") if of_file and self.color in (*OF_NUMBERS, OWN_COLORS) else "", place=place, kind=self.kind, probe=short(self.probe),
             tolerance=short(self.tolerance), density=short(self.density) if self.has_proxy(in_motion) else 0.0, cavities=self.cavities)
 
 

@@ -16,7 +16,6 @@ KEPT_BYTES = 1 << 28
 
 _kept = {}  # key -> Shown or None, the oldest first
 _vertices = {}  # identity of a mesh -> how many it had when it was last watched
-_of_user = {}  # identity of a mesh -> (whose atoms, attributes of the user by atom)
 
 
 class Shown:
@@ -122,13 +121,10 @@ def _fill(item, key, shown):
 
 
 def _keep_of_user(item, shown):
-    """Attributes that the user gave to the mesh, also those of atoms that it does not show now."""
-    mesh, settings = item.data, item.meniscus
+    """Attributes that the user gave to the mesh."""
+    settings = item.meniscus
     source = settings.file if settings.source == "FILE" else settings.atoms and settings.atoms.name
-    of, older = _of_user.get(compat.identity(mesh), (None, ()))
-    kept = attributes.keep(mesh, build.OURS | shown.others, older if of == source else ())
-    _of_user[compat.identity(mesh)] = source, kept
-    return kept
+    return attributes.keep_through(item.data, build.OURS | shown.others, source)
 
 
 def place(item, shown):
@@ -170,5 +166,6 @@ def keep(key, shown):
 
 
 def forget():
-    for memory in (_kept, _of_user, _vertices):
+    for memory in (_kept, _vertices):
         memory.clear()
+    attributes.forget()

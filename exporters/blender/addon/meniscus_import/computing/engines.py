@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The engines that compute surfaces: libmeniscus through its Python package, or the program meniscus."""
 
+import dataclasses
 import importlib
 import importlib.util
 import os
@@ -164,6 +165,8 @@ def surface_by_program(tools, request, folder, task):
 
 def read_atoms(tools, request, folder, task):
     """The atoms.AtomFile of a request about a file, of all frames of its run if it has a place there. Read once."""
+    if request.needs_program():  # whose colours are those of a surface
+        request = dataclasses.replace(request, color="element", numbers="")
     key = (request.atoms_key(), request.place > 0)
     with _reading:
         if key not in _files:
@@ -217,7 +220,9 @@ def _said_by(library, work, *arguments):
 
 
 def _about_atoms(request):
-    words = [f"--color={request.color}"]
+    words = [f"--color={color}" for color in request.colors()]
+    if request.numbers:
+        words.append(f"--color-by-file={request.numbers}")
     if request.selection:
         words.append(f"--select={request.selection}")
     return words + preparation.program_words(request.preparation, False)
@@ -267,6 +272,9 @@ def _all_of_it(tools, request, atoms, folder, task):
     if tools.library is None:
         if atoms is not None:
             raise EngineError(f"atoms of Blender need libmeniscus: {tools.missing}")
+        return surface_by_program(tools, request, folder, task)
+    if atoms is None and request.needs_program():
+        tools.needed_program(f"the colour {request.color}")
         return surface_by_program(tools, request, folder, task)
     if atoms is None:
         file = read_atoms(tools, request, folder, task)

@@ -29,3 +29,10 @@ ROWS = (
     Row('frames.smooth', 'count', (), '1', 1, 9999,
         'Average positions over N frames around each frame; N is odd'),
 )
+
+#: Colour schemes, and whether they need more than the atoms of a file.
+SCHEMES = (
+    ('element', False), ('chain', False), ('copy', False), ('model', False), ('residue', False), ('kind', True), ('component', True),
+    ('bfactor', False), ('occupancy', False), ('charge', False), ('hydrophobicity', False), ('element-cpk', False), ('index', False),
+    ('radial', False), ('secondary', False), ('rainbow', False), ('plddt', False), ('snfg', False), ('bead', False), ('buried', True),
+    ('lipophilicity', True), ('relative-accessibility', True), ('rmsf', True), ('file', True), ('conservation', True))

@@ -10,7 +10,7 @@ from . import preparation
 FIELDS = {
     "--select": "Selection", "--color": "Colour", "--surface": "Surface", "--probe": "Probe", "--tolerance": "Tolerance",
     "--density": "Density", "--trajectory": "Trajectory", "--trajectory-atoms": "Trajectory's atoms", "--frames": "Frames",
-    "--cavities": "Cavities", **{preparation.option_of(row): preparation.label_of(row) for row in preparation.ROWS},
+    "--cavities": "Cavities", "--color-by-file": "Numbers", **{preparation.option_of(row): preparation.label_of(row) for row in preparation.ROWS},
 }
 #: Options as libmeniscus spells them.
 OF_LIBRARY = re.compile(r"\A(?:select|%s)(?=: )|\b(?:keep_water|keep_ions|unknown_element)\b" %
