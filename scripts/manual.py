@@ -22,7 +22,7 @@ GUESTS = {"exporters/povray/README.md": "reference/povray-scene.md", "exporters/
 TOXIN = pathlib.Path("/usr/share/pymol/data/demo/1tii.pdb")
 SHELVES = ["tutorials", "how-to", "gallery", "reference", "explanation", "validation"]
 COMMANDS = ["surface", "pockets", "render", "preview", "export povray", "export blender", "export mitsuba", "export pbrt",
-            "export mesh", "export atoms", "farm bundle", "farm status", "farm log", "farm verify", "work", "info", "bench"]
+            "export mesh", "export atoms", "farm bundle", "farm verify", "work", "info", "bench"]
 CONFIG = """site_name: Meniscus
 docs_dir: pages
 use_directory_urls: false

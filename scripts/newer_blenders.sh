@@ -3,7 +3,7 @@
 # environment below build/blenders (1.6 GB each, kept), with the Molecular Nodes that belongs to it. Its Python is the system's or
 # pyenv's where they have it, else uv fetches it. libmeniscus is taken from the program's build. The extension is made of the wheel
 # for linux-x64 in the folder MENISCUS_WHEELS, or of one of that libmeniscus, and used in an empty profile. The last line says
-# "cases N failures M"; before it is a table in Markdown.
+# "cases N failures M"; before it is a table in Markdown. Exit code 77: a Blender or its Python cannot be fetched.
 #
 #   scripts/newer_blenders.sh PROGRAM [VERSION...]     versions: 4.2 4.5 5.0 5.1 5.2 5.3 by default; newest: the registry's
 #   MENISCUS_INSIDE="inside_blender inside_shot" ...   these scripts alone
@@ -18,14 +18,16 @@ declare -A molecular_nodes=([4.2]="4.2.12 databpy==0.0.14" [4.5]=4.5.11 [5.0]=4.
 tests=$PWD/tests/export/blender
 addon=$PWD/exporters/blender/addon
 export MENISCUS_LIBRARY=${program%/*}/exporters/bindings/c/libmeniscus.so MENISCUS_PACKAGE=$PWD/exporters/bindings/python/meniscus
+unless_fetched() { "$@" || { echo "cannot be fetched: $*" >&2; exit 77; }; }
 # The libraries of USD and Alembic, which read what Blender writes.
 export MENISCUS_READERS=$PWD/build/blenders/readers/bin/python
 if [[ ! -x ${MENISCUS_READERS%/*}/uv ]]; then
   /usr/bin/python3 -m venv build/blenders/readers
-  "$MENISCUS_READERS" -m pip install -q --disable-pip-version-check numpy usd-core==26.11 alembic3d==1.8.12.1 uv
+  unless_fetched "$MENISCUS_READERS" -m pip install -q --disable-pip-version-check numpy usd-core==26.11 alembic3d==1.8.12.1 uv
 fi
 if [[ ${versions[0]} == newest ]]; then
   versions=("$("$MENISCUS_READERS" -m pip index versions bpy --python-version 3.13 --only-binary :all: 2>/dev/null | sed -nE '1s/.*\(([0-9]+\.[0-9]+).*/\1/p')")
+  unless_fetched test "${versions[0]}"
 fi
 cases=0
 failures=0
@@ -53,11 +55,11 @@ for version in "${versions[@]}"; do
   if [[ ! -x $home/blender ]]; then
     rm -rf "$home"
     case $version in 4.* | 5.0) python=3.11 ;; *) python=3.13 ;; esac
-    PATH=$PATH$(printf ':%s' "$HOME"/.pyenv/versions/"$python"*/bin) "${MENISCUS_READERS%/*}/uv" venv -q --seed --python "$python" "$home"
+    PATH=$PATH$(printf ':%s' "$HOME"/.pyenv/versions/"$python"*/bin) unless_fetched "${MENISCUS_READERS%/*}/uv" venv -q --seed --python "$python" "$home"
     packages=("bpy==$version.*")
     # shellcheck disable=SC2206  # several words are several packages
     [[ ${molecular_nodes[$version]:-} ]] && packages+=(molecularnodes==${molecular_nodes[$version]})
-    "$home/bin/pip" install --quiet --no-compile --disable-pip-version-check "${packages[@]}"
+    unless_fetched "$home/bin/pip" install --quiet --no-compile --disable-pip-version-check "${packages[@]}"
     printf '#!/bin/sh\nexec "%s/bin/python" "%s/bpy_as_blender.py" "$@"\n' "$home" "$tests" >"$home/blender"
     chmod +x "$home/blender"
   fi

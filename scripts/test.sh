@@ -46,7 +46,9 @@ bash scripts/lint.sh || failed+=("clang-tidy")
 
 step "8/8 the add-on in the newest Blender"
 if [[ $(uname -m) == x86_64 ]]; then  # PyPI has no other
-  MENISCUS_INSIDE="inside_baked inside_blender inside_handed_on inside_sequence inside_shot" scripts/newer_blenders.sh "$build/meniscus" newest || failed+=("newest Blender")
+  MENISCUS_INSIDE="inside_baked inside_blender inside_handed_on inside_sequence inside_shot" \
+    bash scripts/newer_blenders.sh "$build/meniscus" newest && newest=0 || newest=$?
+  ((newest == 0 || newest == 77)) || failed+=("newest Blender")  # 77: no registry
 fi
 
 step "what was tried"

@@ -19,11 +19,6 @@ std::vector<Command>& registered_exporters() {
 
 constexpr Command kFarmCommands[] = {
     {"bundle", "Make a folder of frames to render that any machine can work on", add_farm_bundle},
-    {"status", "Show the progress of a bundle, the time left and the last failure", add_farm_status},
-    {"log", "Show what happened to a frame, which machine made it, and the output of its programs", add_farm_log},
-    {"pause", "Let the workers of a bundle wait", add_farm_pause},
-    {"resume", "Let the workers of a bundle go on", add_farm_resume},
-    {"merge", "Take over what was made in copies of a bundle, on machines that share no folder", add_farm_merge},
     {"verify", "Check that every frame is complete, of the right size and not blank; then make the film",
      add_farm_verify},
 };
@@ -37,8 +32,8 @@ constexpr Command kCommands[] = {
     {"preview", "Show the surface in a window or a browser, and change it", add_preview},
     {"morph", "Make a path from one structure to another, as models of a PDB file", add_morph},
     {"export", "Write the surface for another program", add_export, "Formats", exporters},
-    {"farm", "Make films on many machines: make, Slurm, OpenJD, Flamenco, OpenCue", add_farm, "Commands",
-     [] { return std::span<const Command>(kFarmCommands); }},
+    {"farm", "Make films on many machines: make, Slurm, Snakemake, OpenJD, Kubernetes, Flamenco, OpenCue", add_farm,
+     "Commands", [] { return std::span<const Command>(kFarmCommands); }},
     {"work", "Make the missing frames of a bundle, or a chunk of them (see meniscus farm)", add_work},
     {"info", "Show what a file contains: models, chains, classes, extent, and the radius of each class of atoms",
      add_info},

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "app/farm/check_bundle.h"
+#include "app/farm/bundle.h"
 #include "app/options/property_options.h"
 #include "app/options/usage_faults.h"
 #include "app/process/program_error.h"
@@ -45,7 +45,7 @@ Parts parts_of(const Words& words) {
     throw UsageError(fmt::format("name FILE directly after {}, then options; standard input cannot be bundled",
                                  fmt::join(parts.command, " ")));
   if (second != words.end()) parts.renderer.assign(second + 1, words.end());
-  if (!parts.renderer.empty() && steps.back().maker == Maker::meniscus)
+  if (!parts.renderer.empty() && (words.front() == "render" || steps.size() == 1))
     throw UsageError(fmt::format("no renderer is started for {}; leave out what follows the second --",
                                  fmt::join(parts.command, " ")));
   return parts;

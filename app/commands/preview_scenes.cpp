@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/preview_command.h"
-#include "app/farm/child_process.h"
+#include "app/process/child_process.h"
 #include "app/options/scene_words.h"
 #include "app/process/stop_signals.h"
 #include "core/base/error.h"
@@ -100,8 +100,8 @@ void make_film(Scene scene, const ExportTarget& target, const ExportWatch& watch
   words.front() = system_file::program().string();
   words.insert(words.end(), {"-q", "--progress", "json"});
   if (target.existing == Existing::replace) words.emplace_back("--force");
-  const StopHandler handler([] { farm::stop_children(); }, std::nullopt);
-  farm::ChildProcess child(words, ".");
+  const StopHandler handler([] { stop_children(); }, std::nullopt);
+  ChildProcess child(words, ".");
   std::uint64_t frames = 0, done = 0;
   std::string fault = "the film was not made";
   try {

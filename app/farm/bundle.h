@@ -6,35 +6,33 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/film/film_format.h"
 
 namespace meniscus::farm {
 
-inline constexpr int kLargestSide = 65'535;                 ///< of a picture, in pixels
-inline constexpr std::int64_t kMostPixels = 1'000'000'000;  ///< of a picture
+/// One kind of work on every frame. A picture of a renderer needs the scene of the same frame, nothing else.
+enum class Step {
+  surface,  ///< scenes for a renderer, by this program
+  render    ///< pictures
+};
+
+std::string_view word_of(Step step);
 
 /// What makes the frames of a step.
 enum class Maker {
-  meniscus,  ///< this program: pictures, scenes, geometry
+  meniscus,  ///< this program
   povray,    ///< one process a frame
   blender    ///< one process for many frames
 };
 
-/// One kind of work on every frame. A frame of a step needs the same frame of the step before, nothing else.
-struct Step {
-  std::string name;  ///< "surface", "render"
-  Maker maker = Maker::meniscus;
-  std::vector<std::string> arguments;  ///< more of them: devices of this program, POV-Ray's, those of Blender's driver
-};
-
-/// A file the command reads: in the bundle, or elsewhere.
+/// A file that the command reads.
 struct Input {
-  std::string path;  ///< relative to the bundle
+  std::string path;  ///< relative to the bundle; absolute if the bundle only refers to it
   std::uint64_t bytes = 0;
   std::string sha256;
-  std::string source = {};  ///< by reference: where it is if it is not in the bundle; an absolute path of plain names
 };
 
 /// The film that `farm verify` makes of the pictures.
@@ -46,10 +44,10 @@ struct Film {
 
 /// How the run is cut into tasks, and what each needs: as asked for, and as decided.
 struct Chunking {
-  std::optional<std::uint64_t> asked_frames;  ///< a task; else by time
-  double asked_minutes = 5.0;                 ///< a task
-  std::optional<double> seconds_per_frame;    ///< of the slowest step, measured when the bundle was made
-  std::uint64_t count = 1;                    ///< tasks of each step
+  std::optional<std::uint64_t> asked_frames;  ///< of a task; else the time decides
+  double asked_minutes = 5.0;                 ///< of a task
+  std::optional<double> seconds_per_frame;    ///< of the trial frame, in all steps
+  std::uint64_t count = 1;                    ///< tasks
   std::uint64_t cores = 2;                    ///< of a task
   std::optional<std::uint64_t> asked_memory;  ///< of a task, in MiB
   std::optional<std::uint64_t> peak_memory;   ///< of the largest process of the trial frame, in MiB
@@ -58,59 +56,48 @@ struct Chunking {
   std::uint64_t wanted_count(std::uint64_t frame_count) const;
   /// Decides `count` for so many frames: what is wanted, at most 1000, for queues take arrays of 1000 by default.
   void decide(std::uint64_t frame_count);
-
   /// Memory that a task should be given, in MiB: what was asked for; else half as much again as was measured, for other
   /// frames may need more, and something for the worker itself. Nothing if neither is known.
   std::optional<std::uint64_t> memory() const;
 };
 
-/// How often a frame that fails is tried.
-struct Tries {
-  static constexpr std::uint64_t kMost = 100;
-  static constexpr double kShortestWait = 0.1, kLongestWait = 3600.0;  ///< seconds
-
-  std::uint64_t most = 1;      ///< after so many failed ones it has failed
-  double wait_seconds = 10.0;  ///< before the second; doubled before each further one, up to kLongestWait
-
-  /// Seconds before the next, after so many failed ones; nothing if it was the last.
-  std::optional<double> wait_after(std::uint64_t failed) const;
-};
-
-/// Everything a worker needs to know. Nothing in it depends on time, machine or user, but what was measured
-/// and follows of it.
+/// Everything a worker needs to know. Nothing in it depends on time, machine or user, but what was measured and
+/// follows from it.
 struct Bundle {
   std::string program_version;        ///< with its commit (app/process/this_program.h)
-  std::vector<std::string> command;   ///< of the program, as {"render", "inputs/a.pdb", ...}; paths are relative
+  std::vector<std::string> command;   ///< {"render", "inputs/a.pdb", ...}: as this program is run in the bundle
+  std::vector<std::string> device;    ///< options that say where this program computes
+  std::vector<std::string> renderer;  ///< options of POV-Ray or of Blender's driver
   std::vector<std::uint64_t> frames;  ///< of the run, by their numbers in the trajectory
-  std::vector<Step> steps;            ///< in order
   std::vector<Input> inputs;
   int width = 0, height = 0;  ///< of the pictures, in pixels
   std::optional<Film> film;
   Chunking chunking;
-  Tries tries;  ///< unless the worker is told otherwise
 
-  /// Of what decides how a frame looks. Work done for another bundle never counts for this one.
-  std::string fingerprint() const;
-  /// Place of a frame in the run, from 0. Throws RequestError if it is not in it.
-  std::size_t place_of(std::uint64_t frame) const;
-  const Step* step(const std::string& name) const;  ///< nullptr: there is none
-  /// Whether the last step makes pictures; else scenes for a renderer that is not a step.
-  bool makes_pictures() const { return step("render") != nullptr; }
+  /// In order. The last one makes what the bundle is for.
+  std::vector<Step> steps() const;
+  Maker maker(Step step) const;
+  /// Where the results of a step lie in the bundle, with ##### for the number of the frame. That file is the last of
+  /// its frame to appear.
+  std::string result_pattern(Step step) const;
 };
+
+/// The steps of {"render", ...} or {"export", "povray", ...}. Throws RequestError for a command that cannot be bundled.
+std::vector<Step> steps_of(const std::vector<std::string>& command);
 
 /// Part K of N of the run, K from 1: frames that follow each other in it, sizes differing by one at most.
 std::vector<std::uint64_t> chunk_of(const Bundle& bundle, std::uint64_t k, std::uint64_t n);
 
-/// "00042": as frames are numbered in names of files.
-std::string frame_digits(std::uint64_t frame);
+/// The pattern with the frame's number, of five digits or more, instead of #####.
+std::string numbered(std::string_view pattern, std::uint64_t frame);
 
 /// The text of bundle.json, with a line end.
 std::string bundle_json(const Bundle& bundle);
 
-/// Understands that text. Throws RequestError: damaged, or of another schema.
-Bundle parse_bundle(const std::string& text);
-
 /// Whether both are the same but for what was measured.
 bool same_but_for_measurement(const Bundle& a, const Bundle& b);
+
+/// Reads DIR/bundle.json. Throws InputError: missing, damaged, or of another schema.
+Bundle read_bundle(const std::filesystem::path& folder);
 
 }  // namespace meniscus::farm

@@ -4,15 +4,15 @@
 
 #include <algorithm>
 #include <fstream>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "app/farm/checksum.h"
-#include "app/farm/child_process.h"
-#include "app/farm/inner_path.h"
+#include "app/process/child_process.h"
 #include "core/base/error.h"
 #include "core/base/output_file.h"
-#include "core/base/text.h"
 
 namespace meniscus::farm {
 namespace {
@@ -21,23 +21,19 @@ namespace fs = std::filesystem;
 
 // The end of a name tells its format, so it is kept; a leading dot or dash would hide or mislead.
 std::string plain(std::string name) {
-  const auto fine = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '_' ||
-           c == '-';
-  };
-  std::ranges::replace_if(
-      name, [&](char c) { return !fine(c); }, '_');
-  if (name.starts_with('.') || name.starts_with('-')) name.front() = '_';
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-";
   constexpr std::size_t kLongest = 100;
+  std::ranges::replace_if(
+      name, [&](char c) { return kPlain.find(c) == std::string_view::npos; }, '_');
+  if (name.starts_with('.') || name.starts_with('-')) name.front() = '_';
   return name.size() > kLongest ? name.substr(name.size() - kLongest) : name;
 }
 
 /// Copies a file by our own writes, which name a full disk.
 void copy(const fs::path& source, OutputFile& file) {
-  constexpr std::size_t kPiece = std::size_t{1} << 20;
-  std::string piece(kPiece, '\0');
+  std::string piece(std::size_t{1} << 20, '\0');
   std::ifstream stream(source, std::ios::binary);
-  while (stream.read(piece.data(), kPiece) || stream.gcount() > 0)
+  while (stream.read(piece.data(), std::ssize(piece)) || stream.gcount() > 0)
     file.write(std::string_view(piece.data(), static_cast<std::size_t>(stream.gcount())));
   if (!stream.eof()) throw InputError(source.string(), 0, "cannot be read");
 }
@@ -50,9 +46,10 @@ std::string BundleInputs::add_file(const fs::path& source) {
   if (error) throw InputError(source.string(), 0, fmt::format("cannot be bundled: {}", error.message()));
   if (!fs::is_regular_file(path)) throw InputError(source.string(), 0, "is not a regular file and cannot be bundled");
   for (const Item& item : items_)
-    if (item.source == path) return item.inside;
-  items_.push_back({"inputs/" + unique(plain(source.filename().string())), path, {}, true});
-  return items_.back().inside;
+    if (item.source == path) return item.path;
+  const std::string inside = by_reference_ ? path.string() : "inputs/" + unique(plain(source.filename().string()));
+  items_.push_back({inside, path, {}, true});
+  return inside;
 }
 
 std::string BundleInputs::unique(const std::string& name) {
@@ -61,34 +58,20 @@ std::string BundleInputs::unique(const std::string& name) {
   return result;
 }
 
-std::string BundleInputs::add_file_as(const std::string& name, const fs::path& source) {
-  names_.insert(name);
+void BundleInputs::add_own_file(const std::string& name, const fs::path& source) {
   items_.push_back({"inputs/" + name, fs::absolute(source), {}});
-  return items_.back().inside;
 }
 
 std::string BundleInputs::add_text(const std::string& name, std::string text) {
   items_.push_back({"inputs/" + unique(name), {}, std::move(text)});
-  return items_.back().inside;
+  return items_.back().path;
 }
 
-std::vector<Input> BundleInputs::measured(InputTransfer how) const {
+std::vector<Input> BundleInputs::measured() const {
   std::vector<Input> inputs;
-  for (const Item& item : items_) {
-    if (item.source.empty()) {
-      inputs.push_back({item.inside, item.text.size(), sha256(item.text), {}});
-    } else {
-      const std::string sum = sha256_of_file(item.source);
-      inputs.push_back({item.inside, fs::file_size(item.source), sum, {}});
-      if (how != InputTransfer::reference || !item.is_users) continue;
-      inputs.back().source = item.source.string();
-      if (!is_plain_absolute_path(inputs.back().source))
-        throw RequestError(
-            fmt::format("--by-reference: {} has other characters than letters, digits, '.', '_' and '-', or a hidden "
-                        "folder; leave the option out to copy the file",
-                        in_quotes(inputs.back().source)));
-    }
-  }
+  for (const Item& item : items_)
+    inputs.push_back(item.source.empty() ? Input{item.path, item.text.size(), sha256(item.text)}
+                                         : Input{item.path, fs::file_size(item.source), sha256_of_file(item.source)});
   return inputs;
 }
 
@@ -103,25 +86,16 @@ void BundleInputs::refuse_within(const fs::path& folder) const {
   }
 }
 
-void BundleInputs::transfer(const fs::path& folder, InputTransfer how) const {
+void BundleInputs::copy_to(const fs::path& folder) const {
   for (const Item& item : items_) {
+    if (by_reference_ && item.is_users) continue;
     const StopBarrier barrier;
-    const fs::path target = folder / item.inside;
-    make_folders_of(target);
-    if (how == InputTransfer::reference && item.is_users) continue;
-    if (how == InputTransfer::link && !item.source.empty()) {
-      std::error_code error;
-      fs::create_hard_link(item.source, target, error);
-      if (!error) continue;
-      throw OutputError(target.string(), fmt::format("cannot be a link to {}: {}; leave --link out to copy",
-                                                     item.source.string(), error.message()));
-    }
-    OutputFile file(target, Existing::refuse);
-    if (item.source.empty()) {
+    make_folders_of(folder / item.path);
+    OutputFile file(folder / item.path, Existing::refuse);
+    if (item.source.empty())
       file.write(item.text);
-    } else {
+    else
       copy(item.source, file);
-    }
     file.commit();
   }
 }

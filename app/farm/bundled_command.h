@@ -10,7 +10,7 @@
 namespace meniscus::farm {
 
 struct BundledCommand {
-  std::vector<std::string> words;     ///< {"render"}, {"export", "povray"} and others of check_bundle.h
+  std::vector<std::string> words;     ///< {"render"}, {"export", "povray"} and others of steps_of()
   CommandBit bit = for_render;        ///< the same
   SceneCommand command;               ///< its scene, complete
   std::vector<std::string> further;   ///< options that are not of the scene: --provenance

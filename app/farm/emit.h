@@ -2,43 +2,44 @@
 // The engines that work on a bundle, and the job files for them. Each engine runs `meniscus work` and no more.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include "app/farm/bundle.h"
+#include "core/base/text.h"
 
-namespace meniscus::farm {
+namespace meniscus {
+
+/// The files of app/farm/templates.
+std::span<const TemplateFile> farm_templates();
+
+namespace farm {
+
+/// An engine and its templates.
+struct Engine {
+  const char* name;
+  std::vector<const char*> files;  ///< in the bundle, by their names among the templates
+  const char* needs_farm_path;     ///< nullptr, or why
+  const char* start;               ///< for people: how to start it, with @DIR@ for the bundle
+};
+
+const std::vector<Engine>& engines();
 
 /// A file of an engine in the bundle.
 struct EngineFile {
   std::string path;  ///< relative to the bundle
   std::string text;
-  bool executable = false;
+  bool is_executable = false;
 };
 
-/// What an emitter knows.
-struct Emission {
-  const Bundle& bundle;
-  std::string farm_path;  ///< of the bundle as the farm's machines see it; only for engines that need it said
-};
+/// Throws RequestError for a path that could mean more than a path to some engine: it has letters, digits and ._-/
+/// only.
+void require_plain_path(const std::string& farm_path);
 
-struct Engine {
-  const char* name;
-  std::vector<EngineFile> (*emit)(const Emission& emission);
-  const char* needs_farm_path;  ///< nullptr, or why
-  const char* start;            ///< for people: how to start it, with @DIR@ for the bundle
-};
+/// The files of an engine: its templates with numbers, and with the bundle's path as the farm's machines see it. A line
+/// whose number is not known is left out. Throws as require_plain_path does.
+std::vector<EngineFile> emit(const Engine& engine, const Bundle& bundle, const std::string& farm_path);
 
-/// make, slurm, openjd, flamenco, opencue.
-const std::vector<Engine>& engines();
-
-std::vector<EngineFile> emit_make(const Emission& emission);      ///< Makefile
-std::vector<EngineFile> emit_slurm(const Emission& emission);     ///< submit.sh and scripts of job arrays
-std::vector<EngineFile> emit_openjd(const Emission& emission);    ///< template.json, of jobtemplate-2023-09
-std::vector<EngineFile> emit_flamenco(const Emission& emission);  ///< a job type of Flamenco 3, and a job
-std::vector<EngineFile> emit_opencue(const Emission& emission);   ///< a job specification, cjsl 1.15
-
-/// Whether the frames of this step must be computed on a GPU.
-bool needs_gpu(const Step& step);
-
-}  // namespace meniscus::farm
+}  // namespace farm
+}  // namespace meniscus

@@ -5,22 +5,18 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <set>
 
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
 
-#include "app/farm/blender_driver.h"
-#include "app/farm/check_bundle.h"
-#include "app/farm/child_process.h"
-#include "app/farm/command_options.h"
-#include "app/farm/frame_record.h"
-#include "app/farm/inner_path.h"
-#include "app/farm/quote.h"
+#include "app/farm/bundle_inputs.h"
 #include "app/farm/worker.h"
 #include "app/film/film.h"
 #include "app/options/scene_words.h"
+#include "app/process/child_process.h"
 #include "app/process/program_error.h"
 #include "app/process/stop_signals.h"
 #include "app/process/this_program.h"
@@ -45,12 +41,6 @@ namespace meniscus::farm {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::vector<Step> steps_with_arguments(const BundledCommand& command) {
-  std::vector<Step> steps = steps_of(command.words);
-  for (Step& step : steps) step.arguments = step.maker == Maker::meniscus ? command.device : command.renderer;
-  return steps;
-}
 
 /// The camera that shows all of every frame, so that no worker has to read all frames for it. Nothing if the command
 /// has its own, or frames the molecule beside a legend.
@@ -88,12 +78,19 @@ void write_legend(const BundledCommand& command, const Legend& legend, Existing 
   write_legend_picture(scene.legend.file, legend, settings);
 }
 
+/// Blender's driver and the add-on, but for what Python has compiled.
 void add_addon(const fs::path& addon, BundleInputs& inputs) {
   if (!fs::exists(addon / "render_mns.py"))
     throw InputError(
         addon.string(), 0,
         "has no render_mns.py, Blender's driver; name its folder by --addon: in the sources exporters/blender/addon");
-  for (const DriverFile& file : driver_files()) inputs.add_file_as("blender/" + file.path, addon / file.path);
+  std::set<std::string> names;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(addon)) {
+    const fs::path inside = entry.path().lexically_relative(addon);
+    if (inside.extension() == ".py" || inside.filename().string().ends_with("LICENSE.txt"))
+      names.insert(inside.string());
+  }
+  for (const std::string& name : names) inputs.add_own_file("blender/" + name, addon / name);
 }
 
 /// The words of the command with paths in the bundle, and with the camera and the range of colours.
@@ -102,7 +99,7 @@ std::vector<std::string> bundled_words(const BundledCommand& command, const std:
   Scene scene = command.command.scene;
   if (range) scene.molecule.color.range = range;
   scene.legend.file.clear();
-  // Where it is computed is said for each step.
+  // Where it is computed is said apart.
   scene.molecule.surface.cpu = false;
   scene.molecule.surface.gl = {};
   scene.molecule.surface.threads = 0;
@@ -173,36 +170,28 @@ std::uint64_t peak_memory_of_children() {
 
 /// Makes the first frame and takes it away again: the farm's machines should make all of them alike.
 void make_trial(const Bundle& bundle, const Staging& staging, Chunking& measured) {
-  Assignment assignment;
-  for (const Step& step : bundle.steps) assignment.steps.push_back(step.name);
-  assignment.frames = {bundle.frames.front()};
-  assignment.alone = true;
+  const Share share{bundle.steps(), {bundle.frames.front()}};
   try {
-    work(bundle, Workplace{staging.path(), {}, 0}, assignment, ProgressStyle::none);
+    const double seconds = work(bundle, Workplace{staging.path(), {}, 0}, share, ProgressStyle::none);
+    measured.seconds_per_frame = std::max(seconds, 1e-3);
   } catch (const RunError& error) {
     throw RunError(error.code(), fmt::format("the trial frame: {}; with --chunk-frames N there is none", error.what()));
   }
-  const FrameRecords records(staging.path(), bundle);
-  double slowest = 0.0;
-  for (const std::string& step : assignment.steps)
-    slowest = std::max(slowest, records.read(step, assignment.frames.front()).value().seconds);
   const StopBarrier barrier;
-  for (const char* made : {"state", "images", "scene"}) fs::remove_all(staging.path() / made);
-  measured.seconds_per_frame = std::max(slowest, 1e-3);
+  for (const char* made : {"images", "scene"}) fs::remove_all(staging.path() / made);
   measured.peak_memory = peak_memory_of_children();
 }
 
 void write_engine_files(const BundleOptions& options, const Bundle& bundle, const fs::path& folder) {
   const StopBarrier barrier;
   for (const Engine& engine : options.engines) {
-    for (const EngineFile& text : engine.emit({bundle, options.farm_path})) {
+    for (const EngineFile& text : emit(engine, bundle, options.farm_path)) {
       const fs::path path = folder / text.path;
-      inner_entry(folder, text.path);  // no link leads out of a folder that was there before
       fs::create_directories(path.parent_path());
       OutputFile file(path, Existing::replace);
       file.write(text.text);
       file.commit();
-      if (text.executable)
+      if (text.is_executable)
         fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
                         fs::perm_options::add);
     }
@@ -228,10 +217,10 @@ std::optional<Bundle> same_bundle_at(const BundleOptions& options, const Bundle&
   return {};
 }
 
-std::optional<std::uint64_t> threads_of(const std::vector<std::string>& device) {
-  for (const CommandOption& option : read_device_options(device))
-    if (option.name == "--threads") return std::stoull(*option.value);
-  return {};
+/// Cores of a task that uses as many threads as the command says.
+std::uint64_t cores_for(const std::vector<std::string>& device, std::uint64_t otherwise) {
+  const auto option = std::ranges::find(device, "--threads");
+  return option == device.end() ? otherwise : std::stoull(*(option + 1));
 }
 
 Bundle described(const BundleOptions& options, const BundledCommand& asked, BundleInputs& inputs,
@@ -250,8 +239,10 @@ Bundle described(const BundleOptions& options, const BundledCommand& asked, Bund
   Bundle bundle;
   bundle.program_version = build_version();
   bundle.frames = frames.numbers();
-  bundle.steps = steps_with_arguments(asked);
-  if (options.film && !bundle.makes_pictures())
+  bundle.command = asked.words;
+  bundle.device = asked.device;
+  bundle.renderer = asked.renderer;
+  if (options.film && bundle.steps().back() != Step::render)
     throw UsageError("--film: this bundle makes scenes, not pictures; leave it out");
   if (options.film && scene.image.aovs)
     throw UsageError("--film: pictures with --aovs are .exr, which films cannot use; leave one of them out");
@@ -268,12 +259,10 @@ Bundle described(const BundleOptions& options, const BundledCommand& asked, Bund
   bundle.command = bundled_words(asked, default_camera(scene, cameras, shown), range, inputs);
   for (const std::string& word : bundle.command)
     if (!is_utf8(word)) throw UsageError(fmt::format("after --: {} is not UTF-8, as a bundle is", in_quotes(word)));
-  if (bundle.steps.back().maker == Maker::blender) add_addon(options.addon, inputs);
-  bundle.inputs = inputs.measured(options.transfer);
+  if (bundle.maker(bundle.steps().back()) == Maker::blender) add_addon(options.addon, inputs);
+  bundle.inputs = inputs.measured();
   bundle.chunking = options.chunking;
-  bundle.tries = options.tries;
-  if (!options.cores_asked) bundle.chunking.cores = threads_of(asked.device).value_or(bundle.chunking.cores);
-  check_bundle(bundle);
+  if (!options.cores_asked) bundle.chunking.cores = cores_for(asked.device, bundle.chunking.cores);
   return bundle;
 }
 
@@ -295,10 +284,9 @@ MadeBundle make_bundle(const BundleOptions& given, const BundledCommand& command
   BundleOptions options = given;
   options.folder = fs::absolute(options.folder).lexically_normal();
   if (!options.folder.has_filename()) options.folder = options.folder.parent_path();
-  require_printable_path("bundle folder", options.folder.string());
-  require_printable_path("--farm-path", options.farm_path);
+  require_plain_path(options.farm_path);
   MadeBundle made;
-  BundleInputs inputs;
+  BundleInputs inputs(options.by_reference);
   std::optional<Legend> legend;
   made.bundle = described(options, command, inputs, legend, made.notes);
   if (const std::optional<Bundle> there = same_bundle_at(options, made.bundle)) {
@@ -312,7 +300,7 @@ MadeBundle make_bundle(const BundleOptions& given, const BundledCommand& command
   if (legend) check_output(command.command.scene.legend.file, existing);
   inputs.refuse_within(options.folder);
   Staging staging(options.folder);
-  inputs.transfer(staging.path(), options.transfer);
+  inputs.copy_to(staging.path());
   Chunking& chunking = made.bundle.chunking;
   if (!chunking.asked_frames) make_trial(made.bundle, staging, chunking);
   chunking.decide(made.bundle.frames.size());

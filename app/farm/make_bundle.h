@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "app/farm/bundle_inputs.h"
 #include "app/farm/bundled_command.h"
 #include "app/farm/emit.h"
 
@@ -19,9 +18,8 @@ struct BundleOptions {
   std::string farm_path;
   std::optional<Film> film;
   Chunking chunking;
-  Tries tries;
-  bool cores_asked = false;  ///< else as many as --threads after -- says, if it does
-  InputTransfer transfer = InputTransfer::copy;
+  bool cores_asked = false;     ///< else as many as --threads after -- says, if it does
+  bool by_reference = false;    ///< files that the command reads are not copied
   std::filesystem::path addon;  ///< folder of render_mns.py
   bool force = false;
 };
@@ -29,14 +27,14 @@ struct BundleOptions {
 /// What came of it.
 struct MadeBundle {
   Bundle bundle;
-  bool was_there = false;          ///< the same bundle lay there already; only missing engine files were written
+  bool was_there = false;          ///< the same bundle lay there already; only engine files were written
   std::vector<std::string> notes;  ///< for people
 };
 
-/// Decides camera and chunks (making one frame to see how long it takes, if chunks are asked for by
-/// time), and puts all of it under its name at once; then writes the legend that all frames have in common, if the
-/// command has one as a picture of its own. Throws UsageError, InputError, OutputError (another bundle is
-/// there and `force` is not, or something that is not a bundle), RunError if the trial frame fails.
+/// Decides camera and chunks (making one frame to see how long it takes, if chunks are asked for by time), and puts all
+/// of it under its name at once; then writes the legend that all frames have in common, if the command has one as a
+/// picture of its own. Throws UsageError, InputError, OutputError (another bundle is there and `force` is not, or
+/// something that is not a bundle), RunError if the trial frame fails.
 MadeBundle make_bundle(const BundleOptions& options, const BundledCommand& command);
 
 }  // namespace meniscus::farm

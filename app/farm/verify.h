@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks every file of a bundle's frames.
+// Checks the pictures of a bundle, and makes its film.
 #pragma once
 
 #include <cstdint>
@@ -8,31 +8,30 @@
 #include <vector>
 
 #include "app/farm/bundle.h"
-#include "app/farm/film_note.h"
-#include "app/farm/frame_record.h"
 
 namespace meniscus::farm {
 
 /// What is wrong with one frame.
 struct FrameFault {
-  std::string step;
   std::uint64_t frame = 0;
-  int exit_code = 0;    ///< that of the frame if it failed, else kExitInput
-  bool failed = false;  ///< when it was made, and so perhaps each time
   std::string what;
+  bool is_there = false;  ///< so that a worker would not make it again
 };
 
-/// What is wrong with the files of a frame that was made, and with its picture: "" or a line.
-std::string fault_of(const FrameRecord& record, const FrameRecords& records, const Bundle& bundle,
-                     const std::filesystem::path& folder);
-
-/// Frames that are missing, failed, or not what was made; pictures that cannot be read, have the wrong size, or are
-/// blank: all pixels equal.
+/// Frames that are missing; pictures that cannot be read, have the wrong size, or are blank: all pixels equal. In the
+/// order of the run.
 std::vector<FrameFault> faults_of(const Bundle& bundle, const std::filesystem::path& folder);
 
+/// What a film shows instead of a frame that is not good.
+enum class InPlace {
+  hold,  ///< the frame before once more; before the first good frame that one
+  drop   ///< nothing: the film is shorter
+};
+
 /// Makes the film of the bundle's pictures (app/film/film.h): the same bytes for the same pictures. What is transparent
-/// shows white. without: frames that are not looked at, and not all of them. Throws OutputError if ffmpeg is not there
-/// or fails.
-void encode_film(const Bundle& bundle, const std::filesystem::path& folder, const FilmNote& without);
+/// shows white where the film keeps no alpha. `faults` are not all of the frames. Throws OutputError if ffmpeg is not
+/// there or fails.
+void encode_film(const Bundle& bundle, const std::filesystem::path& folder, const std::vector<FrameFault>& faults,
+                 InPlace in_place);
 
 }  // namespace meniscus::farm

@@ -1,38 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the missing frames of a part of a bundle: the one worker that every engine runs.
+// Makes the missing frames of a bundle: the one worker that people and every engine run.
 #pragma once
 
 #include <cstdint>
-#include <string>
+#include <filesystem>
 #include <vector>
 
 #include "app/farm/bundle.h"
-#include "app/farm/claims.h"
-#include "app/farm/makers.h"
+#include "app/farm/make_frames.h"
 #include "app/reports/run_progress.h"
 
 namespace meniscus::farm {
 
 /// Which part of the work is done.
-struct Assignment {
-  std::vector<std::string> steps;        ///< in order
-  std::vector<std::uint64_t> frames;     ///< in order
-  bool force = false;                    ///< frames that are there are made again
-  bool alone = false;                    ///< no other worker is meant to make these: all are claimed at once
-  Tries tries;                           ///< of a frame that fails
-  double lease_seconds = kDefaultLease;  ///< others take over what a worker has that was not heard of for so long
+struct Share {
+  std::vector<Step> steps;            ///< in order
+  std::vector<std::uint64_t> frames;  ///< in the order of the run
+  bool force = false;                 ///< frames that are there are made again
+  bool is_whole_run = false;          ///< others may be at it, too
 };
 
-/// Sizes, and of files up to 256 MiB or by reference checksums, of the bundle's inputs; checksums of all if `thorough`.
-/// Throws InputError.
+/// Of these frames, in order, those without a result of the step.
+std::vector<std::uint64_t> missing_frames(const Bundle& bundle, const std::filesystem::path& folder, Step step,
+                                          const std::vector<std::uint64_t>& frames);
+
+/// Checks the sizes of the bundle's inputs, and the checksums of those up to 256 MiB; `thorough`: of all. Throws
+/// InputError.
 void check_inputs(const Bundle& bundle, const std::filesystem::path& folder, bool thorough);
 
-/// Makes every frame of the assignment that has no record with good files and that no other worker makes (claims.h),
-/// step by step, and writes a record of each; then waits for what others make, and takes over what they leave. A frame
-/// that fails is recorded, too, and the others are made; then it is tried again, as often as the assignment says.
-/// While the bundle is paused (pause.h), the worker has no frames and waits. Throws RunError with the code of the first
-/// frame that failed, whatever the step and the worker; InputError for a bundle of another version of the program; what
-/// check_inputs and make_frames throw.
-void work(const Bundle& bundle, const Workplace& place, const Assignment& assignment, ProgressStyle progress);
+/// Makes the frames of the share that are missing, and returns the seconds that they took. Of a whole run, it begins at
+/// a place of its own and looks again and again which frames are there, so that any number of workers that do not know
+/// of each other share a run; some frames are then made twice, with the same bytes. A frame that fails is told, and the
+/// others are made. Throws RunError with the code of the first frame that failed; InputError for a bundle of another
+/// version of the program; what check_inputs and make_frames throw.
+double work(const Bundle& bundle, const Workplace& place, const Share& share, ProgressStyle progress);
 
 }  // namespace meniscus::farm

@@ -7,12 +7,11 @@
 namespace meniscus {
 namespace {
 
-constexpr const char* kTries = "Times to try a frame that fails; other frames are made in between";
-
 constexpr auto kTable = std::to_array<Property>({
     text("bundle.engine", "--engine", "WORDS",
-         "Engines to write job files for, separated by commas. make, slurm, openjd, flamenco, opencue, or all")
-        .proposes("make|slurm|openjd|flamenco|opencue|all")
+         "Engines to write job files for, separated by commas. make, slurm, snakemake, openjd, kubernetes, flamenco, "
+         "opencue, or all")
+        .proposes("make|slurm|snakemake|openjd|kubernetes|flamenco|opencue|all")
         .initially("all but opencue")
         .in("Tasks"),
     number("bundle.chunk_minutes", "--chunk-minutes", "M", "Wanted minutes per task, estimated from a trial frame")
@@ -33,24 +32,16 @@ constexpr auto kTable = std::to_array<Property>({
     new_file("bundle.film", "--film", "NAME.mp4", "Film that farm verify makes from the pictures, in DIR")
         .in("Options"),
     number("bundle.fps", "--fps", "N", "Frames per second of the film").from(0.1, 1000).initially("25").in("Options"),
-    count("bundle.tries", "--tries", "N", kTries).from(1, 100).initially("1").in("Tasks"),
-    number("bundle.retry_wait", "--retry-wait", "S", "Seconds before the second try; doubled before each further one")
-        .from(0.1, 3600)
-        .initially("10")
-        .in("Tasks"),
     text("bundle.farm_path", "--farm-path", "PATH",
          "Path of DIR on the farm's machines. OpenCue needs it; for Flamenco it is a default")
         .in("Options"),
-    flag("bundle.link", "--link", "Link input files (hard links) instead of copying them").in("Options"),
     flag("bundle.by_reference", "--by-reference",
          "Copy no input files, but name them by path and checksum. All machines need them at these paths")
         .in("Options"),
     file("bundle.addon", "--addon", "DIR", "Folder of render_mns.py of this version, for export blender").in("Options"),
     flag("bundle.force", "--force", "Replace another bundle in DIR and delete all its frames").in("Options"),
-    flag("status.prometheus", "--prometheus", "Print metrics for Prometheus instead of a table").in("Options"),
     word("verify.allow_missing", "--allow-missing", "WORD",
-         "Make the film even if frames are missing or bad. hold: show the previous frame again; drop: leave them out. "
-         "farm status and farm log report it")
+         "Make the film even if frames are missing or bad. hold: show the previous frame again; drop: leave them out")
         .one_of("hold|drop")
         .in("Options"),
     text("work.step", "--step", "STEP", "Do only this step: surface or render")
@@ -61,11 +52,6 @@ constexpr auto kTable = std::to_array<Property>({
     text("work.chunk", "--chunk", "K/N", "Make only the Kth of N nearly equal parts of the run; K counts from 1")
         .in("Options"),
     flag("work.force", "--force", "Make frames again that already exist").in("Options"),
-    count("work.tries", "--tries", "N", kTries).from(1, 100).initially("the bundle's").in("Options"),
-    count("work.lease", "--lease", "S", "Seconds of silence after which other workers take over its frames")
-        .from(1, 3600)
-        .initially("60")
-        .in("Options"),
     text("work.device", "--device", "DEVICE", "Device instead of the bundle's: auto, gpu, gpu:N, software, cpu")
         .proposes("auto|gpu|software|cpu")
         .in("Options"),

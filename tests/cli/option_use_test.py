@@ -19,7 +19,7 @@ PROGRAM = sys.argv.pop(1)
 
 # They say how the work is done or what is told of it, and leave the result as it is.
 HOW = {"--threads", "--jobs", "--serve", "--token-file", "--device", "--require-gpu", "--verify", "--progress", "--warnings", "--quiet", "--help",
-       "--help-all", "--force", "--stats", "--extent", "--trust-scene", "--any-cost", "--trust-atom-order", "--link", "--addon"}
+       "--help-all", "--force", "--stats", "--extent", "--trust-scene", "--any-cost", "--trust-atom-order", "--addon"}
 # They say what to do with something that a file may hold, and are right to be silent where it does not.
 POLICIES = {"--unknown-element", "--missing-color", "--altloc", "--hydrogens", "--keep-water", "--keep-ions", "--whole",
             "--select-once", "--cavities", "--instances", "--min-volume", "--cap-color", "--cap-hatching",
@@ -153,7 +153,7 @@ CONTEXTS = {
     "story": ["{a.json}", "{b.json}"], "story legend": ["{a.json}", "{b.json}", "--legend"], "story film": ["{a.json}", "{b.json}"],
     "story chains": ["{chains.json}", "{chains.json}", "--legend"],
     "path": ["{one.pdb}", "{bent.pdb}"],
-    "bundle": [], "bundled film": ["--film", "f.mp4"], "bundle tries": ["--tries", "2"], "": [],
+    "bundle": [], "bundled film": ["--film", "f.mp4"], "": [],
 }
 
 # Of each option a value, and a context in which it changes what comes out.
@@ -235,7 +235,7 @@ OWN_ROWS = {
     ("formats", "--json"): (None, ""), ("farm bundle", "--engine"): ("slurm", "bundle"),
     ("farm bundle", "--chunk-minutes"): ("2", "bundle"), ("farm bundle", "--chunk-frames"): ("1", "bundle"),
     ("farm bundle", "--task-cores"): ("3", "bundle"), ("farm bundle", "--task-memory"): ("999", "bundle"),
-    ("farm bundle", "--by-reference"): (None, "bundle"), ("farm bundle", "--tries"): ("3", "bundle"), ("farm bundle", "--retry-wait"): ("5", "bundle tries"),
+    ("farm bundle", "--by-reference"): (None, "bundle"),
     ("farm bundle", "--film"): ("f.mp4", "bundle"), ("farm bundle", "--farm-path"): ("/mnt/farm", "bundle"),
     **{("panels", option): (value, context) for option, value, context in (
         ("--superpose-on", "backbone", "panels camera"), ("--columns", "1", "panels"), ("--gap", "9", "panels"),

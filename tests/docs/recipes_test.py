@@ -45,7 +45,7 @@ for path in set(INPUTS.values()):
 LANGUAGES = {
     "python": "tests/python/document_test.py", "py": "tests/python/adapters_test.py", "cpp": "tests/c_api/installed_test.py", "json": "data", "text": "output",
     "povray": "tests/export/povray", "pymol": "tests/export/pymol", "chimerax": "tests/export/chimerax", "cmake": "tests/c_api",
-    **dict.fromkeys(("condor", "ini", "nextflow", "sh", "snakemake", "yaml"), "tests/farm/schedulers_test.py"),
+    **dict.fromkeys(("condor", "ini", "nextflow", "sh"), "tests/farm/schedulers_test.py"),
 }
 
 # Commands that are not run here, and why.

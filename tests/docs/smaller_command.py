@@ -15,8 +15,6 @@ def smaller(words):
     if words[:2] == ["farm", "bundle"]:
         inner = words.index("--") + 1
         return [*words[:inner], *(word for word in smaller(words[inner:]) if word != "--force")]
-    if words[:2] == ["farm", "log"]:
-        return [*words[:-1], "1"]  # of a frame that is made here
     if words[:1] == ["work"] and "--frames" in words:
         place = words.index("--frames") + 1
         return [*words[:place], "1", *words[place + 1:]]

@@ -1,35 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files for OpenJD, Flamenco and OpenCue: validated, and their tasks really run here by small stand-ins for the engines.
+"""Job files of the engines: make and Snakemake run them themselves; for OpenJD, Flamenco, OpenCue and Kubernetes their tasks
+are run here as those engines would. scripts/schedulers.sh has OpenJD's own runner and Kubernetes' schema."""
 
-OpenJD: a schema after the public specification, and a runner of steps. Flamenco: a mock of its author API in Node.
-OpenCue: a DTD after Cuebot's. None of the engines themselves runs here.
-"""
-
-import copy
 import json
 import os
 import pathlib
 import re
+import shutil
 import subprocess
+import unittest
 import xml.etree.ElementTree as ElementTree
 
-import jsonschema
+import yaml
 
-from farm_case import FarmCase, MENISCUS, main, sums
+from farm_case import FarmCase, MENISCUS, main, sums, wait_until
 
 HERE = pathlib.Path(__file__).parent
-FRAMES = 4
-
-
-def in_order(names, needs):
-    """The names, each behind those it needs."""
-    ordered = []
-    while len(ordered) < len(names):
-        ready = [name for name in names if name not in ordered and all(other in ordered for other in needs(name))]
-        if not ready:
-            raise AssertionError("dependencies run in a circle, or name nobody")
-        ordered += ready
-    return ordered
+FRAMES = 6
+HOSTILE = "it's \"$HOME\" <&> `x` é"
 
 
 class Engines(FarmCase):
@@ -39,80 +27,93 @@ class Engines(FarmCase):
         # A farm finds the program in PATH.
         (cls.folder / "bin").mkdir()
         (cls.folder / "bin" / "meniscus").symlink_to(MENISCUS)
-        cls.environment = dict(os.environ, PATH=f"{cls.folder / 'bin'}:{os.environ['PATH']}")
-        local = cls("test_openjd").povray_bundle("local", FRAMES)
+        cls.environment = dict(os.environ, PATH=f"{cls.folder / 'bin'}:{os.environ['PATH']}", HOME=str(cls.folder))
+        local = cls("test_make").povray_bundle("local", FRAMES)
         subprocess.run([MENISCUS, "work", local, "--progress", "none"], check=True)
         cls.expected = sums(local / "images", "*.png")
 
-    def hostile_bundle(self, name, engine, *more):
-        folder = self.folder / f"{name} it's \"$HOME\" <&> `x` é"
-        options = ("--chunk-frames", "2", "--engine", engine, "--film", "film.mp4", *more)
-        return self.povray_bundle(folder.name, FRAMES, options=options)
+    def engine_bundle(self, name, engine, *more):
+        return self.povray_bundle(name, FRAMES, options=("--chunk-frames", "2", "--engine", engine, "--film", "film.mp4", *more))
 
-    def run_task(self, command):
-        result = subprocess.run(command, env=self.environment, capture_output=True, text=True, cwd="/")
+    def run_task(self, command, **more):
+        result = subprocess.run(command, env={**self.environment, **more}, capture_output=True, text=True, cwd="/")
         self.assertEqual(result.returncode, 0, f"{command}\n{result.stdout}\n{result.stderr}")
         return result
 
     def assert_film_is_done(self, folder):
         self.assertEqual(sums(folder / "images", "*.png"), self.expected)
-        self.assertTrue((folder / "film.mp4").stat().st_size > 1000)
+        self.assertGreater((folder / "film.mp4").stat().st_size, 1000)
+
+    def kill_a_worker(self, folder, command):
+        """Starts an engine, and kills its worker with all of its children after the first picture; the engine's code."""
+        engine = subprocess.Popen(command, env=self.environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd="/")
+        wait_until(lambda: self.made(folder), what="a picture")
+        self.kill_worker_in(folder)
+        return engine.wait(240)
+
+    def test_make(self):
+        folder = self.engine_bundle(f"make {HOSTILE}", "make")
+        self.assertNotEqual(self.kill_a_worker(folder, ["make", "-C", folder, "-j1"]), 0)
+        self.run_task(["make", "-C", folder, "-j2"])
+        self.assert_film_is_done(folder)
+
+    @unittest.skipUnless(shutil.which("snakemake"), "snakemake is not installed")
+    def test_snakemake(self):
+        """It starts a chunk whose worker was killed again by itself."""
+        folder = self.engine_bundle("snakemake $x", "snakemake")
+        flow = ["snakemake", "--cores", "2", "--nocolor", "-d", folder, "-s", folder / "Snakefile"]
+        self.assertEqual(self.kill_a_worker(folder, flow), 0)
+        self.assert_film_is_done(folder)
 
     def test_openjd(self):
-        folder = self.hostile_bundle("openjd", "openjd")
+        folder = self.engine_bundle(f"openjd {HOSTILE}", "openjd")
         template = json.loads((folder / "template.json").read_text())
-        validator = jsonschema.Draft202012Validator(json.loads((HERE / "openjd_2023_09.schema.json").read_text()))
-        validator.validate(template)
-        steps = {step["name"]: step for step in template["steps"]}
-        self.assertEqual(list(steps), ["surface", "render", "verify"])
         values = {f"Param.{entry['name']}": entry["default"] for entry in template["parameterDefinitions"]}
-        # Relative defaults of PATH parameters start from the template.
-        values["Param.Bundle"] = str(folder / values["Param.Bundle"])
+        values["Param.Bundle"] = str(folder / values["Param.Bundle"])  # relative defaults start from the template
+        work, verify = template["steps"]
+        self.assertEqual(verify["dependencies"], [{"dependsOn": work["name"]}])
+        (chunk,) = work["parameterSpace"]["taskParameterDefinitions"]
+        self.assertEqual(chunk["range"], "1-3")
+        for step, task in [*((work, str(k)) for k in (3, 1, 2)), (verify, "")]:
+            action = step["script"]["actions"]["onRun"]
+            words = [re.sub(r"\{\{([A-Za-z.]+)\}\}", lambda found: {**values, "Task.Param.Chunk": task}[found.group(1)], word)
+                     for word in (action["command"], *action["args"])]
+            said = self.run_task(words)
+            if step == work:
+                self.assertIn("openjd_progress: 100.0\n", said.stdout)
+        self.assert_film_is_done(folder)
 
-        def resolved(text, task):
-            return re.sub(r"\{\{ *([A-Za-z0-9_.]+) *\}\}", lambda found: {**values, **task}[found.group(1)], text)
-
-        def needs(name):
-            return [entry["dependsOn"] for entry in steps[name].get("dependencies", [])]
-
-        for name in in_order(list(steps), needs):
-            action = steps[name]["script"]["actions"]["onRun"]
-            tasks = [{}]
-            if "parameterSpace" in steps[name]:
-                first, last = map(int, steps[name]["parameterSpace"]["taskParameterDefinitions"][0]["range"].split("-"))
-                tasks = [{"Task.Param.Chunk": str(number)} for number in range(first, last + 1)]
-                self.assertEqual(len(tasks), 2)
-            for task in tasks:
-                said = self.run_task([resolved(action["command"], task),
-                                      *(resolved(argument, task) for argument in action["args"])])
-                if name != "verify":
-                    self.assertIn("openjd_progress: 100.0\n", said.stdout)
+    def test_kubernetes(self):
+        folder = self.engine_bundle("kubernetes", "kubernetes")
+        job = yaml.safe_load((folder / "kubernetes.yaml").read_text())["spec"]
+        self.assertEqual((job["completions"], job["completionMode"]), (3, "Indexed"))
+        (container,) = job["template"]["spec"]["containers"]
+        shell, option, command = container["command"]
+        for index in range(3):
+            self.run_task([shell, option, command.replace("/bundle", str(folder))], JOB_COMPLETION_INDEX=str(index))
+        self.meniscus("farm", "verify", folder)
         self.assert_film_is_done(folder)
 
     def test_every_engine_is_told_of_cores_and_memory(self):
-        options = ("--chunk-frames", "2", "--engine", "all", "--farm-path", "/mnt/film", "--task-cores", "3",
-                   "--task-memory", "1234")
-        folder = self.povray_bundle("resources", FRAMES, options=options)
-        for step in ("surface", "render"):
-            script = (folder / "slurm" / f"{step}.sbatch").read_text()
-            self.assertIn("#SBATCH --cpus-per-task=3\n#SBATCH --mem=1234M\n", script)
-        for step in json.loads((folder / "template.json").read_text())["steps"][:2]:
-            self.assertEqual(step["hostRequirements"]["amounts"], [{"name": "amount.worker.vcpu", "min": 3},
-                                                                   {"name": "amount.worker.memory", "min": 1234}])
-            self.assertIn("--threads 3", " ".join(step["script"]["actions"]["onRun"]["args"]))
-        self.assertTrue(*self.valid(folder / "opencue.xml"))
-        for layer in list(ElementTree.parse(folder / "opencue.xml").getroot().iter("layer"))[:2]:
-            self.assertEqual([layer.findtext(name) for name in ("cores", "threadable", "memory")], ["3", "True", "1234m"])
-            self.assertIn("--threads 3", layer.findtext("cmd"))
-        self.assertEqual(json.loads((folder / "flamenco_job.json").read_text())["metadata"],
-                         {"cores": "3", "memory_mib": "1234"})
+        folder = self.engine_bundle("resources", "all", "--farm-path", "/mnt/film", "--task-cores", "3", "--task-memory", "1234")
+        self.assertIn("#SBATCH --cpus-per-task=3\n#SBATCH --mem=1234M\n", (folder / "slurm" / "work.sbatch").read_text())
+        work = json.loads((folder / "template.json").read_text())["steps"][0]
+        self.assertEqual({amount["name"]: amount["min"] for amount in work["hostRequirements"]["amounts"]},
+                         {"amount.worker.vcpu": 3, "amount.worker.memory": 1234})
+        self.assertIn("--threads 3", " ".join(work["script"]["actions"]["onRun"]["args"]))
+        layer = next(ElementTree.parse(folder / "opencue.xml").getroot().iter("layer"))
+        self.assertEqual([layer.findtext(name) for name in ("cores", "threadable", "memory")], ["3", "True", "1234m"])
+        self.assertEqual(json.loads((folder / "flamenco_job.json").read_text())["metadata"], {"cores": "3", "memory_mib": "1234"})
+        pod = yaml.safe_load((folder / "kubernetes.yaml").read_text())["spec"]["template"]["spec"]
+        self.assertEqual(pod["containers"][0]["resources"]["limits"], {"memory": "1234Mi", "cpu": 3})
+        self.assertIn("threads: 3\n    resources: mem_mb=1234\n", (folder / "Snakefile").read_text())
         self.assertIn("1234 MiB", (folder / "Makefile").read_text())
 
     def test_a_trial_frame_tells_how_much_memory_tasks_need(self):
         folder = self.povray_bundle("measured", FRAMES, options=("--engine", "slurm"))
         peak = json.loads((folder / "bundle.json").read_text())["chunks"]["peak_memory"]
         self.assertTrue(10 < peak < 4000, peak)
-        asked = int(re.search(r"--mem=(\d+)M", (folder / "slurm" / "render.sbatch").read_text()).group(1))
+        asked = int(re.search(r"--mem=(\d+)M", (folder / "slurm" / "work.sbatch").read_text()).group(1))
         self.assertTrue(1.5 * peak < asked <= 1.5 * peak + 513, (peak, asked))
 
     def test_make_divides_the_cores_among_its_jobs(self):
@@ -124,78 +125,30 @@ class Engines(FarmCase):
         (shim / "meniscus").write_text("#!/bin/sh\necho \"$@\"\n")
         for program in shim.iterdir():
             program.chmod(0o755)
-        environment = dict(os.environ, PATH=f"{shim}:{os.environ['PATH']}")
         for words, threads in (((), 12), (("-j2",), 6), (("-k", "-j", "5"), 2), (("-j", "64"), 1), (("-j",), 1),
                                (("-j2", "THREADS=3"), 3)):
-            said = subprocess.run(["make", "-C", folder, *words], env=environment, capture_output=True, text=True)
-            self.assertEqual(said.returncode, 0, said.stderr)
-            self.assertEqual(set(re.findall(r"^work .*--threads (\d+)", said.stdout, re.M)), {str(threads)}, words)
-
-    def test_the_openjd_schema_refuses_mistakes(self):
-        folder = self.povray_bundle("schema", FRAMES, options=("--chunk-frames", "2", "--engine", "openjd"))
-        template = json.loads((folder / "template.json").read_text())
-        validator = jsonschema.Draft202012Validator(json.loads((HERE / "openjd_2023_09.schema.json").read_text()))
-
-        def broken(change):
-            copied = copy.deepcopy(template)
-            change(copied)
-            return copied
-
-        def task_parameter(job):
-            return job["steps"][0]["parameterSpace"]["taskParameterDefinitions"][0]
-
-        def action(job):
-            return job["steps"][0]["script"]["actions"]["onRun"]
-
-        changes = [
-            lambda job: job.update(specificationVersion="jobtemplate-2099-01"),
-            lambda job: job.update(extensions=["TASK_CHUNKING"]),
-            lambda job: task_parameter(job).update(type="FLOAT"),
-            lambda job: task_parameter(job).update(range="1 to 2"),
-            lambda job: action(job).update(command=""),
-            lambda job: action(job)["args"].append("#if (x) { union {{ sphere } }"),
-            lambda job: action(job)["cancelation"].update(notifyPeriodInSeconds=6000),
-            lambda job: job["parameterDefinitions"][0].update(dataFlow="BOTH"),
-            lambda job: job["steps"][1]["dependencies"][0].update(after="surface"),
-            lambda job: job["steps"][0].pop("script"),
-        ]
-        for number, change in enumerate(changes):
-            with self.assertRaises(jsonschema.ValidationError, msg=f"change {number}"):
-                validator.validate(broken(change))
+            said = self.run_task(["make", "-C", folder, *words], PATH=f"{shim}:{os.environ['PATH']}").stdout
+            self.assertEqual(set(re.findall(r"^work .*--threads (\d+)", said, re.M)), {str(threads)}, words)
 
     def compiled(self, folder, settings):
-        script = folder / "meniscus_film.js"
-        result = subprocess.run(["node", HERE / "flamenco_mock.js", script, json.dumps(settings)], capture_output=True,
-                                text=True)
+        result = subprocess.run(["node", HERE / "flamenco_mock.js", folder / "meniscus_film.js", json.dumps(settings)],
+                                capture_output=True, text=True)
         self.assertEqual(result.returncode, 0, result.stderr)
         return json.loads(result.stdout)
 
     def test_flamenco(self):
-        folder = self.hostile_bundle("flamenco", "flamenco")
-        job = self.compiled(folder, {"bundle": str(folder), "tasks": 2})
+        folder = self.engine_bundle(f"flamenco {HOSTILE}", "flamenco", "--farm-path", "/mnt/film")
+        settings = json.loads((folder / "flamenco_job.json").read_text())["settings"]
+        self.assertEqual(settings, {"bundle": "/mnt/film", "tasks": 3, "threads": 0, "meniscus": "meniscus"})
+        job = self.compiled(folder, {**settings, "bundle": str(folder)})
+        self.assertEqual(sorted(settings), sorted(setting["key"] for setting in job["settings"]))
         tasks = {task["name"]: task for task in job["tasks"]}
-        self.assertEqual(sorted(tasks), ["frames-1", "frames-2", "verify"])
-        self.assertEqual(sorted(tasks["verify"]["dependencies"]), ["frames-1", "frames-2"])
-        for name in in_order(list(tasks), lambda name: tasks[name]["dependencies"]):
-            for command in tasks[name]["commands"]:
-                self.assertEqual(command["name"], "exec")
+        self.assertEqual(list(tasks), ["frames-1", "frames-2", "frames-3", "verify"])
+        self.assertEqual(tasks["verify"]["dependencies"], ["frames-1", "frames-2", "frames-3"])
+        for task in tasks.values():
+            for command in task["commands"]:
                 self.run_task([command["parameters"]["exe"], *command["parameters"]["args"]])
         self.assert_film_is_done(folder)
-
-    def test_flamenco_has_one_job_type_for_all_bundles(self):
-        path = "/mnt/a \"b\" 'c' \\ `d` ${e} </script>\u2028é"
-        folders = [self.povray_bundle(name, 8, options=("--chunk-frames", "3", "--engine", "flamenco", *more))
-                   for name, more in (("settings", ("--farm-path", path)), ("others", ("--task-cores", "7")))]
-        scripts = [(folder / "meniscus_film.js").read_bytes() for folder in folders]
-        self.assertEqual(scripts[0], scripts[1])
-        job = json.loads((folders[0] / "flamenco_job.json").read_text())
-        self.assertEqual((job["type"], job["settings"]["bundle"], job["settings"]["tasks"]), ("meniscus-film", path, 3))
-        compiled = self.compiled(folders[0], job["settings"])
-        self.assertEqual(sorted(job["settings"]), sorted(setting["key"] for setting in compiled["settings"]))
-        self.assertEqual(compiled["tasks"][1]["commands"][0]["parameters"]["args"],
-                         ["work", path, "--chunk", "2/3", "--progress", "plain"])
-        limited = self.compiled(folders[0], {**job["settings"], "threads": 4})
-        self.assertEqual(limited["tasks"][0]["commands"][0]["parameters"]["args"][-2:], ["--threads", "4"])
 
     def valid(self, path):
         result = subprocess.run(["xmllint", "--noout", "--nonet", "--dtdvalid", HERE / "opencue_job.dtd", path],
@@ -203,37 +156,23 @@ class Engines(FarmCase):
         return result.returncode == 0, result.stderr
 
     def test_opencue(self):
-        seen = self.folder / "seen it's \"$HOME\" <&> é"
-        folder = self.povray_bundle("opencue", FRAMES, options=("--chunk-frames", "2", "--engine", "opencue", "--film",
-                                                                "film.mp4", "--farm-path", seen))
+        seen = self.folder / "seen-by.the_farm"
+        folder = self.engine_bundle("opencue", "opencue", "--farm-path", seen)
         seen.symlink_to(folder)
         path = folder / "opencue.xml"
         self.assertTrue(*self.valid(path))
         spec = ElementTree.parse(path).getroot()
-        layers = {layer.get("name"): layer for layer in spec.iter("layer")}
-        depends = {depend.findtext("deplayer"): (depend.findtext("onlayer"), depend.get("type"))
-                   for depend in spec.iter("depend")}
-        self.assertEqual(depends, {"render": ("surface", "FRAME_BY_FRAME"), "verify": ("render", "LAYER_ON_LAYER")})
-        for name in in_order(list(layers), lambda name: [depends[name][0]] if name in depends else []):
-            first, last = map(int, layers[name].findtext("range").split("-"))
+        (depend,) = spec.iter("depend")
+        self.assertEqual((depend.findtext("deplayer"), depend.findtext("onlayer")), ("verify", "work"))
+        for layer in spec.iter("layer"):
+            first, last = map(int, layer.findtext("range").split("-"))
             for frame in range(first, last + 1):
-                self.run_task(["/bin/sh", "-c", layers[name].findtext("cmd").replace("#IFRAME#", str(frame))])
+                self.run_task(["/bin/sh", "-c", layer.findtext("cmd").replace("#IFRAME#", str(frame))])
         self.assert_film_is_done(folder)
-
-    def test_the_opencue_dtd_refuses_mistakes(self):
-        folder = self.povray_bundle("dtd", FRAMES, options=("--chunk-frames", "2", "--engine", "opencue", "--farm-path",
-                                                            "/mnt/film"))
-        text = (folder / "opencue.xml").read_text()
-        for old, new in (("<cmd>", "<command>"), ('type="Render"', 'type="Draw"'), ("FRAME_BY_FRAME", "AFTER"),
-                         ("<show>testing</show>", ""), ("<chunk>1</chunk>", "")):
-            self.assertIn(old, text)
-            wrong = folder / "wrong.xml"
-            wrong.write_text(text.replace(old, new).replace("</cmd>", "</command>" if old == "<cmd>" else "</cmd>"))
-            self.assertFalse(self.valid(wrong)[0], old)
-        refused = self.meniscus("farm", "bundle", self.folder / "hash", "--chunk-frames", "2", "--engine", "opencue",
-                                "--farm-path", "/mnt/#IFRAME#", "--", "render", self.folder / f"{FRAMES}_None.pdb",
-                                code=2)
-        self.assertIn("OpenCue", refused.stderr)
+        text = path.read_text()
+        for old, new in (('type="Render"', 'type="Draw"'), ("LAYER_ON_LAYER", "AFTER"), ("<show>testing</show>", "")):
+            (folder / "wrong.xml").write_text(text.replace(old, new))
+            self.assertFalse(self.valid(folder / "wrong.xml")[0], old)
 
 
 if __name__ == "__main__":

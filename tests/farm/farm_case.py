@@ -2,11 +2,11 @@
 """What the tests of the farm share: a made-up run of a real protein, bundles of it, and the program as users run it."""
 
 import hashlib
-import json
 import math
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -90,16 +90,17 @@ class FarmCase(unittest.TestCase):
         return self.bundle(name, "export", "povray", molecule, "--frames", "all", "--size", "160x120", "--device",
                            "cpu", "--", "-A", options=options)
 
-    def start(self, folder, *more):
-        return subprocess.Popen([MENISCUS, "work", folder, "--progress", "none", *more])
+    def start(self, folder, *more, **how):
+        return subprocess.Popen([MENISCUS, "work", folder, "--progress", "none", *more], **how)
 
-    def records(self, bundle, step):
-        """Records of frames by number."""
-        found = {}
-        for path in (bundle / "state" / step).glob("frame_*.json"):
-            record = json.loads(path.read_text())
-            found[record["frame"]] = record
-        return found
+    def made(self, bundle, pattern="images/frame_*.png"):
+        """Numbers of the frames of these files, in order."""
+        return sorted(int(path.stem.split("_")[1]) for path in bundle.glob(pattern))
+
+    def kill_worker_in(self, bundle):
+        """The parent of a renderer."""
+        renderer = wait_until(lambda: processes_in(bundle / "scene"), what="a renderer")[0]
+        os.kill(int(pathlib.Path(f"/proc/{renderer}/stat").read_text().rsplit(")", 1)[1].split()[1]), signal.SIGKILL)
 
     def assert_nothing_unfinished(self, bundle):
         left = [path for path in bundle.rglob(".*") if path.name.startswith(".")]

@@ -6,8 +6,6 @@ import json
 import pathlib
 import re
 
-import yaml
-
 PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs" / "reference" / "schedulers.md"
 TASKS = 10
 BUNDLE = "/mnt/film"
@@ -46,20 +44,6 @@ def condor_tasks():
     return [("meniscus " + expanded(given["arguments"], process), {}) for process in range(TASKS)]
 
 
-def kubernetes_job():
-    (text,) = files("Kubernetes")
-    return yaml.safe_load(text)
-
-
-def kubernetes_tasks():
-    job = kubernetes_job()["spec"]
-    assert (job["completions"], job["completionMode"]) == (TASKS, "Indexed")
-    (container,) = job["template"]["spec"]["containers"]
-    shell, option, command = container["command"]
-    assert (shell, option) == ("sh", "-c")
-    return [(command, {"JOB_COMPLETION_INDEX": str(index)}) for index in range(TASKS)]
-
-
 def batch_definition():
     (text,) = files("AWS Batch")
     return json.loads(text)
@@ -84,5 +68,4 @@ def array_tasks():
     return [(script, {names[k % 3]: str(k + 1)}) for k in range(TASKS)]
 
 
-TASKS_OF = {"HTCondor": condor_tasks, "Kubernetes": kubernetes_tasks, "AWS Batch": batch_tasks, "Deadline": deadline_tasks,
-            "Grid Engine": array_tasks}
+TASKS_OF = {"HTCondor": condor_tasks, "AWS Batch": batch_tasks, "Deadline": deadline_tasks, "Grid Engine": array_tasks}

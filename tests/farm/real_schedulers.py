@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The page of schedulers and the OpenJD template, read and run by the schedulers' own code; scripts/schedulers.sh installs it."""
+"""The page of schedulers and the files for OpenJD and Kubernetes, read and run by the schedulers' own code; scripts/schedulers.sh installs it."""
 
 import os
+import subprocess
 import sys
 import unittest
 
+import yaml
+
 import page_of_schedulers as page
+from farm_case import sums, wait_until
 from schedulers_test import Schedulers
 
 
@@ -22,11 +26,11 @@ class RealSchedulers(Schedulers):
 
     def test_kubernetes(self):
         import kubernetes_validate
-        kubernetes_validate.validate(page.kubernetes_job(), "1.31", strict=True)
-        broken = page.kubernetes_job()
-        broken["spec"]["completions"] = "ten"
+        job = yaml.safe_load((self.film("kubernetes") / "kubernetes.yaml").read_text())
+        kubernetes_validate.validate(job, "1.31", strict=True)
+        job["spec"]["completions"] = "ten"
         with self.assertRaises(kubernetes_validate.ValidationError):
-            kubernetes_validate.validate(broken, "1.31", strict=True)
+            kubernetes_validate.validate(job, "1.31", strict=True)
 
     def test_aws_batch(self):
         import botocore.session
@@ -37,12 +41,21 @@ class RealSchedulers(Schedulers):
         self.assertNotEqual(validator.validate({**page.batch_definition(), "kind": "x"}, shape).generate_report(), "")
 
     def test_openjd(self):
-        folder = self.film("openjd")
+        """Its worker is killed, so that the job fails; the same job once more makes the rest."""
+        options = ("--chunk-frames", "4", "--film", "film.mp4")
+        folder, alone = (self.povray_bundle(name, options=options) for name in ("openjd", "alone"))
         template = str(folder / "template.json")
         self.run_here(["openjd", "check", template])
-        self.run_here(["openjd", "run", template, "-p", f"Bundle={folder}"])
+        run = ["openjd", "run", template, "-p", f"Bundle={folder}"]
+        job = subprocess.Popen(run, env=self.environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        wait_until(lambda: self.made(folder), what="a picture")
+        self.kill_worker_in(folder)
+        self.assertNotEqual(job.wait(280), 0)
+        self.assertLess(len(self.made(folder)), 8)
+        self.run_here(run)
+        self.meniscus("work", alone)
+        self.assertEqual(sums(folder / "images", "*.png"), sums(alone / "images", "*.png"))
         self.assertTrue((folder / "film.mp4").exists())
-        self.assert_each_frame_is_made_once(folder)
 
     def test_nextflow(self):
         folder, flow = self.film("nextflow-itself"), self.folder / "nextflow"

@@ -1,12 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Schedulers without a template: what docs/reference/schedulers.md tells makes every frame, each by one task."""
 
-import json
 import os
 import re
-import shutil
 import subprocess
-import unittest
 
 import page_of_schedulers as page
 from farm_case import FarmCase, MENISCUS, main, sample_run, sums
@@ -41,8 +38,7 @@ class Schedulers(FarmCase):
 
     def test_every_queue_of_the_page_is_tried(self):
         headings = re.findall(r"^## (.*)$", page.PAGE.read_text(), re.M)
-        self.assertEqual(headings, ["HTCondor", "Kubernetes", "AWS Batch", "Snakemake", "Nextflow", "Deadline 10",
-                                    "Grid Engine, PBS, LSF"])
+        self.assertEqual(headings, ["HTCondor", "AWS Batch", "Nextflow", "Deadline 10", "Grid Engine, PBS, LSF"])
 
     def test_tasks_by_their_numbers(self):
         """Ten tasks, in an order of no use, each of which makes its own share and nothing else."""
@@ -56,18 +52,6 @@ class Schedulers(FarmCase):
                     self.assertIn(made - count, (2, 3))
                     count = made
                 self.assert_each_frame_is_made_once(folder)
-
-    @unittest.skipUnless(shutil.which("snakemake"), "snakemake is not installed")
-    def test_snakemake(self):
-        folder, flow = self.film("snakemake"), self.folder / "flow"
-        flow.mkdir()
-        (text,) = page.files("Snakemake")
-        (flow / "Snakefile").write_text(text.replace(page.BUNDLE, str(folder)))
-        self.run_here(["snakemake", "--cores", "2", "--nocolor"], cwd=flow)
-        self.assertTrue((folder / "film.mp4").exists())
-        self.assert_each_frame_is_made_once(folder)
-        records = [json.loads(path.read_text()) for path in (folder / "state" / "render").glob("*.json")]
-        self.assertEqual(len({record["worker"] for record in records}), page.TASKS)
 
     def test_nextflow(self):
         """Its command alone: the program itself runs in scripts/schedulers.sh."""

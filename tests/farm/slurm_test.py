@@ -32,13 +32,13 @@ class Slurm(FarmCase):
         return dict(line.split() for line in result.stdout.splitlines())
 
     def worker_of(self, folder, chunk):
-        """The process that works on this share of the render step."""
+        """The process that works on this share."""
         for number in processes_in(folder):
             try:
                 words = pathlib.Path(f"/proc/{number}/cmdline").read_bytes().split(b"\0")
             except OSError:
                 continue
-            if words[:2] == [MENISCUS.encode(), b"work"] and f"{chunk}/4".encode() in words and b"render" in words:
+            if words[:2] == [MENISCUS.encode(), b"work"] and f"{chunk}/4".encode() in words:
                 return number
         return None
 
@@ -63,28 +63,28 @@ class Slurm(FarmCase):
         local = self.povray_bundle("local", FRAMES, options=options)
         folder = self.povray_bundle("it's a $queue", FRAMES, options=options)
         jobs = self.submit(folder, "--time=5", PATH=self.path_of_slow_requeues())
-        render = jobs["render"]
+        work = jobs["work"]
 
         # Task 1 is killed as a machine out of memory would; its script puts it back into the queue.
-        victim = wait_until(lambda: len(self.records(folder, "render")) > 0 and self.worker_of(folder, 1), 60,
+        victim = wait_until(lambda: self.made(folder) and self.worker_of(folder, 1), 60,
                             "task 1 at work")
         os.kill(victim, signal.SIGKILL)
         # Task 3 gets the signal that comes a minute before its time is over.
-        wait_until(lambda: any(10 <= frame < 15 for frame in self.records(folder, "render")) and
+        wait_until(lambda: any(10 <= frame < 15 for frame in self.made(folder)) and
                    self.worker_of(folder, 3), 60, "task 3 at work")
-        self.cluster.run("scancel", "--batch", "--signal=USR1", f"{render}_3")
+        self.cluster.run("scancel", "--batch", "--signal=USR1", f"{work}_3")
         for task, code in ((1, 137), (3, 9)):
-            log = folder / "logs" / f"render-{task}.log"
+            log = folder / "logs" / f"work-{task}.log"
             wait_until(lambda: f"stopped (code {code})" in log.read_text(), 20, f"task {task} to be put back")
-            wait_until(lambda: self.cluster.tasks(render)[task]["JobState"] == "PENDING", 20, f"task {task} to wait")
+            wait_until(lambda: self.cluster.tasks(work)[task]["JobState"] == "PENDING", 20, f"task {task} to wait")
             # A requeued task waits two minutes; not here.
-            wait_until(lambda: self.cluster.run("scontrol", "update", f"JobId={render}_{task}",
+            wait_until(lambda: self.cluster.run("scontrol", "update", f"JobId={work}_{task}",
                                                 "StartTime=now").returncode == 0, 20, "an earlier start")
-        self.assertLess(len(self.records(folder, "render")), FRAMES)
+        self.assertLess(len(self.made(folder)), FRAMES)
 
         wait_until(lambda: self.state(jobs["verify"]) in ("COMPLETED", "FAILED", "CANCELLED"), 90, "the last job")
         self.assertEqual(self.state(jobs["verify"]), "COMPLETED", self.logs(folder))
-        tasks = self.cluster.tasks(render)
+        tasks = self.cluster.tasks(work)
         self.assertEqual({task: (tasks[task]["JobState"], int(tasks[task]["Restarts"])) for task in tasks},
                          {1: ("COMPLETED", 1), 2: ("COMPLETED", 0), 3: ("COMPLETED", 1), 4: ("COMPLETED", 0)})
 
@@ -102,14 +102,13 @@ class Slurm(FarmCase):
                                                                        "--task-memory", "600"))
         jobs = self.submit(folder, MENISCUS_VERIFY_OPTIONS="--allow-missing hold")
         wait_until(lambda: self.state(jobs["verify"]) == "COMPLETED", 90, "the end")
-        surface = self.cluster.tasks(jobs["surface"])
-        self.assertEqual({task: (surface[task]["JobState"], surface[task]["ExitCode"]) for task in surface},
+        work = self.cluster.tasks(jobs["work"])
+        self.assertEqual({task: (work[task]["JobState"], work[task]["ExitCode"]) for task in work},
                          {1: ("COMPLETED", "0:0"), 2: ("COMPLETED", "0:0"), 3: ("FAILED", "3:0"),
                           4: ("COMPLETED", "0:0")})
-        self.assertIn("frame 5", (folder / "logs" / "surface-3.log").read_text())
+        self.assertIn("frame 5", (folder / "logs" / "work-3.log").read_text())
         # All other frames are there, those of the same task, too, and the film.
-        made = [frame for frame, record in self.records(folder, "render").items() if record["state"] == "done"]
-        self.assertEqual(sorted(made), [0, 1, 2, 3, 4, 6, 7])
+        self.assertEqual(self.made(folder), [0, 1, 2, 3, 4, 6, 7])
         self.assertIn("7 frames are good, 1 missing: 5", (folder / "logs" / "verify.log").read_text())
         self.assertGreater((folder / "film.mp4").stat().st_size, 1000)
 
@@ -119,8 +118,8 @@ class Slurm(FarmCase):
             self.povray_bundle("unused", 8)
         folder = self.bundle("gpu", "render", molecule, "--frames", "all", "--require-gpu",
                              options=("--chunk-frames", "8", "--engine", "slurm"))
-        self.assertRegex((folder / "slurm" / "render.sbatch").read_text(), re.compile("^#SBATCH --gres=gpu:1$", re.M))
-        checked = self.cluster.run("sbatch", "--test-only", folder / "slurm" / "render.sbatch")
+        self.assertRegex((folder / "slurm" / "work.sbatch").read_text(), re.compile("^#SBATCH --gres=gpu:1$", re.M))
+        checked = self.cluster.run("sbatch", "--test-only", folder / "slurm" / "work.sbatch")
         self.assertEqual(checked.returncode, 0, checked.stderr)
 
     def test_arrays_beyond_the_limit_are_refused_with_a_reason(self):

@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "app/farm/bundle.h"
-#include "app/farm/check_bundle.h"
 #include "tests/fuzz/target.h"
 #include "tests/support/run_program.h"
 

@@ -21,7 +21,7 @@ FILES = ["core/surface/fixed_probes.cpp"] if FEW else [
 #: One file for Windows, and one for the others.
 BY_SYSTEM = ["app/msms/local_socket_{}.cpp", "app/process/system_process_{}.cpp", "core/base/system_file_{}.cpp"]
 #: Of the program, as Linux and macOS have it.
-NOT_ON_WINDOWS = [] if FEW else ["app/farm/child_process.cpp", "app/film/film.cpp", "core/base/module_file.cpp"]
+NOT_ON_WINDOWS = [] if FEW else ["app/process/child_process.cpp", "app/film/film.cpp", "core/base/module_file.cpp"]
 #: Headers that are the same on every system.
 HEADERS = ["fmt", "glm", "oneapi", "tbb"]
 

@@ -1,7 +1,7 @@
 #!/bin/bash
-# Submits the frames of this folder to Slurm; prints the job of each step. Options of sbatch may follow, for all jobs
-# (--partition, --account, --time, ...); those of one step stand in MENISCUS_@FIRST@_OPTIONS and so on, blanks between.
-# MENISCUS is the program, if it is not `meniscus` in PATH. Submit again to go on after a failure: what is done stays.
+# Submits the frames of this folder to Slurm; prints the job of each step. Options of sbatch may follow
+# (--partition, --account, --time, ...). MENISCUS is the program, if it is not `meniscus` in PATH. Submit again to go on
+# after a failure: what is done stays. MENISCUS_WORK_OPTIONS="--step surface" makes one step only;
 # MENISCUS_VERIFY_OPTIONS="--allow-missing hold" makes the film in spite of frames that cannot be made.
 set -euo pipefail
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")"
@@ -12,5 +12,7 @@ if [ "${largest:-1001}" -le @COUNT@ ]; then
   echo "this Slurm takes arrays of $((largest - 1)) tasks, the bundle has @COUNT@: bundle with larger chunks" >&2
   exit 2
 fi
-@JOBS@job=$(sbatch --parsable --dependency="afterany:$job" "$@" slurm/verify.sbatch)
+job=$(sbatch --parsable "$@" slurm/work.sbatch)
+echo "work $job"
+job=$(sbatch --parsable --dependency="afterany:$job" "$@" slurm/verify.sbatch)
 echo "verify $job"

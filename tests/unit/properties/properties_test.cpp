@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include "app/farm/command_options.h"
 #include "core/base/error.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/properties/properties.h"
@@ -99,12 +98,6 @@ TEST(Properties, BundlesHaveNoPropertyThatWritesAFile) {
     if (!property->has(in_bundle)) continue;
     EXPECT_NE(property->type, ValueType::new_file) << property->key;
   }
-  for (const char* word : {"--output", "--legend-file", "--save-camera", "--force", "--save-scene", "--only"})
-    EXPECT_THROW(farm::read_command_options({word, "x"}), RequestError) << word;
-  const std::vector<farm::CommandOption> read = farm::read_command_options({"--silhouettes", "2", "--scale-bar", "-q"});
-  ASSERT_EQ(read.size(), 3u);
-  EXPECT_EQ(read[0].value, "2");
-  EXPECT_FALSE(read[1].value || read[2].value);
 }
 
 }  // namespace

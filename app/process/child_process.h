@@ -10,7 +10,7 @@
 
 #include <sys/types.h>
 
-namespace meniscus::farm {
+namespace meniscus {
 
 /// One child. Made and used by one thread that outlives it, since Linux ends a child when the *thread* that started it
 /// ends; even kill -9 of this process leaves none behind there.
@@ -65,4 +65,4 @@ class StopBarrier {
   StopBarrier& operator=(const StopBarrier&) = delete;
 };
 
-}  // namespace meniscus::farm
+}  // namespace meniscus

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Starts child processes, with care for signals, descriptors and orphans.
-#include "app/farm/child_process.h"
+#include "app/process/child_process.h"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -26,7 +27,7 @@
 
 extern char** environ;
 
-namespace meniscus::farm {
+namespace meniscus {
 namespace {
 
 constexpr std::size_t kLongestLine = 1 << 16;
@@ -192,6 +193,9 @@ std::string signal_text(int code) {
 int signal_exit_code(int code) { return code == kSignalCode + SIGKILL ? kExitCapacity : kExitInternal; }
 
 void stop_children() {
+  // A second call would wait for the lock, which who waits for a child may hold until the program ends.
+  static std::atomic<bool> is_begun = false;
+  if (is_begun.exchange(true)) return;
   std::vector<pid_t> children;
   {
     const std::lock_guard lock(registry().mutex);
@@ -218,4 +222,4 @@ StopBarrier::StopBarrier() {
 
 StopBarrier::~StopBarrier() { registry().mutex.unlock(); }
 
-}  // namespace meniscus::farm
+}  // namespace meniscus
