@@ -72,7 +72,7 @@ struct Property {
   std::string_view key;     ///< section and name, "look.silhouettes": unique; those of scene files where in_scene
   std::string_view option;  ///< as CLI11 takes it: "--silhouettes", "-o,--output", "FILE"
   std::string_view value;   ///< what the help calls the value: "WIDTH"; empty for flags
-  std::string_view help;    ///< what it does; begins with a capital letter, has no full stop at its end
+  std::string_view help;    ///< what it does, from a capital letter to no full stop; with_options() spells "@probe@"
   std::string_view heading{};
   unsigned traits = 0;
   double lowest = 0.0, highest = 0.0;  ///< of numbers, counts and lengths in pixels; equal: no range

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/scene/scene_value.h"
 #include "core/scene/scene_values.h"
 
@@ -107,15 +107,16 @@ void complete_colors(MoleculeRequest& molecule) {
   if (has_volume) {
     if (molecule.color_named)
       throw ValueError("surface.color_map_file",
-                       "is itself a colour scheme; leave out the other --color, except EXPR=COLOR");
-    if (!color.range) throw ValueError("surface.color_map_file", "needs --color-range LO:HI, such as -5:5 for kT/e");
+                       message("is itself a colour scheme; leave out the other @color@, except EXPR=COLOR"));
+    if (!color.range)
+      throw ValueError("surface.color_map_file", message("needs @color-range LO:HI@, such as -5:5 for kT/e"));
     color.by = By::volume;
   }
   if (color.uses_file() && !has_numbers)
-    throw ValueError("surface.color", fmt::format("{} needs --color-by-file FILE",
-                                                  color.uses(By::conservation) ? "conservation" : "file"));
+    throw ValueError("surface.color",
+                     message("{} needs @color-by-file FILE@", color.uses(By::conservation) ? "conservation" : "file"));
   if (has_numbers && !color.uses_file())
-    throw ValueError("surface.color_by_file", "is itself a colour scheme; leave out the other --color");
+    throw ValueError("surface.color_by_file", message("is itself a colour scheme; leave out the other @color@"));
   if (color.by == By::kind && !color.rules.empty())
     throw ValueError("surface.color", "kind colours patches, but EXPR=COLOR colours atoms; choose another scheme");
   if (color.uses_scale()) return;

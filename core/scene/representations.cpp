@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/message.h"
 #include "core/color/color_atoms.h"
 #include "core/color/color_scale.h"
 #include "core/shapes/backbone.h"
@@ -27,25 +28,25 @@ using By = ColorScheme::By;
 const char* option_word(Kind kind) {
   switch (kind) {
     case Kind::sticks:
-      return "--sticks";
+      return "sticks";
     case Kind::balls_and_sticks:
-      return "--balls";
+      return "balls";
     case Kind::backbone:
-      return "--tube";
+      return "tube";
     case Kind::bases:
-      return "--bases";
+      return "bases";
     case Kind::sugar_symbols:
-      return "--glycans";
+      return "glycans";
     case Kind::spheres:
       break;
   }
-  return "--spheres";
+  return "spheres";
 }
 
 void Representations::ask_for(ReadOptions& reading) const {
   if (!empty() && reading.copy_mode == CopyMode::instances)
     throw RequestError(
-        "--instances: copies of one surface cannot be drawn with sticks, balls or spheres; leave it out");
+        message("@instances@: copies of one surface cannot be drawn with sticks, balls or spheres; leave it out"));
   for (const RepresentationRequest& request : requests) {
     reading.shown.push_back({option_word(request.kind), request.atoms});
     // Of all atoms of the file, for hydrogen bonds lead to residues that are not shown.
@@ -59,8 +60,9 @@ namespace {
 Shapes found(const Structure& all, Shapes shapes, const std::vector<bool>& selected, const char* option,
              const char* what) {
   if (shapes.empty() && std::ranges::find(selected, true) != selected.end())
-    throw InputError(all.file, 0,
-                     fmt::format("{} draws nothing: its atoms are of no {} with a whole ring", option, what));
+    throw InputError(
+        all.file, 0,
+        fmt::format("{} draws nothing: its atoms are of no {} with a whole ring", option_name(option), what));
   return shapes;
 }
 
@@ -76,9 +78,9 @@ Shapes shapes_of_atoms(const Structure& all, Kind kind, const std::vector<bool>&
     case Kind::backbone:
       return backbone(all, selected, radii.tube_radius.value_or(kTubeRadius));
     case Kind::bases:
-      return found(all, bases(all, selected, radii.stick_radius.value_or(kStickRadius)), selected, "--bases", "base");
+      return found(all, bases(all, selected, radii.stick_radius.value_or(kStickRadius)), selected, "bases", "base");
     case Kind::sugar_symbols:
-      return found(all, sugar_symbols(all, selected, radii.stick_radius.value_or(kStickRadius)), selected, "--glycans",
+      return found(all, sugar_symbols(all, selected, radii.stick_radius.value_or(kStickRadius)), selected, "glycans",
                    "sugar");
     case Kind::spheres:
       break;
@@ -92,7 +94,8 @@ ColorScheme with_scale_of(const Structure& structure, std::size_t shown, ColorSc
   const ColorScale scale = color_scale(structure, scheme);
   if (scale.map == ColorMap::categorical && shown > structure.atoms.size())
     throw RequestError(
-        "--map categorical: atoms beside the surface may have numbers that it has no colour for; choose another --map");
+        message("@map categorical@: atoms beside the surface may have numbers that it has no colour for; choose "
+                "another @map@"));
   scheme.range = scale.range;
   std::vector<double>& numbers = scheme.file.numbers;  // either of each atom of the file, or of each of the surface
   const bool of_atoms = scheme.takes_file() || scheme.is_measured();

@@ -21,7 +21,7 @@ struct RepresentationRequest {
   Selection atoms;
 };
 
-/// The option that asks for it: "--sticks", "--balls", ...
+/// The option that asks for it: "sticks", "balls", ...
 const char* option_word(RepresentationRequest::Kind kind);
 
 /// Å; nothing: the usual ones.

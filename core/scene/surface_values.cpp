@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/parse_number.h"
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/color/color_maps.h"
 #include "core/color/color_rule.h"
 #include "core/color/named_colors.h"
@@ -58,8 +58,8 @@ void read_require_gpu(const Property&, Texts texts, Scene& scene) {
   SurfaceRequest& surface = scene.molecule.surface;
   if (texts.back() == "false") return;
   if (surface.cpu || surface.gl.kind == DeviceChoice::Kind::software)
-    throw GpuError(fmt::format("--require-gpu and --device {} exclude each other; leave one of them out",
-                               surface.cpu ? "cpu" : to_string(surface.gl)));
+    throw GpuError(message("@require-gpu@ and @device {}@ exclude each other; leave one of them out",
+                           surface.cpu ? "cpu" : to_string(surface.gl)));
   if (surface.gl.kind == DeviceChoice::Kind::automatic) surface.gl.kind = DeviceChoice::Kind::gpu;
 }
 
