@@ -64,7 +64,7 @@ Json color_json(const ColorScheme& scheme) {
 void tell_figure(const PreviewState& state, Json& told) {
   Json& representations = told["representations"] = Json::array();
   for (const RepresentationRequest& request : state.figure.representations.requests)
-    representations.push_back({{"as", option_word(request.kind)}, {"selection", escaped(request.atoms.text())}});
+    representations.push_back({{"as", shape_word(request.kind)}, {"selection", escaped(request.atoms.text())}});
   Json& opacities = told["opacities"] = Json::array();
   for (const OpacityRule& rule : state.color.opacities) {
     opacities.push_back({{"opacity", std::stod(fmt::format("{}", rule.opacity))}});
