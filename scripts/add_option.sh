@@ -13,8 +13,8 @@ row='number("look.sparkle", "--sparkle", "F", "Strength of a light that only thi
 row+='.initially("0").in(kLight, kLook),'
 sed -i "0,/number(\"look.light_strength\"/s//$row\n&/" core/properties/look_properties.cpp
 sed -i 's/^  bool linear_alpha = false;/  std::optional<float> sparkle{};\n&/' core/render/look.h
-binding='plain("look.sparkle", [](auto\& s) -> auto\& { return s.look.sparkle; }),'
-sed -i "0,/{\"look.light\", read_light/s//$binding\n&/" core/scene/picture_values.cpp
+binding='plain("look.sparkle", [](auto\& s) { return \&s.look.sparkle; }),'
+sed -i "0,/coded<direction_of, direction_text>(\"look.light\"/s//$binding\n&/" core/scene/picture_values.cpp
 
 cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DMENISCUS_UNITY=ON >/dev/null
 cmake --build build --target meniscus meniscus_c >/dev/null

@@ -7,6 +7,7 @@
 
 #include <glm/vec2.hpp>
 
+#include "core/base/usual_probe.h"
 #include "core/gpu/device_choice.h"
 #include "core/surface/primitives.h"
 
@@ -15,9 +16,9 @@ namespace meniscus {
 /// How frames are drawn and counted.
 struct PaperBenchSettings {
   DeviceChoice device;
-  glm::ivec2 size{1024, 768};  ///< pixels
-  double probe_radius = 1.4;   ///< Å
-  int runs = 5;                ///< timed frames of each kind; medians are shown
+  glm::ivec2 size{1024, 768};         ///< pixels
+  double probe_radius = kUsualProbe;  ///< Å
+  int runs = 5;                       ///< timed frames of each kind; medians are shown
 };
 
 /// The balls of one file under the name to be shown.

@@ -6,6 +6,7 @@
 #include <fmt/ostream.h>
 
 #include "app/commands/commands.h"
+#include "core/base/message.h"
 #include "core/color/color_schemes.h"
 
 namespace meniscus {
@@ -14,7 +15,7 @@ namespace {
 constexpr int kColumn = 24;
 
 void print_row(std::string_view word, std::string_view description, std::string_view source) {
-  fmt::print(std::cout, "  {:<{}}{}\n", word, kColumn, description);
+  fmt::print(std::cout, "  {:<{}}{}\n", word, kColumn, with_options(description));
   if (!source.empty()) fmt::print(std::cout, "  {:<{}}  {}\n", "", kColumn, source);
 }
 

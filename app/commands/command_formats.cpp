@@ -11,7 +11,7 @@
 
 #include "app/commands/commands.h"
 #include "app/options/property_options.h"
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/base/text_file.h"
 #include "core/structure/formats/structure_formats.h"
 #include "core/trajectory/formats/trajectory_formats.h"
@@ -22,7 +22,7 @@ namespace {
 constexpr std::size_t kIndent = 18, kWidth = 100;
 
 void print_wrapped(std::string_view heading, std::string_view text) {
-  fmt::print(std::cout, "  {:<{}}{}\n", heading, kIndent - 2, wrapped(text, kWidth - kIndent, kIndent));
+  fmt::print(std::cout, "  {:<{}}{}\n", heading, kIndent - 2, wrapped(with_options(text), kWidth - kIndent, kIndent));
 }
 
 void print_format(const FormatMetadata& metadata) {
@@ -45,8 +45,8 @@ nlohmann::ordered_json json_of(const FormatMetadata& metadata, const char* kind)
   return {{"name", metadata.name},
           {"kind", kind},
           {"extensions", fields_of(metadata.extensions)},
-          {"description", metadata.description},
-          {"reads", metadata.reads},
+          {"description", with_options(metadata.description)},
+          {"reads", with_options(metadata.reads)},
           {"reference", metadata.reference}};
 }
 

@@ -127,7 +127,7 @@ void SceneOptions::add_own_option(const Property& property) {
   }
   if (key == "frames.trajectories")
     command_.add_option_function<std::vector<std::string>>("TRAJECTORY", [](const std::vector<std::string>&) {})
-        ->description(std::string(property.help))
+        ->description(help_of(property))
         ->group(std::string(property.heading))
         ->allow_extra_args()
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -137,7 +137,7 @@ void SceneOptions::add_own_option(const Property& property) {
   if (key == "scene.save") options.add(key, into_.save_scene);
   if (key == "scene.set")
     command_.add_option(std::string(property.option))
-        ->description(std::string(property.help))
+        ->description(help_of(property))
         ->type_name(std::string(property.value))
         ->group(std::string(property.heading))
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)

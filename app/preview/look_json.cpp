@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/color/named_colors.h"
 #include "core/properties/properties.h"
 #include "core/render/look.h"
@@ -100,7 +100,7 @@ nlohmann::json look_sliders() {
       sliders.push_back({{"key", property->name()},
                          {"label", property->label},
                          {"end", property->slider_end},
-                         {"help", property->help}});
+                         {"help", with_options(property->help)}});
   return sliders;
 }
 

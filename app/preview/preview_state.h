@@ -31,10 +31,10 @@ struct PreviewFigure {
   Camera camera;
   bool overview = true;  ///< all is shown, until the camera is moved
   SurfaceKind kind = SurfaceKind::ses;
-  double probe_radius = 1.4;         ///< Å; without effect while the surface has no probe
-  std::optional<Selection> show;     ///< atoms whose part of the surface is drawn; nothing: all
-  std::optional<Selection> patches;  ///< of these atoms, outlined; nothing: none
-  double least_patch = 10.0;         ///< Å²: smaller ones are not
+  double probe_radius = kUsualProbe;  ///< Å; without effect while the surface has no probe
+  std::optional<Selection> show;      ///< atoms whose part of the surface is drawn; nothing: all
+  std::optional<Selection> patches;   ///< of these atoms, outlined; nothing: none
+  double least_patch = 10.0;          ///< Å²: smaller ones are not
   ColorScheme color;
   bool patch_kinds = false;  ///< coloured by kind of patch, whatever the scheme (figure 2 of Krone et al. 2010)
   FigureRequest figure;

@@ -48,8 +48,6 @@ Json atom_json(const Atom& atom) {
 /// Rules as --color has them: expressions of a user, not of a file.
 Json rule_json(const ColorRule& rule) { return escaped(color_rule_text(rule)); }
 
-const char* word_of(RepresentationRequest::Kind kind) { return option_word(kind) + 2; }  // without the dashes
-
 Json or_null(const std::optional<int>& number) { return number ? Json(*number) : Json(nullptr); }
 
 Json color_json(const ColorScheme& scheme) {
@@ -66,7 +64,7 @@ Json color_json(const ColorScheme& scheme) {
 void tell_figure(const PreviewState& state, Json& told) {
   Json& representations = told["representations"] = Json::array();
   for (const RepresentationRequest& request : state.figure.representations.requests)
-    representations.push_back({{"as", word_of(request.kind)}, {"selection", escaped(request.atoms.text())}});
+    representations.push_back({{"as", shape_word(request.kind)}, {"selection", escaped(request.atoms.text())}});
   Json& opacities = told["opacities"] = Json::array();
   for (const OpacityRule& rule : state.color.opacities) {
     opacities.push_back({{"opacity", std::stod(fmt::format("{}", rule.opacity))}});

@@ -18,6 +18,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/message.h"
 #include "core/base/system_file.h"
 
 namespace meniscus {
@@ -61,7 +62,7 @@ void refuse_unsuitable_target(const fs::path& target, Existing existing) {
   if (!state) return;
   if (state->kind == State::Kind::folder) throw OutputError(text, "is a folder; give the name of a file");
   if (state->kind == State::Kind::other) throw OutputError(text, "is not a regular file");
-  if (existing == Existing::refuse) throw OutputError(text, "exists already; use --force to replace it");
+  if (existing == Existing::refuse) throw OutputError(text, message("exists already; use @force@ to replace it"));
 }
 
 /// Temporary files of this process that have not got their final name, and folders made for them, newest first. What

@@ -177,7 +177,7 @@ Camera parse_any_camera(std::string_view text, const std::string& file, double a
 }
 
 Camera read_any_camera(const std::string& file, double aspect) {
-  if (file.starts_with('{')) return parse_any_camera(file, "--camera", aspect);
+  if (file.starts_with('{')) return parse_any_camera(file, option_name("camera"), aspect);
   std::ifstream stream(path_of_text(file), std::ios::binary);
   if (!stream) throw InputError(file, 0, "camera: the file cannot be opened");
   const std::string text{std::istreambuf_iterator<char>(stream), {}};

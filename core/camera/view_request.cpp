@@ -9,13 +9,12 @@
 #include <tuple>
 #include <utility>
 
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "core/base/error.h"
+#include "core/base/message.h"
 #include "core/base/parse_number.h"
-#include "core/base/text.h"
 #include "core/camera/camera_json.h"
 #include "core/camera/foreign_cameras.h"
 #include "core/camera/open_side.h"
@@ -81,10 +80,9 @@ ViewBasis view_basis(const ViewDirection& direction, const ViewedBalls& balls) {
   if (direction.frame == Frame::channel) {
     const std::optional<ViewBasis> end = channel_end(balls.framed, balls.shown);
     if (!end)
-      throw RequestError(fmt::format(
-          "{} channel: from no side can anything be seen through these atoms; a channel must be straight and open, and "
-          "{} may name the atoms around it",
-          option_name("view"), option_name("zoom-to")));
+      throw RequestError(
+          message("@view channel@: from no side can anything be seen through these atoms; a channel must be straight "
+                  "and open, and @zoom-to@ may name the atoms around it"));
     return direction.opposite ? opposite_of(*end) : *end;
   }
   if (direction.frame == Frame::symmetry) return facing(sign * symmetry, across(symmetry));
@@ -223,7 +221,7 @@ Camera swung(const Camera& camera, const ViewBasis& basis, const glm::dvec3& piv
 
 std::optional<Camera> given_camera(const ViewRequest& request) {
   if (request.camera_file.empty()) return {};
-  if (request.camera_file.starts_with('{')) return parse_camera(request.camera_file, "--camera");
+  if (request.camera_file.starts_with('{')) return parse_camera(request.camera_file, option_name("camera"));
   return read_any_camera(request.camera_file, request.aspect());
 }
 

@@ -66,8 +66,8 @@ constexpr ColorMapMetadata kMaps[] = {
     {ColorMap::ylorrd, "ylorrd",
      "C. A. Brewer, ColorBrewer 2.0 (2013), Apache 2.0; light, without its palest and darkest"},
     {ColorMap::consurf, "consurf",
-     "grades 1 to 9: H. Ashkenazy et al., Nucleic Acids Res. 44, W344 (2016); --color-range 1:9"},
-    {ColorMap::rainbow, "rainbow", "linear between hues of Okabe and Ito, from blue to red; for --color rainbow"},
+     "grades 1 to 9: H. Ashkenazy et al., Nucleic Acids Res. 44, W344 (2016); @color-range 1:9@"},
+    {ColorMap::rainbow, "rainbow", "linear between hues of Okabe and Ito, from blue to red; for @color rainbow@"},
     {ColorMap::categorical, "categorical", "M. Okabe and K. Ito, Color Universal Design (2008)"},
 };
 

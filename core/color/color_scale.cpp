@@ -14,7 +14,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/color/color_maps.h"
 #include "core/color/lipophilicity.h"
 #include "core/structure/element_tables.h"
@@ -109,9 +109,9 @@ std::vector<double> grades_of(const Structure& structure, const NumberFile& file
   for (const double grade : grades)
     if (grade < kGrades[0] || grade > kGrades[1])
       throw InputError(file.path, 0,
-                       fmt::format("holds {:g}; --color conservation takes ConSurf's grades, from 1 (variable) to 9 "
-                                   "(conserved); --color file takes any numbers",
-                                   grade));
+                       message("holds {:g}; @color conservation@ takes ConSurf's grades, from 1 (variable) to 9 "
+                               "(conserved); @color file@ takes any numbers",
+                               grade));
   return grades;
 }
 
@@ -210,24 +210,27 @@ ScaleWords words_of(By by) {
 [[noreturn]] void no_numbers(const Structure& structure, const ColorScheme& scheme) {
   switch (scheme.by) {
     case By::bfactor:
-      throw InputError(structure.file, 0, "has no B-factors to colour by; choose another --color");
+      throw InputError(structure.file, 0, message("has no B-factors to colour by; choose another @color@"));
     case By::occupancy:
-      throw InputError(structure.file, 0, "has no occupancies to colour by; choose another --color");
+      throw InputError(structure.file, 0, message("has no occupancies to colour by; choose another @color@"));
     case By::charge:
       throw InputError(structure.file, 0, "has no partial charges to colour by; PQR files have them");
     case By::rmsf:
-      throw RequestError("--color rmsf measures fluctuations over frames; add --frames all");
+      throw RequestError(message("@color rmsf@ measures fluctuations over frames; add @frames all@"));
     case By::buried:
-      throw RequestError("buried areas colour the whole surface; choose --color buried, or another colour for EXPR");
+      throw RequestError(
+          message("buried areas colour the whole surface; choose @color buried@, or another colour for EXPR"));
     case By::accessibility:
-      throw InputError(structure.file, 0,
-                       "has no complete amino acids, so there is no relative accessibility; choose another --color");
+      throw InputError(
+          structure.file, 0,
+          message("has no complete amino acids, so there is no relative accessibility; choose another @color@"));
     case By::rainbow:
       throw InputError(structure.file, 0,
-                       "has no chains of amino acids or nucleotides to colour along; choose another --color");
+                       message("has no chains of amino acids or nucleotides to colour along; choose another @color@"));
     case By::hydrophobicity:
-      throw InputError(structure.file, 0,
-                       "has no amino acids, so the hydrophobicity scale does not apply; choose another --color");
+      throw InputError(
+          structure.file, 0,
+          message("has no amino acids, so the hydrophobicity scale does not apply; choose another @color@"));
     default:
       throw InputError(scheme.file.path, 0, "all numbers are missing; there is nothing to colour by");
   }
@@ -255,10 +258,9 @@ std::array<double, 2> automatic_range(const std::vector<double>& defined, By by)
 void count_classes(ColorScale& scale, const std::vector<double>& defined, const std::string& file) {
   const std::set<double> different(defined.begin(), defined.end());
   if (different.size() > kCategoricalCount) {
-    throw InputError(
-        file, 0,
-        fmt::format("has {} different numbers, but the categorical map has {} colours; choose another --map",
-                    with_thousands(different.size()), kCategoricalCount));
+    throw InputError(file, 0,
+                     message("has {} different numbers, but the categorical map has {} colours; choose another @map@",
+                             with_thousands(different.size()), kCategoricalCount));
   }
   scale.classes.assign(different.begin(), different.end());
 }

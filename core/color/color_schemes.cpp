@@ -15,7 +15,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/color/named_colors.h"
 #include "core/base/parse_number.h"
 #include "core/structure/structure.h"
@@ -30,8 +30,8 @@ constexpr ColorSchemeMetadata kSchemes[] = {
      "hues of element-cpk with white, so that carbon is #c8c8c8"},
     {"chain", By::chain, "chains in order of appearance, 21 colours in turn",
      "M. Okabe and K. Ito, Color Universal Design (2008)"},
-    {"copy", By::copy, "copies of an --assembly made of atoms, 21 colours in turn", "colours of Okabe and Ito"},
-    {"model", By::model, "models of the file, and each file of --add, 21 colours in turn", "colours of Okabe and Ito"},
+    {"copy", By::copy, "copies of an @assembly@ made of atoms, 21 colours in turn", "colours of Okabe and Ito"},
+    {"model", By::model, "models of the file, and each file of @add@, 21 colours in turn", "colours of Okabe and Ito"},
     {"residue", By::residue, "residue type: acidic, basic, polar, aliphatic, aromatic, sulphur, GLY and PRO; each base",
      "grouped by side chain; colours of Okabe and Ito"},
     {"kind", By::kind, "kind of patch: convex, toroidal, concave", "colours of Okabe and Ito"},
@@ -59,7 +59,7 @@ constexpr ColorSchemeMetadata kSchemes[] = {
     {"bead", By::bead, "class of a Martini bead: charged, polar, intermediate, apolar, water",
      "P. C. T. Souza et al., Nat. Methods 18, 382 (2021); colours of Okabe and Ito"},
     {"buried", By::buried,
-     "accessible area in Å² that is buried between chains, or the groups of --by or --interface; ylorrd, from 0",
+     "accessible area in Å² that is buried between chains, or the groups of @by@ or @interface@; ylorrd, from 0",
      "B. Lee and F. M. Richards, J. Mol. Biol. 55, 379 (1971)"},
     {"lipophilicity", By::lipophilicity,
      "potential of a protein at each point: log P of its atoms times exp(-distance); blue-white-red, -0.3 to 0.3",
@@ -69,8 +69,8 @@ constexpr ColorSchemeMetadata kSchemes[] = {
      "accessible area of each residue over the greatest that it can have; viridis, 0 to 1",
      "M. Z. Tien et al., PLoS ONE 8, e80635 (2013)"},
     {"rmsf", By::rmsf, "root mean square fluctuation in Å over the frames of a run; ylorrd, from 0", ""},
-    {"file", By::file, "numbers of --color-by-file; viridis, smallest to largest", ""},
-    {"conservation", By::conservation, "grades of --color-by-file, 1 (variable) to 9 (conserved); consurf",
+    {"file", By::file, "numbers of @color-by-file@; viridis, smallest to largest", ""},
+    {"conservation", By::conservation, "grades of @color-by-file@, 1 (variable) to 9 (conserved); consurf",
      "H. Ashkenazy et al., Nucleic Acids Res. 44, W344 (2016)"}};
 
 }  // namespace
@@ -105,12 +105,11 @@ bool ColorScheme::changes_with_frames() const {
 
 void ColorScheme::set_numbers(const NumberFile& numbers) {
   if (numbers.of_colors && takes_file() && (map || range))
-    throw RequestError(fmt::format("{} has colours of its own; leave {} and {} out", escaped(numbers.path),
-                                   option_name("map"), option_name("color-range")));
+    throw RequestError(message("{} has colours of its own; leave @map@ and @color-range@ out", escaped(numbers.path)));
   if (numbers.by_frame && map == ColorMap::categorical && !own_map)
     throw RequestError(
-        "--map categorical gives each number of a picture its own colour, which would change from frame to frame; "
-        "choose another --map");
+        message("@map categorical@ gives each number of a picture its own colour, which would change from frame to "
+                "frame; choose another @map@"));
   if (by != By::rmsf) file = numbers;  // its own were measured
   if (takes_file()) frames_range = numbers.range_of_frames();
   for (ColorRule& rule : rules) {

@@ -16,6 +16,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/base/error.h"
+#include "core/base/message.h"
 #include "core/color/color_maps.h"
 #include "core/color/color_schemes.h"
 #include "core/math/box.h"
@@ -243,7 +244,7 @@ std::shared_ptr<const VolumePaint> lipophilicity_paint(const Structure& structur
     if (of_atoms[a] != 0.0 && !std::isnan(of_atoms[a])) sources.push_back({structure.atoms[a].position, of_atoms[a]});
   if (sources.empty())
     throw InputError(structure.file, 0,
-                     "has no amino acids, so there is no lipophilicity potential; choose another --color");
+                     message("has no amino acids, so there is no lipophilicity potential; choose another @color@"));
   const VolumeFrame frame = frame_around(structure);
   const Decay decay;
   std::vector<float> values(frame.count());

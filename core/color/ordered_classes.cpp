@@ -6,10 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "core/base/error.h"
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/color/named_colors.h"
 #include "core/structure/element_tables.h"
 #include "core/structure/martini.h"
@@ -80,9 +78,10 @@ ClassedAtoms confidence_classes(const Structure& structure) {
         static_cast<std::uint8_t>(std::isnan(number) ? kConfidence.size() : limit - kLimits.begin()));
   }
   if (without == structure.atoms.size())
-    throw InputError(structure.file, 0,
-                     "has neither B-factors nor a table _ma_qa_metric_local, so no pLDDT to colour by; choose another "
-                     "--color");
+    throw InputError(
+        structure.file, 0,
+        message(
+            "has neither B-factors nor a table _ma_qa_metric_local, so no pLDDT to colour by; choose another @color@"));
   if (without > 0) result.classes.push_back({std::string(kWithoutConfidence), color_from_hex(kWithout)});
   return result;
 }
@@ -193,18 +192,19 @@ std::optional<std::string> doubt_of_confidence(const Structure& structure) {
     if (beyond++ == 0) first = &atom;
   }
   if (first)
-    return fmt::format(
-        "--color plddt takes B-factors for pLDDT, which is from 0 to 100, but {} {} outside of that, the first {} with "
-        "{:g}; --color bfactor shows B-factors",
+    return message(
+        "@color plddt@ takes B-factors for pLDDT, which is from 0 to 100, but {} {} outside of that, the first {} with "
+        "{:g}; @color bfactor@ shows B-factors",
         with_thousands(beyond), beyond == 1 ? "atom is" : "atoms are", label_of(*first), first->b_factor);
   if (!structure.experiment.empty())
-    return fmt::format(
-        "--color plddt takes B-factors for pLDDT, but this structure is of an experiment ({}); --color bfactor shows "
+    return message(
+        "@color plddt@ takes B-factors for pLDDT, but this structure is of an experiment ({}); @color bfactor@ shows "
         "B-factors",
         structure.experiment);
   if (largest <= 1.0f)
-    return "--color plddt takes B-factors for pLDDT, which is from 0 to 100, but none is above 1; if they are "
-           "shares, multiply them by 100";
+    return message(
+        "@color plddt@ takes B-factors for pLDDT, which is from 0 to 100, but none is above 1; if they are shares, "
+        "multiply them by 100");
   return {};
 }
 

@@ -7,9 +7,9 @@
 #include <cassert>
 
 #include <epoxy/gl.h>
-#include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/message.h"
 #include "core/gpu/context_description.h"
 
 namespace meniscus {
@@ -59,9 +59,9 @@ void WorkProof::verify(std::span<const Piece> pieces) {
     if (groups.started != groups.finished) {
       require_living_context();
       throw GpuError(
-          fmt::format("the GPU dropped work without reporting an error: of {} kernel groups {} finished; its results "
-                      "are discarded; run again, or choose another --device",
-                      groups.started, groups.finished));
+          message("the GPU dropped work without reporting an error: of {} kernel groups {} finished; its results are "
+                  "discarded; run again, or choose another @device@",
+                  groups.started, groups.finished));
     }
   }
   require_living_context();

@@ -4,9 +4,8 @@
 
 #include <array>
 
-#include <fmt/format.h>
-
 #include "core/base/error.h"
+#include "core/base/message.h"
 #include "core/mesh/tessellate.h"
 
 namespace meniscus {
@@ -22,7 +21,7 @@ void check_by_mesh(const Surface& surface) {
       tessellate(surface, {tolerance, false});
       return;
     } catch (const OpenSurfaceError& error) {
-      if (tolerance == kTolerances.back()) throw OpenSurfaceError(fmt::format("--verify: {}", error.what()));
+      if (tolerance == kTolerances.back()) throw OpenSurfaceError(message("@verify@: {}", error.what()));
     }
   }
 }

@@ -9,10 +9,10 @@
 #include <numeric>
 #include <utility>
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include "core/base/error.h"
+#include "core/base/message.h"
 #include "core/math/union_find.h"
 #include "core/pockets/hull.h"
 #include "core/pockets/probe_cells.h"
@@ -95,9 +95,9 @@ class PocketFinder {
     found_.surface = compute_(balls, r);
     if (!found_.surface.certificate.closed)
       throw OpenSurfaceError(
-          fmt::format("the surface of {} atoms and of {} large probes around them is not closed; try another "
-                      "--mouth-tolerance, and please report this structure",
-                      first_probe_, found_.probe_count));
+          message("the surface of {} atoms and of {} large probes around them is not closed; try another "
+                  "@mouth-tolerance@, and please report this structure",
+                  first_probe_, found_.probe_count));
   }
 
   /// A bounded part of the solvent is a pocket if probes in it are where pockets can be. Elsewhere balls are missing.
@@ -191,13 +191,12 @@ const char* Pocket::kind() const {
 
 std::string pocket_fault(const PocketRequest& request) {
   if (!(request.probe_radius > 0.0))
-    return "--probe: give a radius above 0 Å; pockets are the space that the probe fills";
+    return message("@probe@: give a radius above 0 Å; pockets are the space that the probe fills");
   if (!(request.large_probe_radius > request.probe_radius))
-    return fmt::format("--large-probe: {} Å must be above the small probe's {} Å; pockets lie between the two",
-                       request.large_probe_radius, request.probe_radius);
-  if (!(request.trim >= 0.0)) return fmt::format("--trim: {} Å is negative; give 0 or more", request.trim);
-  if (!(request.tolerance > 0.0))
-    return fmt::format("--mouth-tolerance: {} Å; give a number above 0", request.tolerance);
+    return message("@large-probe@: {} Å must be above the small probe's {} Å; pockets lie between the two",
+                   request.large_probe_radius, request.probe_radius);
+  if (!(request.trim >= 0.0)) return message("@trim@: {} Å is negative; give 0 or more", request.trim);
+  if (!(request.tolerance > 0.0)) return message("@mouth-tolerance@: {} Å; give a number above 0", request.tolerance);
   return {};
 }
 

@@ -12,6 +12,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/base/usual_probe.h"
 #include "core/queries/cavity_tracks.h"
 #include "core/queries/distance.h"
 #include "core/surface/primitives.h"
@@ -22,7 +23,7 @@ struct Surface;
 
 /// Which pockets are looked for. Lengths in Å, volumes in Å³.
 struct PocketRequest {
-  double probe_radius = 1.4;
+  double probe_radius = kUsualProbe;
   double large_probe_radius = 4.0;  ///< above that of the small one
   double trim = 1.0;                ///< pockets begin so far below the large probe's surface
   double tolerance = 0.1;           ///< how far a mouth may lie outside of where it should be

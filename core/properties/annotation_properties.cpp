@@ -26,7 +26,7 @@ constexpr auto kTable = of_commands(
             .of(kForPictures),
         text("legend.size", "--legend-size", "SIZE", "Height of the letters: pixels, 8pt or 3mm")
             .from(6, 1000)
-            .initially("that of --letter-size, or a thirtieth of the shorter side")
+            .initially("that of @letter-size@, or a thirtieth of the shorter side")
             .in(kLegend, kShared | live)
             .of(kForPictures),
         text("legend.names", "--legend-name", "ENTRY=TEXT",
@@ -61,21 +61,21 @@ constexpr auto kTable = of_commands(
             .in_short_help(),
         text("annotations.label_size", "--label-size", "SIZE", "Height of the letters of labels")
             .from(6, 1000)
-            .initially("that of --letter-size")
+            .initially("that of @letter-size@")
             .in(kLabels, kShared)
             .needs("annotations.labels"),
         text("annotations.scale_bar_size", "--scale-bar-size", "SIZE", "Height of the letters of the scale bar")
             .from(6, 1000)
-            .initially("that of --letter-size")
+            .initially("that of @letter-size@")
             .in(kLabels, kShared)
             .needs("annotations.scale_bar"),
         text("annotations.panel_size", "--panel-size", "SIZE", "Height of the letter of the panel")
             .from(6, 1000)
-            .initially("1.5 times --letter-size")
+            .initially("1.5 times @letter-size@")
             .in(kLabels, kShared)
             .needs("annotations.panel"),
         text("annotations.letter_color", "--letter-color", "COLOR",
-             "Colour of letters, lines and bars: auto, or a colour. auto: dark or light, as --background needs; dark "
+             "Colour of letters, lines and bars: auto, or a colour. auto: dark or light, as @background@ needs; dark "
              "if it is transparent")
             .proposes("auto|white|black")
             .initially("auto")
@@ -92,8 +92,8 @@ constexpr auto kTable = of_commands(
             .in(kLabels, kShared)
             .of(for_render),
         file("annotations.curve", "--curve", "FILE.csv",
-             "Draw a curve of the run from a CSV table, with a mark at each frame. meniscus surface --csv-series "
-             "writes such tables")
+             "Draw a curve of the run from a CSV table, with a mark at each frame. Such tables are written by "
+             "@csv-series@ of meniscus surface")
             .in(kLabels, kShared)
             .of(for_render),
         text("annotations.curve_column", "--curve-column", "NAME", "Column of the table to draw")

@@ -13,7 +13,7 @@ constexpr std::string_view kFrames = "Frames", kMotion = "Alignment of frames", 
 constexpr auto kTable = of_commands(
     kForRuns,
     std::to_array<Property>({
-        file("frames.trajectories", "TRAJECTORY", "", "Trajectory files, the same as --trajectory")
+        file("frames.trajectories", "TRAJECTORY", "", "Trajectory files, the same as @trajectory@")
             .in(kFrames, repeatable),
         file("frames.trajectory", "--trajectory", "PATH",
              "Trajectory: coordinates of the atoms of FILE, frame by frame. Repeatable: one after the other. Without "
@@ -43,10 +43,9 @@ constexpr auto kTable = of_commands(
             .from(1, 1e6)
             .initially("1")
             .in(kFrames, kShared),
-        count(
-            "frames.interpolate", "--interpolate", "N",
-            "Make N frames of each: itself, and N - 1 on the way to the next. Atoms go along smooth curves; the files "
-            "are numbered as with --repeat")
+        count("frames.interpolate", "--interpolate", "N",
+              "Make N frames of each: itself, and N - 1 on the way to the next. Atoms go along smooth curves; the "
+              "files are numbered as with @repeat@")
             .from(1, 1e6)
             .initially("1")
             .in(kFrames, kShared)
@@ -72,7 +71,7 @@ constexpr auto kTable = of_commands(
             .in_short_help(),
         text("frames.center", "--center", "EXPR", "Move each frame so that the centre of these atoms stays fixed")
             .in(kMotion, kShared),
-        text("frames.reference", "--reference", "N", "Reference frame of --superpose and --center: a number, or last")
+        text("frames.reference", "--reference", "N", "Reference frame of @superpose@ and @center@: a number, or last")
             .initially("0")
             .in(kMotion, kShared),
         count("frames.smooth", "--smooth", "N", "Average positions over N frames around each frame; N is odd")

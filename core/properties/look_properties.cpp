@@ -89,29 +89,29 @@ constexpr auto kTable = of_commands(
             .in_short_help(),
         text("look.outer_lines", "--outer-lines", "WIDTH", "Width of the outline around the whole molecule")
             .from(0, 16)
-            .initially("--silhouettes")
+            .initially("@silhouettes@")
             .in(kLines, kLook | rare),
         text("look.inner_lines", "--inner-lines", "WIDTH", "Width of lines where one part is in front of another")
             .from(0, 16)
-            .initially("--silhouettes")
+            .initially("@silhouettes@")
             .in(kLines, kLook | rare),
         text("look.part_lines", "--part-lines", "WIDTH", "Width of lines where chains meet")
             .from(0, 16)
-            .initially("--silhouettes")
+            .initially("@silhouettes@")
             .in(kLines, kLook | rare),
-        text("look.patch_lines", "--patch-lines", "WIDTH", "Width of the lines around --patches; 0: no lines")
+        text("look.patch_lines", "--patch-lines", "WIDTH", "Width of the lines around @patches@; 0: no lines")
             .from(0, 16)
             .initially("2.5 pixels of a picture of 960, wider in larger ones")
             .of(for_render | for_preview | for_page)
             .in(kLines, kLook),
-        text("look.patch_line_color", "--patch-line-color", "COLOR", "Colour of the lines around --patches")
+        text("look.patch_line_color", "--patch-line-color", "COLOR", "Colour of the lines around @patches@")
             .initially("black")
             .of(for_render | for_preview | for_page)
             .in(kLines, kLook),
         number("look.depth_cue", "--depth-cue", "F",
                "Fade of the farthest atoms into the background, 0 to 1. A transparent background counts as white. "
                "Presets do not fade where colours show numbers, a legend explains them, or a surface is seen through "
-               "or cut for atoms to be seen (--look-into)")
+               "or cut for atoms to be seen (@look-into@)")
             .from(0, 1)
             .slider("Depth", 1)
             .in(kLight, kLook),

@@ -19,10 +19,9 @@ constexpr auto kTable = of_commands(
              "Add the atoms of another molecule file, as model 2, 3 ... of the first. Repeatable")
             .in(kInput, kShared | repeatable)
             .in_short_help(),
-        text(
-            "molecule.superpose_on", "--superpose-on", "EXPR",
-            "Superpose the files of --add on FILE by these atoms. 'name CA' takes alpha carbons. Chains are paired and "
-            "aligned by sequence; the number of atoms and the RMSD are printed")
+        text("molecule.superpose_on", "--superpose-on", "EXPR",
+             "Superpose the files of @add@ on FILE by these atoms. 'name CA' takes alpha carbons. Chains are paired "
+             "and aligned by sequence; the number of atoms and the RMSD are printed")
             .in(kInput, kShared)
             .needs("molecule.add")
             .of(kForMolecules | for_panels | for_morph),
@@ -73,7 +72,7 @@ constexpr auto kTable = of_commands(
             .initially("file if it has radii, else bondi; of Martini's beads those of its version")
             .in(kRadii, kShared),
         file("molecule.radii_file", "--radii-file", "FILE",
-             "File of radii by residue and atom, used before --radii. Formats: atmtypenumbers of MSMS, FreeSASA "
+             "File of radii by residue and atom, used before @radii@. Formats: atmtypenumbers of MSMS, FreeSASA "
              ".config, CHARMM .rtf with .prm (or .str), PDB2PQR .DAT, or lines RESIDUE ATOM RADIUS. Repeatable; the "
              "last file that has an atom counts")
             .in(kRadii, kShared | repeatable),

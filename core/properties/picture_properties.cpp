@@ -26,8 +26,8 @@ constexpr auto kTable = of_commands(
             .excludes("camera.from"),
         text("camera.view", "--view", "SIDE",
              "Side that faces the viewer, such as front, top or left. front: the broad side; back, bottom, right; x, "
-             "y, z: axes of the file; 1, 2, 3: axes of inertia, longest first; symmetry: along the axis of --assembly; "
-             "symmetry-side: with that axis upright; open: from where the atoms of --zoom-to are hidden least; "
+             "y, z: axes of the file; 1, 2, 3: axes of inertia, longest first; symmetry: along the axis of @assembly@; "
+             "symmetry-side: with that axis upright; open: from where the atoms of @zoom-to@ are hidden least; "
              "channel: along a channel through them. A minus sign before it shows the opposite side")
             .initially("front")
             .in(kCamera, kShared | live)
@@ -39,18 +39,18 @@ constexpr auto kTable = of_commands(
             .in(kCamera, kShared | live | repeatable)
             .in_short_help(),
         text("camera.zoom_to", "--zoom-to", "EXPR", "Fill the picture with these atoms")
-            .initially("all that --show leaves")
+            .initially("all that @show@ leaves")
             .in(kCamera, kShared | live)
             .in_short_help(),
         text("camera.look_into", "--look-into", "EXPR",
-             "Look at these atoms from the open side, with the surface cut before them. Short for --zoom-to EXPR "
-             "--view open --clip 'before EXPR'")
+             "Look at these atoms from the open side, with the surface cut before them. Short for @zoom-to EXPR@ @view "
+             "open@ @clip 'before EXPR'@")
             .in(kCamera, in_bundle)
             .in_short_help()
             .of(kForFigures)
             .excludes("camera.from|camera.view|camera.zoom_to"),
         text("camera.named_views", "--named-view", "NAME=FILE",
-             "View that readers of the page choose by its name. FILE: a camera as for --camera, or a scene or picture, "
+             "View that readers of the page choose by its name. FILE: a camera as for @camera@, or a scene or picture, "
              "with its cuts and opacity. Repeatable")
             .in(kCamera, repeatable)
             .of(for_page),
@@ -67,7 +67,7 @@ constexpr auto kTable = of_commands(
             .in(kCamera, kShared)
             .of(kForFigures & ~(for_preview | for_page)),
         new_file("camera.save", "--save-camera", "FILE",
-                 "Save the camera as JSON for --camera, or its path for --camera-path")
+                 "Save the camera as JSON for @camera@, or its path for @camera-path@")
             .in(kCamera)
             .of(for_render | kForExports | for_page),
 
@@ -114,7 +114,7 @@ constexpr auto kTable = of_commands(
             .proposes("visible|complete|paper")
             .in(kPicture, kShared)
             .of(for_render),
-        flag("picture.stats", "--stats", "With --extent: print counts and times of each group of stages")
+        flag("picture.stats", "--stats", "With @extent@: print counts and times of each group of stages")
             .in(kPicture, rare)
             .of(for_render),
         flag("picture.draft", "--draft",

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
+#include "core/base/message.h"
 
 namespace meniscus {
 
@@ -36,8 +36,8 @@ std::vector<std::string> parted(std::string_view left) {
 }
 
 std::string help_of(const Property& property) {
-  return property.initial.empty() ? std::string(property.help)
-                                  : fmt::format("{} [{}]", property.help, property.initial);
+  const std::string help(property.help), initial(property.initial);
+  return with_options(initial.empty() ? help : help + " [" + initial + "]");
 }
 
 std::string first_sentence(std::string_view help) {

@@ -72,7 +72,7 @@ struct Property {
   std::string_view key;     ///< section and name, "look.silhouettes": unique; those of scene files where in_scene
   std::string_view option;  ///< as CLI11 takes it: "--silhouettes", "-o,--output", "FILE"
   std::string_view value;   ///< what the help calls the value: "WIDTH"; empty for flags
-  std::string_view help;    ///< what it does; begins with a capital letter, has no full stop at its end
+  std::string_view help;    ///< what it does, from a capital letter to no full stop; with_options() spells "@probe@"
   std::string_view heading{};
   unsigned traits = 0;
   double lowest = 0.0, highest = 0.0;  ///< of numbers, counts and lengths in pixels; equal: no range
@@ -85,57 +85,30 @@ struct Property {
   std::string_view needed{};           ///< a key without which it means nothing
   bool common = false;                 ///< --help shows its option even where a command has very many
 
+  /// A copy with another value of one member.
+  template <auto member>
+  constexpr Property with(auto other) const {
+    Property changed = *this;
+    changed.*member = other;
+    return changed;
+  }
   constexpr Property from(double least, double most) const {
-    Property changed = *this;
-    changed.lowest = least;
-    changed.highest = most;
-    return changed;
+    return with<&Property::lowest>(least).with<&Property::highest>(most);
   }
-  constexpr Property one_of(std::string_view all) const {
-    Property changed = *this;
-    changed.words = all;
-    return changed;
-  }
+  constexpr Property one_of(std::string_view all) const { return with<&Property::words>(all); }
   constexpr Property proposes(std::string_view some) const { return one_of(some); }
-  constexpr Property initially(std::string_view shown) const {
-    Property changed = *this;
-    changed.initial = shown;
-    return changed;
-  }
-  constexpr Property of(unsigned all_commands) const {
-    Property changed = *this;
-    changed.commands = all_commands;
-    return changed;
-  }
-  constexpr Property excludes(std::string_view keys) const {
-    Property changed = *this;
-    changed.excluded = keys;
-    return changed;
-  }
-  constexpr Property needs(std::string_view other_key) const {
-    Property changed = *this;
-    changed.needed = other_key;
-    return changed;
-  }
+  constexpr Property initially(std::string_view shown) const { return with<&Property::initial>(shown); }
+  constexpr Property of(unsigned all_commands) const { return with<&Property::commands>(all_commands); }
+  constexpr Property excludes(std::string_view keys) const { return with<&Property::excluded>(keys); }
+  constexpr Property needs(std::string_view other_key) const { return with<&Property::needed>(other_key); }
   constexpr Property slider(std::string_view name, double end) const {
-    Property changed = *this;
-    changed.label = name;
-    changed.slider_end = end;
-    return changed;
+    return with<&Property::label>(name).with<&Property::slider_end>(end);
   }
   /// Under a heading of the help, with the traits or-ed together.
   constexpr Property in(std::string_view title, unsigned all_traits = 0) const {
-    Property changed = *this;
-    changed.heading = title;
-    changed.traits = all_traits;
-    return changed;
+    return with<&Property::heading>(title).with<&Property::traits>(all_traits);
   }
-
-  constexpr Property in_short_help() const {
-    Property changed = *this;
-    changed.common = true;
-    return changed;
-  }
+  constexpr Property in_short_help() const { return with<&Property::common>(true); }
 
   constexpr bool has(Trait trait) const { return (traits & trait) != 0; }
   constexpr bool has_range() const { return lowest < highest; }

@@ -15,7 +15,7 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kOutput)
         .in_short_help(),
     flag("report.open_sky", "--open-sky",
-         "Add the share of the sky that each atom sees to --csv, 0 to 1. It is what ambient occlusion leaves")
+         "Add the share of the sky that each atom sees to @csv@, 0 to 1. It is what ambient occlusion leaves")
         .in(kOutput),
     new_file("report.csv_residues", "--csv-residues", "FILE",
              "Write areas, one row per residue, with its relative accessibility. -: to standard output")
@@ -35,7 +35,7 @@ constexpr auto kTable = std::to_array<Property>({
              "position; -: to standard output")
         .in(kOutput),
     new_file("report.csv_patches", "--csv-patches", "FILE",
-             "Write one row per patch of --patches. -: to standard output")
+             "Write one row per patch of @patches@. -: to standard output")
         .in(kOutput),
     new_file(
         "report.csv_summary", "--csv-summary", "FILE",
@@ -43,9 +43,9 @@ constexpr auto kTable = std::to_array<Property>({
         "computed have a row that says why")
         .in(kOutput),
     flag("report.resume", "--resume",
-         "Continue a --csv-summary that was stopped. Files that failed or have changed are computed again")
+         "Continue a @csv-summary@ that was stopped. Files that failed or have changed are computed again")
         .in(kOutput),
-    text("report.context", "--context", "EXPR", "Report the area of --select that these atoms bury").in(kOutput),
+    text("report.context", "--context", "EXPR", "Report the area of @select@ that these atoms bury").in(kOutput),
     new_file("report.csv_pockets", "--csv", "FILE", "Write one row per pocket. -: to standard output")
         .in(kOutput)
         .in_short_help(),
@@ -69,7 +69,7 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kSession, live),
     file("preview.commands", "--commands", "FILE", "Run commands from this file first, one JSON object per line")
         .in(kSession, live),
-    new_file("preview.record", "--record", "FILE", "Record all commands in this file, for --commands")
+    new_file("preview.record", "--record", "FILE", "Record all commands in this file, for @commands@")
         .in(kSession, live),
     new_file("preview.output_folder", "--output-dir", "FOLDER", "Folder for exports").initially(".").in(kSession, live),
 

@@ -103,19 +103,19 @@ constexpr auto kTable = of_commands(
             .of(kForColours),
         file("surface.color_by_file", "--color-by-file", "NUMBERS",
              "Colour by numbers from a file. One number per atom of FILE or per atom used; lines of chain, residue and "
-             "number; or a table with a header, such as meniscus surface --csv-residues writes, or resid,score for one "
-             "chain. Commas, semicolons, tabs or blanks; nan, ? and - mean missing. Grades from 1 to 9: --color "
-             "conservation")
+             "number; or a table with a header, such as @csv-residues@ of meniscus surface writes, or resid,score for "
+             "one chain. Commas, semicolons, tabs or blanks; nan, ? and - mean missing. Grades from 1 to 9: @color "
+             "conservation@")
             .in(kColour, kSeen | live)
             .in_short_help()
             .of(kForColours),
-        text("surface.color_column", "--color-column", "NAME", "Column of the table of --color-by-file")
+        text("surface.color_column", "--color-column", "NAME", "Column of the table of @color-by-file@")
             .in(kColour, kSeen | live)
             .of(kForColours)
             .needs("surface.color_by_file"),
         file("surface.color_map_file", "--color-map-file", "FILE",
              "Colour by a volume map, such as a potential from APBS. Formats: OpenDX (.dx), Gaussian cube, CCP4/MRC. "
-             "Needs --color-range; the default --map is red-white-blue")
+             "Needs @color-range@; the default @map@ is red-white-blue")
             .in(kColour, kSeen)
             .in_short_help()
             .of(kForColours)
@@ -173,7 +173,7 @@ constexpr auto kTable = of_commands(
             .in(kFigure, kSeen | live | repeatable | of_surfaces)
             .in_short_help(),
         flag("surface.clip_all", "--clip-all",
-             "Cut sticks, balls, tubes and all else beside the surface by --clip, too")
+             "Cut sticks, balls, tubes and all else beside the surface by @clip@, too")
             .in(kFigure, kSeen)
             .of(for_render | for_preview),
         text("surface.cap_color", "--cap-color", "COLOR",
@@ -185,7 +185,7 @@ constexpr auto kTable = of_commands(
             .initially("0")
             .in(kFigure, kSeen | live | of_surfaces),
 
-        text("figure.sticks", "--sticks", "EXPR", "Draw these atoms as sticks, also outside --select. Repeatable")
+        text("figure.sticks", "--sticks", "EXPR", "Draw these atoms as sticks, also outside @select@. Repeatable")
             .in(kBeside, in_bundle | live | repeatable)
             .in_short_help()
             .of(kForFigures | for_mesh),
@@ -209,7 +209,7 @@ constexpr auto kTable = of_commands(
             .in_short_help()
             .of(kForFigures | for_mesh),
         text("figure.glycans", "--glycans", "EXPR",
-             "Draw these sugars as solid symbols (3D-SNFG). Such as spheres, cubes, cones; their colours: --color snfg")
+             "Draw these sugars as solid symbols (3D-SNFG). Such as spheres, cubes, cones; their colours: @color snfg@")
             .in(kBeside, in_bundle | live | repeatable)
             .in_short_help()
             .of(kForFigures | for_mesh),

@@ -10,11 +10,10 @@
 #include <numbers>
 #include <utility>
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/math/box.h"
 #include "core/queries/distance.h"
 #include "core/surface/primitives.h"
@@ -62,8 +61,8 @@ class BandFinder {
   static glm::ivec3 corner(int n) { return {n & 1, n >> 1 & 1, n >> 2}; }
 
   [[noreturn]] void refuse() const {
-    throw CapacityError(fmt::format("voxels of {:g} Å make more than {} million of them; choose a larger {}", voxel_,
-                                    kMostBandBlocks * kEdge * kEdge * kEdge / 1'000'000, option_name("voxel")));
+    throw CapacityError(message("voxels of {:g} Å make more than {} million of them; choose a larger @voxel@", voxel_,
+                                kMostBandBlocks * kEdge * kEdge * kEdge / 1'000'000));
   }
 
   /// Eight of them around the origin hold all of the band.

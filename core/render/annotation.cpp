@@ -12,7 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/image/color_space.h"
 #include "core/render/label_layout.h"
 #include "core/render/text_raster.h"
@@ -187,8 +187,8 @@ class Writer {
     while (height > kLeastTitle && fonts_.at(height).width(text) > right - left) --height;
     const int width = fonts_.at(height).width(text);
     if (width > right - left)
-      throw RequestError(fmt::format("--title: {} is {} pixels long and has {}; make it shorter, or the picture wider",
-                                     in_quotes(text), width, right - left));
+      throw RequestError(message("@title@: {} is {} pixels long and has {}; make it shorter, or the picture wider",
+                                 in_quotes(text), width, right - left));
     write({text, {std::clamp((size_.x - width) / 2, left, right - width), panel_row(heights_)}, height});
   }
 
@@ -204,7 +204,7 @@ class Writer {
               pixels = static_cast<int>(std::lround(length / unit));
     if (pixels < 1 || pixels > size_.x - 2 * em)
       throw RequestError(
-          fmt::format("--scale-bar: {:g} Å are {} pixels of {}; give another length", length, pixels, size_.x));
+          message("@scale-bar@: {:g} Å are {} pixels of {}; give another length", length, pixels, size_.x));
     const PixelBox bar{{em, size_.y - em - thickness}, {em + pixels, size_.y - em}};
     strokes_.emplace_back(bar);
     const std::string text = fmt::format("{:g} Å", length);
@@ -375,10 +375,10 @@ AnnotationLayer::AnnotationLayer(const Annotations& annotations, const Camera& c
   if (annotations.scale_bar) writer.scale_bar(annotations.bar_length);
   lacks_labels_ = !writer.labels(annotations.labels, annotations.atoms);
   if (lacks_labels_ && annotations.labels_must_fit)
-    throw RequestError(fmt::format(
-        "{}: labels find no places in {} x {} pixels where they do not meet; make them fewer or shorter, their letters "
-        "smaller ({}), or the picture larger",
-        option_name("label"), picture_size.x, picture_size.y, option_name("label-size")));
+    throw RequestError(
+        message("@label@: labels find no places in {} x {} pixels where they do not meet; make them fewer or shorter, "
+                "their letters smaller (@label-size@), or the picture larger",
+                picture_size.x, picture_size.y));
   strokes_ = writer.strokes();
   marks_ = writer.marks();
   hollow(annotations.labels);

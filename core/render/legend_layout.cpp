@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/color/named_colors.h"
 #include "core/render/legend.h"
 
@@ -130,10 +130,10 @@ Legend::Legend(const ColorKey& key, glm::ivec2 picture_size, const LegendStyle& 
       if (letters < usual && (style.letters || (!may_drop && letters < std::max(kReadableLetters, usual / 2)))) break;
       if (lay_out(at_right, letters, may_drop)) return;
     }
-  throw RequestError(fmt::format(
-      "{} does not fit into {} x {} pixels beside the molecule; make the picture larger{}, or write it apart by {}",
-      option_name("legend"), picture_size.x, picture_size.y, style.letters ? ", its letters smaller" : "",
-      option_name("legend-file")));
+  throw RequestError(
+      message("@legend@ does not fit into {} x {} pixels beside the molecule; make the picture larger{}, or write it "
+              "apart by @legend-file@",
+              picture_size.x, picture_size.y, style.letters ? ", its letters smaller" : ""));
 }
 
 void Legend::add_entries(const ColorKey& key, bool is_first) {
@@ -170,8 +170,8 @@ void Legend::rename_entries(const std::vector<std::string>& names) {
       all_[n].name = text.substr(given[n].size() + 1);
     }
     if (!is_known)
-      throw RequestError(fmt::format("{} {}: the legend has no such entry; it has {}", option_name("legend-name"),
-                                     in_quotes(text), given.empty() ? "none" : listed(given)));
+      throw RequestError(message("@legend-name {}@: the legend has no such entry; it has {}", in_quotes(text),
+                                 given.empty() ? "none" : listed(given)));
   }
 }
 

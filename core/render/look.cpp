@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/base/message.h"
 #include "core/color/color_schemes.h"
 
 namespace meniscus {
@@ -133,12 +134,12 @@ Hues hues_of(const ColorScheme& color, bool legend, bool looks_inside) {
 
 std::string hue_changes(const LookRequest& request) {
   std::string text;
-  const auto add = [&](bool asked, const char* words) {
-    if (asked) text += (text.empty() ? "" : ", ") + std::string(words);
+  const auto add = [&](bool asked, const std::string& words) {
+    if (asked) text += (text.empty() ? "" : ", ") + words;
   };
-  add(request.depth_cue.value_or(0.0f) > 0.0f, "--depth-cue fades them into the background");
-  add(request.specular.value_or(0.0f) > 0.0f, "--specular lays white highlights over them");
-  add(request.light_strength.value_or(1.0f) > 1.0f, "--light-strength above 1 bleaches them");
+  add(request.depth_cue.value_or(0.0f) > 0.0f, message("@depth-cue@ fades them into the background"));
+  add(request.specular.value_or(0.0f) > 0.0f, message("@specular@ lays white highlights over them"));
+  add(request.light_strength.value_or(1.0f) > 1.0f, message("@light-strength@ above 1 bleaches them"));
   return text;
 }
 

@@ -177,7 +177,7 @@ enum class Hues : std::uint8_t { free, kept, unfaded };
 Hues hues_of(const ColorScheme& color, bool legend, bool looks_inside);
 
 /// What of the request lets colours change in more than lightness all the same: words for a message, such as
-/// "--depth-cue fades them"; empty: nothing.
+/// "depth_cue fades them"; empty: nothing.
 std::string hue_changes(const LookRequest& request);
 
 /// background: nothing for a transparent one, in which what is far takes the colour of white paper. What the request

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/message.h"
 #include "core/gpu/program.h"
 
 namespace meniscus {
@@ -210,7 +211,8 @@ void RayCaster::finish_long_lists(std::uint32_t longest, const GpuScene& scene, 
     }
     if (unfinished_.download<std::uint32_t>(1, sizeof(std::uint32_t)).front() == 0) return;
   }
-  throw CapacityError("some rays meet more patches than this driver's kernels can process; use another --device");
+  throw CapacityError(
+      message("some rays meet more patches than this driver's kernels can process; use another @device@"));
 }
 
 }  // namespace meniscus

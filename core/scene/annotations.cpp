@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/base/time_unit.h"
 #include "core/scene/copied_atoms.h"
 #include "core/structure/selection/selection_and_text.h"
@@ -33,8 +33,8 @@ glm::dvec3 middle_of(const Selection& selection, const Structure& structure) {
       for (const std::uint32_t atom : group.atoms) add(atom, motion);
   if (count == 0)
     throw InputError(structure.file, 0,
-                     fmt::format("--label {}: none of the {} atoms used is selected; {}", in_quotes(selection.text()),
-                                 with_thousands(structure.atoms.size()), selection.why_none(structure.atoms)));
+                     message("@label {}@: none of the {} atoms used is selected; {}", in_quotes(selection.text()),
+                             with_thousands(structure.atoms.size()), selection.why_none(structure.atoms)));
   return sum / static_cast<double>(count);
 }
 

@@ -4,9 +4,8 @@
 
 #include <unordered_map>
 
-#include <fmt/format.h>
-
 #include "core/base/error.h"
+#include "core/base/message.h"
 #include "core/scene/surface_objects.h"
 
 namespace meniscus {
@@ -14,9 +13,10 @@ namespace {
 
 void check(const MoleculeRequest& request) {
   if (!request.reading.selection)
-    throw RequestError("--context needs --select: the atoms whose area is measured in the presence of others");
-  if (request.file == "-") throw RequestError("--context reads the file twice; standard input can be read only once");
-  if (!request.reading.assembly.empty()) throw RequestError("--context and --assembly cannot be combined");
+    throw RequestError(message("@context@ needs @select@: the atoms whose area is measured in the presence of others"));
+  if (request.file == "-")
+    throw RequestError(message("@context@ reads the file twice; standard input can be read only once"));
+  if (!request.reading.assembly.empty()) throw RequestError(message("@context@ and @assembly@ cannot be combined"));
 }
 
 }  // namespace

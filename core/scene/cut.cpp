@@ -12,7 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/camera/open_side.h"
 #include "core/queries/copies.h"
 #include "core/scene/copied_atoms.h"
@@ -131,9 +131,9 @@ CutAtoms cut_atoms(std::span<const Cut> cuts, const Structure& structure) {
     if (!cuts[n].atoms) continue;
     std::vector<bool> picked = cuts[n].atoms->evaluate(atoms);
     if (std::ranges::find(picked, true) == picked.end())
-      throw RequestError(fmt::format("{} {}: selects none of the {} atoms that are shown; {}", option_name("clip"),
-                                     in_quotes(cut_text(cuts[n])), with_thousands(atoms.size()),
-                                     cuts[n].atoms->why_none(atoms)));
+      throw RequestError(message("@clip {}@: selects none of the {} atoms that are shown; {}",
+                                 in_quotes(cut_text(cuts[n])), with_thousands(atoms.size()),
+                                 cuts[n].atoms->why_none(atoms)));
     for (std::size_t a = structure.atoms.size(); a < atoms.size(); ++a)
       if (picked[a]) chosen[n].push_back({atoms[a].position, atoms[a].radius});
     picked.resize(structure.atoms.size());
@@ -201,10 +201,10 @@ std::vector<std::string> idle_cuts(std::span<const Cut> cuts, const CutAtoms& cu
     if (cut.place == Cut::Place::before) {
       const OpenDepth open = open_depth(cut_atoms.at(n), view.shown, view.camera);
       if (open.is_limited)
-        sentences.push_back(fmt::format(
-            "{} leaves them {:.0f} % hidden: they are part of the surface, so the plane is before all of them; with {} "
-            "without them, and {}, it goes deeper",
-            cut_text(cut), 100.0 * (1.0 - open.seen), option_name("select"), option_name("sticks")));
+        sentences.push_back(
+            message("{} leaves them {:.0f} % hidden: they are part of the surface, so the plane is before all of them; "
+                    "with @select@ without them, and @sticks@, it goes deeper",
+                    cut_text(cut), 100.0 * (1.0 - open.seen)));
       continue;
     }
     double least = std::numeric_limits<double>::infinity(), most = -least;

@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/queries/copies.h"
 
 namespace meniscus {
@@ -125,9 +125,8 @@ std::vector<std::string> idle_cuts(const FigureRequest& request, const Figure& f
     sentences =
         idle_cuts(request.cuts, figure.beside.cut_atoms, {camera, balls, shown_balls(figure.molecule.objects)}, balls);
   if (!request.cuts_all && !request.cuts.empty() && !balls.empty() && lies_beyond(request, figure, camera))
-    sentences.push_back(
-        fmt::format("cuts the surface alone: some of what is drawn beside it lies beyond the plane; {} cuts it, too",
-                    option_name("clip-all")));
+    sentences.push_back(message(
+        "cuts the surface alone: some of what is drawn beside it lies beyond the plane; @clip-all@ cuts it, too"));
   for (std::size_t n = 0; n < figure.beside.objects.size(); ++n) {
     const FigureObject& object = figure.beside.objects[n];
     if (!object.surface || object.surface->surface.atoms.empty()) continue;

@@ -4,10 +4,8 @@
 
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/base/error.h"
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/color/color_atoms.h"
 #include "core/queries/copies.h"
 #include "core/scene/hidden_atoms.h"
@@ -75,11 +73,11 @@ void color_surface(const FigureObjectRequest& request, const Structure& all, con
 
 void ask_for(std::span<const FigureObjectRequest> objects, ReadOptions& reading) {
   if (!objects.empty() && reading.copy_mode == CopyMode::instances)
-    throw RequestError("--instances: copies of one surface cannot be drawn with other objects; leave it out");
+    throw RequestError(message("@instances@: copies of one surface cannot be drawn with other objects; leave it out"));
   if (reading.shown.size() + objects.size() > kMostShown)
-    throw RequestError(fmt::format("--object: at most {} sets of atoms are drawn beside a surface", kMostShown));
+    throw RequestError(message("@object@: at most {} sets of atoms are drawn beside a surface", kMostShown));
   for (const FigureObjectRequest& object : objects) {
-    reading.shown.push_back({"--object", object.atoms});
+    reading.shown.push_back({"object", object.atoms});
     if (object.shapes == RepresentationRequest::Kind::backbone ||
         (object.color && object.color->uses(ColorScheme::By::secondary)))
       reading.secondary_structure = true;

@@ -31,8 +31,8 @@ struct FigureObjectRequest {
 
   // Of surfaces.
   SurfaceKind kind = SurfaceKind::ses;
-  double probe_radius = 1.4;        ///< Å
-  std::optional<Selection> show{};  ///< of the atoms, those whose part of the surface is drawn
+  double probe_radius = kUsualProbe;  ///< Å
+  std::optional<Selection> show{};    ///< of the atoms, those whose part of the surface is drawn
   std::vector<Cut> cuts{};
   CapStyle cap{};
   bool thickens = false;  ///< PictureObject::thickens

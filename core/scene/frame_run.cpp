@@ -13,10 +13,10 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "core/base/message.h"
 #include "core/scene/context_areas.h"
 #include "core/structure/formats/read_structure.h"
 #include "core/scene/molecule.h"
-#include "core/base/text.h"
 #include "core/structure/selection/selection.h"
 #include "core/trajectory/atom_order.h"
 #include "core/structure/assembly.h"
@@ -30,15 +30,16 @@ namespace {
 
 void check_options(const MoleculeRequest& molecule, const RunRequest& request) {
   if (molecule.reading.model.all || molecule.reading.model.number != 1)
-    throw RequestError("--model and --frames: the models of a file are its frames, counted from 0; leave --model out");
+    throw RequestError(
+        message("@model@ and @frames@: the models of a file are its frames, counted from 0; leave @model@ out"));
   if (request.trajectories.empty() && request.trajectory_atoms)
-    throw RequestError("--trajectory-atoms selects the atoms that a trajectory has; add --trajectory FILE");
+    throw RequestError(message("@trajectory-atoms@ selects the atoms that a trajectory has; add @trajectory FILE@"));
   if (request.trajectories.empty() && molecule.file == "-")
     throw RequestError("standard input is read once, so it has no frames; save it as a file");
-  if (request.smooth % 2 == 0)
-    throw RequestError(fmt::format("--smooth {}: give an odd number of frames", request.smooth));
+  if (request.smooth % 2 == 0) throw RequestError(message("@smooth {}@: give an odd number of frames", request.smooth));
   if (request.select_once && !molecule.reading.added.empty())
-    throw RequestError("--select-once and --add: frames have the atoms of the first file only; leave one of them out");
+    throw RequestError(
+        message("@select-once@ and @add@: frames have the atoms of the first file only; leave one of them out"));
 }
 
 /// A bound in ps, if the text is one: a number and "ps", "ns" or "fs".
@@ -54,10 +55,10 @@ std::optional<double> time_of(std::string_view text) {
   return {};
 }
 
-/// Is a frame inside a bound of --begin or --end?
+/// Is a frame inside a bound of a run in frames or time?
 class Bound {
  public:
-  Bound(const char* option, const std::string& text, Trajectory& trajectory)
+  Bound(const std::string& option, const std::string& text, Trajectory& trajectory)
       : option_(option), text_(text), trajectory_(trajectory), time_(time_of(text)) {
     if (time_) {
       if (trajectory.frame_count() > 1) tolerance_ = kPartOfStep * std::abs(time_at(1) - time_at(0));
@@ -96,7 +97,7 @@ class Bound {
     return *frame.time;
   }
 
-  const char* option_;
+  std::string option_;
   std::string text_;
   Trajectory& trajectory_;
   std::optional<double> time_;  // ps
@@ -137,8 +138,9 @@ std::vector<std::uint32_t> chosen(const Selection& selection, const std::vector<
   for (std::uint32_t n = 0; n < atoms.size(); ++n)
     if (selected[n]) indices.push_back(n);
   if (indices.size() < least) {
-    throw RequestError(fmt::format("{} {}: selects {} of {} atoms; at least {} are needed", option,
-                                   in_quotes(selection.text()), indices.size(), with_thousands(atoms.size()), least));
+    throw RequestError(fmt::format("{}: selects {} of {} atoms; at least {} are needed",
+                                   option_name(fmt::format("{} {}", option, in_quotes(selection.text()))),
+                                   indices.size(), with_thousands(atoms.size()), least));
   }
   return indices;
 }
@@ -151,7 +153,8 @@ std::unique_ptr<Trajectory> open_all(const std::vector<std::string>& paths, cons
 }
 
 std::uint64_t reference_of(const RunRequest& request, const Trajectory& trajectory) {
-  return request.reference.empty() ? 0 : parse_frame("--reference", request.reference, trajectory.frame_count());
+  return request.reference.empty() ? 0
+                                   : parse_frame(option_name("reference"), request.reference, trajectory.frame_count());
 }
 
 }  // namespace
@@ -218,15 +221,16 @@ void FrameRun::read_atoms(const MoleculeRequest& molecule, const RunRequest& req
 }
 
 void FrameRun::choose_frames(const RunRequest& request) {
-  run_ = parse_frame_list("--frames", request.frames.empty() ? "all" : request.frames, trajectory_->frame_count());
-  const auto keep = [this](const char* option, const std::string& text, int side) {
+  run_ = parse_frame_list(option_name("frames"), request.frames.empty() ? "all" : request.frames,
+                          trajectory_->frame_count());
+  const auto keep = [this](const std::string& option, const std::string& text, int side) {
     if (text.empty()) return;
     const Bound bound(option, text, *trajectory_);
     std::erase_if(run_, [&](std::uint64_t number) { return side * bound.compare(number) < 0.0; });
   };
-  keep("--begin", request.begin, 1);
-  keep("--end", request.end, -1);
-  if (run_.empty()) throw RequestError("no frame is left between --begin and --end");
+  keep(option_name("begin"), request.begin, 1);
+  keep(option_name("end"), request.end, -1);
+  if (run_.empty()) throw RequestError(message("no frame is left between @begin@ and @end@"));
   for (std::size_t n = 0; n * request.stride < run_.size(); ++n) run_[n] = run_[n * request.stride];
   run_.resize((run_.size() + request.stride - 1) / request.stride);
   multiply();
@@ -236,19 +240,21 @@ void FrameRun::choose_frames(const RunRequest& request) {
     return;
   }
   const std::unordered_set<std::uint64_t> members(run_.begin(), run_.end());
-  chunk_ = parse_frame_list("--only", request.only, trajectory_->frame_count() * copies_);
+  chunk_ = parse_frame_list(option_name("only"), request.only, trajectory_->frame_count() * copies_);
   for (const std::uint64_t number : chunk_)
-    if (!members.contains(number)) throw RequestError(fmt::format("--only: frame {} is not in the run", number));
+    if (!members.contains(number)) throw RequestError(message("@only@: frame {} is not in the run", number));
 }
 
 /// Each frame becomes as many; with others in between the last one stays alone.
 void FrameRun::multiply() {
   if (copies_ == 1) return;
   if (run_.size() > kMostListedFrames / copies_)
-    throw RequestError(fmt::format("{} {}: makes more than {} frames", interpolates_ ? "--interpolate" : "--repeat",
-                                   copies_, with_thousands(kMostListedFrames)));
+    throw RequestError(fmt::format("{}: makes more than {} frames",
+                                   option_name(fmt::format("{} {}", interpolates_ ? "interpolate" : "repeat", copies_)),
+                                   with_thousands(kMostListedFrames)));
   if (interpolates_ && std::unordered_set<std::uint64_t>(run_.begin(), run_.end()).size() < run_.size())
-    throw RequestError("--interpolate: --frames names a frame twice, so the next one is not known; name each once");
+    throw RequestError(
+        message("@interpolate@: @frames@ names a frame twice, so the next one is not known; name each once"));
   std::vector<std::uint64_t> multiplied;
   for (const std::uint64_t number : run_)
     for (std::uint64_t n = 0; n < copies_; ++n) multiplied.push_back(number * copies_ + n);
@@ -276,8 +282,8 @@ void FrameRun::prepare(const MoleculeRequest& molecule, const RunRequest& reques
   Preparation preparation;
   preparation.reference = reference_of(request, *trajectory_);
   preparation.smooth_half = request.smooth / 2;
-  if (request.superpose) preparation.superposed = chosen(*request.superpose, topology.atoms, "--superpose", 3);
-  if (request.center) preparation.centered = chosen(*request.center, topology.atoms, "--center", 1);
+  if (request.superpose) preparation.superposed = chosen(*request.superpose, topology.atoms, "superpose", 3);
+  if (request.center) preparation.centered = chosen(*request.center, topology.atoms, "center", 1);
   std::vector<std::uint32_t> own;  // atoms that surfaces are made of, or that are shown beside them
   const auto add_own = [&](const std::vector<Atom>& atoms) {
     for (const Atom& atom : without_added(atoms, topology)) own.push_back(atom.index);
@@ -447,8 +453,8 @@ std::optional<RunFrame> FrameRun::next() {
 std::vector<double> fluctuations(FrameRun& run) {
   if (run.atoms_change())
     throw RequestError(
-        "--color rmsf needs the same atoms in all frames, but --select chooses others in each; add --select-once to "
-        "keep those of the first");
+        message("@color rmsf@ needs the same atoms in all frames, but @select@ chooses others in each; add "
+                "@select-once@ to keep those of the first"));
   const std::size_t count = run.structure().atoms.size();
   std::vector<glm::dvec3> mean(count, glm::dvec3(0.0));
   std::vector<double> squares(count, 0.0);  // of distances from the mean so far (Welford 1962)

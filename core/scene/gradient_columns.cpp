@@ -4,9 +4,8 @@
 
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/base/error.h"
+#include "core/base/message.h"
 
 namespace meniscus {
 
@@ -19,9 +18,9 @@ void refuse_ties(const Structure& structure, const std::vector<SurfaceObject>& o
       names += (names.empty() ? "" : ", ") + label_of(structure.atoms[object.atom[a]]);
     if (names.empty()) continue;
     throw InputError(structure.file, 0,
-                     fmt::format("one probe touches more than three atoms at once ({}), so the surface has no "
-                                 "derivatives there; move one atom slightly, or choose --surface sas",
-                                 names));
+                     message("one probe touches more than three atoms at once ({}), so the surface has no derivatives "
+                             "there; move one atom slightly, or choose @surface sas@",
+                             names));
   }
 }
 

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/color/color_atoms.h"
 #include "core/color/color_maps.h"
 #include "core/color/color_scale.h"
@@ -34,9 +34,9 @@ void refuse_trajectory(const std::string& path) {
   const std::string_view format = bare_trajectory_format(path);
   if (format.empty()) return;
   throw InputError(path, 0,
-                   fmt::format("is a trajectory ({}) and holds no atoms; give their structure or topology as FILE, and "
-                               "this one with --trajectory",
-                               format));
+                   message("is a trajectory ({}) and holds no atoms; give their structure or topology as FILE, and "
+                           "this one with @trajectory@",
+                           format));
 }
 
 ReadOptions reading_of(const MoleculeRequest& request) {
@@ -48,7 +48,8 @@ ReadOptions reading_of(const MoleculeRequest& request) {
 /// Potentials inside a molecule are huge, so that no range of the whole map says anything about its surface.
 std::shared_ptr<const VolumePaint> volume_paint(const MoleculeRequest& request, const ColorScheme& color) {
   if (!color.range)
-    throw RequestError("--color-map-file needs --color-range LO:HI, the values at the ends of the map, such as -5:5");
+    throw RequestError(
+        message("@color-map-file@ needs @color-range LO:HI@, the values at the ends of the map, such as -5:5"));
   VolumeGrid grid = read_volume(request.volume_file);
   ColorScale scale;
   scale.title = !color.title.empty() ? color.title : !grid.title.empty() ? grid.title : "volume map";
@@ -70,7 +71,8 @@ void warn_of_unseen_charges(Structure& structure) {
       "{} {} with charges {} left out of the surface ({}); a map computed with them colours it by charges that it does "
       "not show. Compute the map without them{}, or keep them in the surface{}",
       with_thousands(count), count == 1 ? "atom" : "atoms", count == 1 ? "is" : "are",
-      reasons_text(structure.report.charged), water ? " (pdb2pqr --drop-water)" : "", water ? " (--keep-water)" : ""));
+      reasons_text(structure.report.charged), water ? " (pdb2pqr --drop-water)" : "",
+      water ? message(" (@keep-water@)") : ""));
 }
 
 /// "x -27.1 to 26.4, y ..., z ..." of points.
@@ -98,9 +100,9 @@ NumberFile measured_accessibility(const Structure& structure, const SurfaceReque
                                   SurfaceComputer& computer) {
   if (surface.kind == SurfaceKind::vdw || surface.probe_radius != kAccessibilityProbe)
     throw RequestError(
-        fmt::format("{} relative-accessibility needs accessible areas by a probe of {} Å, as the greatest areas of "
-                    "residues are; leave out {} and {} vdw",
-                    option_name("color"), kAccessibilityProbe, option_name("probe"), option_name("surface")));
+        message("@color relative-accessibility@ needs accessible areas by a probe of {} Å, as the greatest areas of "
+                "residues are; leave out @probe@ and @surface vdw@",
+                kAccessibilityProbe));
   const auto areas = area_columns(structure, surface_objects(structure, {}, computer), surface.kind);
   return {.path = structure.file, .numbers = relative_accessibility(structure, areas.back().values)};
 }
@@ -135,30 +137,30 @@ void require_colors_shared(const Structure& structure, const ColorScheme& color)
   if (structure.instances.empty()) return;
   const auto require_all_copies = [](const char* option, const Selection& atoms) {
     if (atoms.names_copies())
-      throw RequestError(fmt::format("{} {}: copies of one surface look the same; leave {} out", option_name(option),
-                                     in_quotes(atoms.text()), option_name("instances")));
+      throw RequestError(message("{}: copies of one surface look the same; leave @instances@ out",
+                                 option_name(fmt::format("{} {}", option, in_quotes(atoms.text())))));
   };
   for (const ColorRule& rule : color.rules) require_all_copies("color", rule.atoms);
   for (const OpacityRule& rule : color.opacities)
     if (rule.atoms) require_all_copies("opacity", *rule.atoms);
   if (color.by == ColorScheme::By::copy)
-    throw RequestError("--color copy needs copies with colours of their own; leave --instances out");
+    throw RequestError(message("@color copy@ needs copies with colours of their own; leave @instances@ out"));
   if (color.by == ColorScheme::By::lipophilicity)
     throw RequestError(
-        "--color lipophilicity sums over all atoms, so copies must be made of atoms; leave --instances out");
+        message("@color lipophilicity@ sums over all atoms, so copies must be made of atoms; leave @instances@ out"));
 }
 
 std::vector<bool> patch_atoms(const Selection& patches, const std::vector<Atom>& atoms) {
   std::vector<bool> selected = patches.evaluate(atoms);
   if (std::ranges::find(selected, true) == selected.end())
-    throw RequestError(fmt::format("{} {}: selects none of the {} atoms of the surface; {}", option_name("patches"),
-                                   in_quotes(patches.text()), with_thousands(atoms.size()), patches.why_none(atoms)));
+    throw RequestError(message("@patches {}@: selects none of the {} atoms of the surface; {}",
+                               in_quotes(patches.text()), with_thousands(atoms.size()), patches.why_none(atoms)));
   return selected;
 }
 
 Burial burial_of(const MoleculeRequest& request, const Structure& structure, SurfaceComputer& computer) {
   if (!structure.instances.empty())
-    throw RequestError("areas buried between copies need copies made of atoms; leave --instances out");
+    throw RequestError(message("areas buried between copies need copies made of atoms; leave @instances@ out"));
   Burial burial;
   burial.groups = request.interface ? interface_groups(structure, *request.interface)
                                     : group_atoms(structure, request.division.groups.value_or(Grouping::chain));
@@ -186,8 +188,8 @@ Molecule MoleculeBuilder::build(Structure structure) {
   molecule.color = color_;
   if (color_.by == ColorScheme::By::lipophilicity && division_.groups == Grouping::model)
     throw RequestError(
-        "--color lipophilicity sums over the atoms of all models, but --by model gives each a surface of "
-        "its own; select one model");
+        message("@color lipophilicity@ sums over the atoms of all models, but @by model@ gives each a surface of its "
+                "own; select one model"));
   if (request_.interface || color_.by == ColorScheme::By::buried) measure_burial(molecule);
   if (color_.by == ColorScheme::By::accessibility)
     molecule.color.file = measured_accessibility(molecule.structure, request_.surface, computer_);

@@ -7,7 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/base/text.h"
+#include "core/base/message.h"
+#include "core/base/parse_number.h"
 #include "core/scene/scene_value.h"
 #include "core/scene/scene_values.h"
 
@@ -16,41 +17,34 @@ namespace {
 
 // The molecule.
 
-void read_model(const Property&, Texts texts, Scene& scene) {
-  const std::string& text = texts.back();
+ModelChoice model_of(const std::string& text) {
   ModelChoice choice;
   choice.all = text == "all";
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), choice.number);
   if (!choice.all && (error != std::errc() || end != text.data() + text.size() || choice.number < 1))
     throw RequestError(fmt::format("{} is neither a number from 1 nor all", in_quotes(text)));
-  scene.molecule.reading.model = choice;
+  return choice;
 }
 
-Written write_model(const Property&, const Scene& scene) {
-  const ModelChoice& choice = scene.molecule.reading.model;
-  if (choice.all) return {"all"};
-  if (choice.number == ModelChoice{}.number) return {};
-  return {std::to_string(choice.number)};
+std::string model_text(const ModelChoice& choice) { return choice.all ? "all" : std::to_string(choice.number); }
+
+AltlocChoice altloc_of(const std::string& text) {
+  if (const std::optional<AltlocChoice> choice = parse_altloc_choice(text)) return *choice;
+  throw RequestError(in_quotes(text) + " is not best, first, all or one letter");
 }
 
-void read_altloc(const Property&, Texts texts, Scene& scene) {
-  const std::optional<AltlocChoice> choice = parse_altloc_choice(texts.back());
-  if (!choice) throw RequestError(in_quotes(texts.back()) + " is not best, first, all or one letter");
-  scene.molecule.reading.altloc = *choice;
-}
-
-Written write_altloc(const Property&, const Scene& scene) {
-  switch (scene.molecule.reading.altloc.rule) {
+std::string altloc_text(const AltlocChoice& choice) {
+  switch (choice.rule) {
     case AltlocChoice::Rule::first:
-      return {"first"};
+      return "first";
     case AltlocChoice::Rule::letter:
-      return {std::string(1, scene.molecule.reading.altloc.letter)};
+      return {choice.letter};
     case AltlocChoice::Rule::all:
-      return {"all"};
+      return "all";
     case AltlocChoice::Rule::best:
       break;
   }
-  return {};
+  return "best";
 }
 
 void read_radii(const Property&, Texts texts, Scene& scene) {
@@ -64,38 +58,26 @@ Written write_radii(const Property&, const Scene& scene) {
   return written(scene.molecule.reading.radii.set, std::string());
 }
 
-void read_radius(const Property&, Texts texts, Scene& scene) {
-  for (const std::string& text : texts) scene.molecule.reading.radii.overrides.push_back(parse_radius_override(text));
+std::string radius_text(const RadiusOverride& one) { return fmt::format("{}={}", one.atoms.text(), one.radius); }
+
+WholeBy whole_of(const std::string& text) {
+  if (text == "guess") return WholeBy::guess;
+  if (text.empty() || text == "bonds" || text == "true") return WholeBy::bonds;
+  throw RequestError(in_quotes(text) + " is neither bonds nor guess");
 }
 
-Written write_radius(const Property&, const Scene& scene) {
-  Written texts;
-  for (const RadiusOverride& one : scene.molecule.reading.radii.overrides)
-    texts.push_back(fmt::format("{}={}", one.atoms.text(), one.radius));
-  return texts;
-}
-
-void read_whole(const Property&, Texts texts, Scene& scene) {
-  const std::string& text = texts.back();
-  if (text == "guess")
-    scene.frames.whole = WholeBy::guess;
-  else if (text.empty() || text == "bonds" || text == "true")
-    scene.frames.whole = WholeBy::bonds;
-  else
-    throw RequestError(in_quotes(text) + " is neither bonds nor guess");
-}
-
-Written write_whole(const Property&, const Scene& scene) {
-  if (scene.frames.whole == WholeBy::nothing) return {};
-  return {scene.frames.whole == WholeBy::guess ? "guess" : "bonds"};
+std::string whole_text(WholeBy whole) {
+  return whole == WholeBy::nothing ? "" : whole == WholeBy::guess ? "guess" : "bonds";
 }
 
 template <int... possible>
-constexpr auto one_of_numbers(const Property& property, const std::string& text) {
-  const auto number = static_cast<int>(number_in_range(property, text));
-  if (((number == possible) || ...)) return number;
+int one_of_numbers(const std::string& text) {
+  std::int64_t number = 0;
+  if (parse_whole_number(text, number) && ((number == possible) || ...)) return static_cast<int>(number);
   throw RequestError(fmt::format("{} is not one of {}", in_quotes(text), fmt::join({possible...}, ", ")));
 }
+
+std::string number_text(int number) { return std::to_string(number); }
 
 // Values that depend on each other.
 
@@ -107,15 +89,16 @@ void complete_colors(MoleculeRequest& molecule) {
   if (has_volume) {
     if (molecule.color_named)
       throw ValueError("surface.color_map_file",
-                       "is itself a colour scheme; leave out the other --color, except EXPR=COLOR");
-    if (!color.range) throw ValueError("surface.color_map_file", "needs --color-range LO:HI, such as -5:5 for kT/e");
+                       message("is itself a colour scheme; leave out the other @color@, except EXPR=COLOR"));
+    if (!color.range)
+      throw ValueError("surface.color_map_file", message("needs @color-range LO:HI@, such as -5:5 for kT/e"));
     color.by = By::volume;
   }
   if (color.uses_file() && !has_numbers)
-    throw ValueError("surface.color", fmt::format("{} needs --color-by-file FILE",
-                                                  color.uses(By::conservation) ? "conservation" : "file"));
+    throw ValueError("surface.color",
+                     message("{} needs @color-by-file FILE@", color.uses(By::conservation) ? "conservation" : "file"));
   if (has_numbers && !color.uses_file())
-    throw ValueError("surface.color_by_file", "is itself a colour scheme; leave out the other --color");
+    throw ValueError("surface.color_by_file", message("is itself a colour scheme; leave out the other @color@"));
   if (color.by == By::kind && !color.rules.empty())
     throw ValueError("surface.color", "kind colours patches, but EXPR=COLOR colours atoms; choose another scheme");
   if (color.uses_scale()) return;
@@ -140,80 +123,47 @@ void complete_interface(Scene& scene) {
 }
 
 constexpr auto kMoleculeRows = std::to_array<SceneValue>({
-    plain(
-        "molecule.file", [](auto& s) -> auto& { return s.molecule.file; }),
-    plain(
-        "molecule.add", [](auto& s) -> auto& { return s.molecule.reading.added; }),
-    plain(
-        "molecule.superpose_on", [](auto& s) -> auto& { return s.molecule.reading.superpose_on; }),
-    {"molecule.model", read_model, write_model},
-    {"molecule.altloc", read_altloc, write_altloc},
-    plain(
-        "molecule.select", [](auto& s) -> auto& { return s.molecule.reading.selection; }),
-    plain(
-        "molecule.keep_water", [](auto& s) -> auto& { return s.molecule.reading.keep_water; }),
-    plain(
-        "molecule.keep_ions", [](auto& s) -> auto& { return s.molecule.reading.keep_ions; }),
+    plain("molecule.file", [](auto& s) { return &s.molecule.file; }),
+    plain("molecule.add", [](auto& s) { return &s.molecule.reading.added; }),
+    plain("molecule.superpose_on", [](auto& s) { return &s.molecule.reading.superpose_on; }),
+    coded<model_of, model_text>("molecule.model", [](auto& s) { return &s.molecule.reading.model; }),
+    coded<altloc_of, altloc_text>("molecule.altloc", [](auto& s) { return &s.molecule.reading.altloc; }),
+    plain("molecule.select", [](auto& s) { return &s.molecule.reading.selection; }),
+    plain("molecule.keep_water", [](auto& s) { return &s.molecule.reading.keep_water; }),
+    plain("molecule.keep_ions", [](auto& s) { return &s.molecule.reading.keep_ions; }),
     worded<UnknownElement::halt, UnknownElement::guess, UnknownElement::skip>(
-        "molecule.unknown_element", [](auto& s) -> auto& { return s.molecule.reading.unknown_element; }),
+        "molecule.unknown_element", [](auto& s) { return &s.molecule.reading.unknown_element; }),
     worded<Hydrogens::keep, Hydrogens::drop, Hydrogens::automatic>(
-        "molecule.hydrogens", [](auto& s) -> auto& { return s.molecule.reading.hydrogens; }),
+        "molecule.hydrogens", [](auto& s) { return &s.molecule.reading.hydrogens; }),
     {"molecule.radii", read_radii, write_radii},
-    plain(
-        "molecule.radii_file", [](auto& s) -> auto& { return s.molecule.reading.radii.files; }),
-    {"molecule.radius", read_radius, write_radius},
-    plain(
-        "molecule.assembly", [](auto& s) -> auto& { return s.molecule.reading.assembly; }),
-    worded<InstanceMode::exact, InstanceMode::separate>(
-        "molecule.instances", [](auto& s) -> auto& { return s.molecule.division.instances; }),
+    plain("molecule.radii_file", [](auto& s) { return &s.molecule.reading.radii.files; }),
+    coded<parse_radius_override, radius_text>("molecule.radius",
+                                              [](auto& s) { return &s.molecule.reading.radii.overrides; }),
+    plain("molecule.assembly", [](auto& s) { return &s.molecule.reading.assembly; }),
+    worded<InstanceMode::exact, InstanceMode::separate>("molecule.instances",
+                                                        [](auto& s) { return &s.molecule.division.instances; }),
 
-    plain(
-        "frames.trajectory", [](auto& s) -> auto& { return s.frames.trajectories; }),
-    plain(
-        "frames.trajectory_atoms", [](auto& s) -> auto& { return s.frames.trajectory_atoms; }),
-    plain(
-        "frames.trust_atom_order", [](auto& s) -> auto& { return s.frames.trust_atom_order; }),
-    plain(
-        "frames.frames", [](auto& s) -> auto& { return s.frames.frames; }),
-    plain(
-        "frames.stride", [](auto& s) -> auto& { return s.frames.stride; }),
-    plain(
-        "frames.begin", [](auto& s) -> auto& { return s.frames.begin; }),
-    plain(
-        "frames.end", [](auto& s) -> auto& { return s.frames.end; }),
-    plain(
-        "frames.repeat", [](auto& s) -> auto& { return s.frames.repeat; }),
-    plain(
-        "frames.interpolate", [](auto& s) -> auto& { return s.frames.interpolate; }),
-    plain(
-        "frames.only", [](auto& s) -> auto& { return s.frames.only; }),
-    plain(
-        "frames.select_once", [](auto& s) -> auto& { return s.frames.select_once; }),
-    {"frames.whole", read_whole, write_whole},
-    plain(
-        "frames.superpose", [](auto& s) -> auto& { return s.frames.superpose; }),
-    plain(
-        "frames.center", [](auto& s) -> auto& { return s.frames.center; }),
-    plain(
-        "frames.reference", [](auto& s) -> auto& { return s.frames.reference; }),
-    plain(
-        "frames.smooth", [](auto& s) -> auto& { return s.frames.smooth; }),
-    plain(
-        "frames.fps", [](auto& s) -> auto& { return s.film.frames_per_second; }),
-    plain(
-        "frames.codec", [](auto& s) -> auto& { return s.film.codec; }),
-    plain(
-        "frames.crf", [](auto& s) -> auto& { return s.film.rate_factor; }),
-    {"frames.bits",
-     [](const Property& property, Texts texts, Scene& scene) {
-       scene.film.bits = one_of_numbers<8, 10>(property, texts.back());
-     },
-     [](const Property&, const Scene& scene) { return written(scene.film.bits, 0); }},
-    {"frames.chroma",
-     [](const Property& property, Texts texts, Scene& scene) {
-       scene.film.chroma = one_of_numbers<420, 422, 444>(property, texts.back());
-     },
-     [](const Property&, const Scene& scene) { return written(scene.film.chroma, 0); }},
+    plain("frames.trajectory", [](auto& s) { return &s.frames.trajectories; }),
+    plain("frames.trajectory_atoms", [](auto& s) { return &s.frames.trajectory_atoms; }),
+    plain("frames.trust_atom_order", [](auto& s) { return &s.frames.trust_atom_order; }),
+    plain("frames.frames", [](auto& s) { return &s.frames.frames; }),
+    plain("frames.stride", [](auto& s) { return &s.frames.stride; }),
+    plain("frames.begin", [](auto& s) { return &s.frames.begin; }),
+    plain("frames.end", [](auto& s) { return &s.frames.end; }),
+    plain("frames.repeat", [](auto& s) { return &s.frames.repeat; }),
+    plain("frames.interpolate", [](auto& s) { return &s.frames.interpolate; }),
+    plain("frames.only", [](auto& s) { return &s.frames.only; }),
+    plain("frames.select_once", [](auto& s) { return &s.frames.select_once; }),
+    coded<whole_of, whole_text>("frames.whole", [](auto& s) { return &s.frames.whole; }),
+    plain("frames.superpose", [](auto& s) { return &s.frames.superpose; }),
+    plain("frames.center", [](auto& s) { return &s.frames.center; }),
+    plain("frames.reference", [](auto& s) { return &s.frames.reference; }),
+    plain("frames.smooth", [](auto& s) { return &s.frames.smooth; }),
+    plain("frames.fps", [](auto& s) { return &s.film.frames_per_second; }),
+    plain("frames.codec", [](auto& s) { return &s.film.codec; }),
+    plain("frames.crf", [](auto& s) { return &s.film.rate_factor; }),
+    coded<one_of_numbers<8, 10>, number_text>("frames.bits", [](auto& s) { return &s.film.bits; }),
+    coded<one_of_numbers<420, 422, 444>, number_text>("frames.chroma", [](auto& s) { return &s.film.chroma; }),
 });
 
 }  // namespace

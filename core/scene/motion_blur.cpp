@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/message.h"
 #include "core/scene/transition.h"
 
 namespace meniscus {
@@ -18,9 +19,11 @@ constexpr int kGridLines = 4;
 
 RunRequest with_moments(const Scene& scene, int moments) {
   if (scene.molecule.interface)
-    throw RequestError("--motion-blur: pages of an open interface do not move with their atoms; leave one of them out");
+    throw RequestError(
+        message("@motion-blur@: pages of an open interface do not move with their atoms; leave one of them out"));
   if (scene.frames.repeat > 1)
-    throw RequestError("--motion-blur: nothing moves between the repeats of a frame; use --interpolate, not --repeat");
+    throw RequestError(
+        message("@motion-blur@: nothing moves between the repeats of a frame; use @interpolate@, not @repeat@"));
   RunRequest request = scene.frames;
   request.interpolate *= static_cast<std::uint64_t>(kGridLines) * static_cast<std::uint64_t>(moments);
   request.only.clear();

@@ -3,9 +3,8 @@
 #include "core/scene/object_json.h"
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 #include <string>
-#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,12 +21,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Kind = RepresentationRequest::Kind;
 
-constexpr std::array<std::pair<std::string_view, Kind>, 6> kShapeWords{{{"sticks", Kind::sticks},
-                                                                        {"balls", Kind::balls_and_sticks},
-                                                                        {"spheres", Kind::spheres},
-                                                                        {"tube", Kind::backbone},
-                                                                        {"bases", Kind::bases},
-                                                                        {"glycans", Kind::sugar_symbols}}};
 /// Of sticks and of tubes.
 constexpr std::string_view kRadius = "radius", kRadiusProperty = "shapes.stick_radius";
 
@@ -54,13 +47,12 @@ std::string own_text(const Json& json, std::string_view key, const char* otherwi
 
 std::optional<Kind> shapes_of(const std::string& representation) {
   if (representation == "surface") return {};
-  const auto* const shape =
-      std::ranges::find(kShapeWords, std::string_view(representation), &std::pair<std::string_view, Kind>::first);
-  if (shape == kShapeWords.end())
+  const auto* const shape = std::ranges::find(kShapeWords, representation);
+  if (shape == std::end(kShapeWords))
     throw RequestError(fmt::format(
         "object: \"representation\": {} is not one of surface, sticks, balls, spheres, tube, bases, glycans",
         in_quotes(representation)));
-  return shape->second;
+  return static_cast<Kind>(shape - kShapeWords);
 }
 
 const Property& property_of_key(const std::string& key, const std::string& representation) {
@@ -173,10 +165,7 @@ FigureObjectRequest parse_figure_object(std::string_view text) {
 }
 
 Json figure_object_json(const FigureObjectRequest& object) {
-  const auto* const shape =
-      object.shapes ? std::ranges::find(kShapeWords, *object.shapes, &std::pair<std::string_view, Kind>::second)
-                    : kShapeWords.end();
-  Json json{{"representation", std::string(shape == kShapeWords.end() ? "surface" : shape->first)},
+  Json json{{"representation", object.shapes ? shape_word(*object.shapes) : "surface"},
             {"selection", object.atoms.text()}};
   const Scene own = values_of(object);
   for (const ObjectKey& key : object_keys()) {

@@ -7,13 +7,12 @@
 #include <limits>
 #include <string>
 
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/camera/camera.h"
 #include "core/scene/area_columns.h"
 #include "core/scene/surface_objects.h"
@@ -88,14 +87,14 @@ std::vector<AtomGroup> interface_groups(const Structure& structure, const Interf
       if (!selected[a]) continue;
       if (taken[a])
         throw InputError(structure.file, 0,
-                         fmt::format("--interface: {} is on both sides", atom_place(structure.atoms[a])));
+                         message("@interface@: {} is on both sides", atom_place(structure.atoms[a])));
       taken[a] = true;
       group.atoms.push_back(a);
     }
     if (group.atoms.empty())
       throw InputError(structure.file, 0,
-                       fmt::format("--interface: {} selects none of the {} atoms used; {}", in_quotes(group.name),
-                                   with_thousands(structure.atoms.size()), side->why_none(structure.atoms)));
+                       message("@interface@: {} selects none of the {} atoms used; {}", in_quotes(group.name),
+                               with_thousands(structure.atoms.size()), side->why_none(structure.atoms)));
   }
   return groups;
 }
@@ -110,7 +109,8 @@ OpenPages open_pages(const Structure& structure, std::span<const AtomGroup> grou
       if (buried[a] > 0.0) page.push_back({atom.position, atom.radius});
     }
   if (page.empty())
-    throw InputError(structure.file, 0, "--interface: these atoms do not touch: nothing is buried between them");
+    throw InputError(structure.file, 0,
+                     message("@interface@: these atoms do not touch: nothing is buried between them"));
   const ViewBasis flat = broad_side(page);
   OpenPages pages;
   for (const Ball& ball : page) pages.middle += ball.center / static_cast<double>(page.size());

@@ -9,10 +9,8 @@
 #include <memory>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/base/error.h"
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/color/color_scale.h"
 #include "core/render/vector_page.h"
 #include "core/scene/figure_key.h"
@@ -83,12 +81,12 @@ void share_range(std::span<Scene> scenes, std::span<const Structure> structures)
   for (std::size_t n = 0; n < scenes.size(); ++n) {
     const ColorScheme color = color_of(scenes[n].molecule);
     if (!color.has_scale())
-      throw RequestError(fmt::format("{}: panel {} is not coloured by a number; leave it out, or choose another {}",
-                                     option_name("one-scale"), n + 1, option_name("color")));
+      throw RequestError(
+          message("@one-scale@: panel {} is not coloured by a number; leave it out, or choose another @color@", n + 1));
     const ColorScale scale = color_scale(structures[n], color);
     if (first && scale.title != first->title)
-      throw RequestError(fmt::format("{}: panel 1 is coloured by {}, panel {} by {}", option_name("one-scale"),
-                                     first->title, n + 1, scale.title));
+      throw RequestError(
+          message("@one-scale@: panel 1 is coloured by {}, panel {} by {}", first->title, n + 1, scale.title));
     range = first ? std::array{std::min(range[0], scale.range[0]), std::max(range[1], scale.range[1])} : scale.range;
     if (!first) first = scale;
   }
@@ -117,8 +115,8 @@ PanelPage::PanelPage(std::vector<Panel> panels, const PanelArrangement& arrangem
   panel_size_ = panel_in(legend_ ? legend_->molecule_size() : size_);
   constexpr int kLeast = 16;
   if (panel_size_.x < kLeast || panel_size_.y < kLeast)
-    throw RequestError(fmt::format("{} panels in {} x {} pixels have {} x {} each; make the page larger, or {} smaller",
-                                   count, size_.x, size_.y, panel_size_.x, panel_size_.y, option_name("gap")));
+    throw RequestError(message("{} panels in {} x {} pixels have {} x {} each; make the page larger, or @gap@ smaller",
+                               count, size_.x, size_.y, panel_size_.x, panel_size_.y));
   for (int n = 0; n < count; ++n) {
     Scene& scene = panels[n].scene;
     scene.picture.width = panel_size_.x;

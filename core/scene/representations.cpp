@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/message.h"
 #include "core/color/color_atoms.h"
 #include "core/color/color_scale.h"
 #include "core/shapes/backbone.h"
@@ -24,30 +25,12 @@ using By = ColorScheme::By;
 
 }  // namespace
 
-const char* option_word(Kind kind) {
-  switch (kind) {
-    case Kind::sticks:
-      return "--sticks";
-    case Kind::balls_and_sticks:
-      return "--balls";
-    case Kind::backbone:
-      return "--tube";
-    case Kind::bases:
-      return "--bases";
-    case Kind::sugar_symbols:
-      return "--glycans";
-    case Kind::spheres:
-      break;
-  }
-  return "--spheres";
-}
-
 void Representations::ask_for(ReadOptions& reading) const {
   if (!empty() && reading.copy_mode == CopyMode::instances)
     throw RequestError(
-        "--instances: copies of one surface cannot be drawn with sticks, balls or spheres; leave it out");
+        message("@instances@: copies of one surface cannot be drawn with sticks, balls or spheres; leave it out"));
   for (const RepresentationRequest& request : requests) {
-    reading.shown.push_back({option_word(request.kind), request.atoms});
+    reading.shown.push_back({shape_word(request.kind), request.atoms});
     // Of all atoms of the file, for hydrogen bonds lead to residues that are not shown.
     if (request.kind == Kind::backbone) reading.secondary_structure = true;
   }
@@ -56,11 +39,11 @@ void Representations::ask_for(ReadOptions& reading) const {
 namespace {
 
 /// Of residues that are known by whole rings: those that are selected may have none.
-Shapes found(const Structure& all, Shapes shapes, const std::vector<bool>& selected, const char* option,
-             const char* what) {
+Shapes found(const Structure& all, Shapes shapes, const std::vector<bool>& selected, Kind kind, const char* what) {
   if (shapes.empty() && std::ranges::find(selected, true) != selected.end())
-    throw InputError(all.file, 0,
-                     fmt::format("{} draws nothing: its atoms are of no {} with a whole ring", option, what));
+    throw InputError(
+        all.file, 0,
+        fmt::format("{} draws nothing: its atoms are of no {} with a whole ring", option_name(shape_word(kind)), what));
   return shapes;
 }
 
@@ -76,9 +59,9 @@ Shapes shapes_of_atoms(const Structure& all, Kind kind, const std::vector<bool>&
     case Kind::backbone:
       return backbone(all, selected, radii.tube_radius.value_or(kTubeRadius));
     case Kind::bases:
-      return found(all, bases(all, selected, radii.stick_radius.value_or(kStickRadius)), selected, "--bases", "base");
+      return found(all, bases(all, selected, radii.stick_radius.value_or(kStickRadius)), selected, kind, "base");
     case Kind::sugar_symbols:
-      return found(all, sugar_symbols(all, selected, radii.stick_radius.value_or(kStickRadius)), selected, "--glycans",
+      return found(all, sugar_symbols(all, selected, radii.stick_radius.value_or(kStickRadius)), selected, kind,
                    "sugar");
     case Kind::spheres:
       break;
@@ -92,7 +75,8 @@ ColorScheme with_scale_of(const Structure& structure, std::size_t shown, ColorSc
   const ColorScale scale = color_scale(structure, scheme);
   if (scale.map == ColorMap::categorical && shown > structure.atoms.size())
     throw RequestError(
-        "--map categorical: atoms beside the surface may have numbers that it has no colour for; choose another --map");
+        message("@map categorical@: atoms beside the surface may have numbers that it has no colour for; choose "
+                "another @map@"));
   scheme.range = scale.range;
   std::vector<double>& numbers = scheme.file.numbers;  // either of each atom of the file, or of each of the surface
   const bool of_atoms = scheme.takes_file() || scheme.is_measured();

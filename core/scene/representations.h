@@ -21,8 +21,9 @@ struct RepresentationRequest {
   Selection atoms;
 };
 
-/// The option that asks for it: "--sticks", "--balls", ...
-const char* option_word(RepresentationRequest::Kind kind);
+/// The words of kinds in scene files, each the name of the property that asks for it.
+inline constexpr const char* kShapeWords[] = {"sticks", "balls", "spheres", "tube", "bases", "glycans"};
+constexpr const char* shape_word(RepresentationRequest::Kind kind) { return kShapeWords[static_cast<int>(kind)]; }
 
 /// Å; nothing: the usual ones.
 struct ShapeRadii {

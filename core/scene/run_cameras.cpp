@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "core/base/message.h"
 #include "core/camera/camera_json.h"
-#include "core/base/text.h"
 #include "core/base/error.h"
 #include "core/scene/copied_atoms.h"
 #include "core/scene/view_aim.h"
@@ -33,8 +33,8 @@ class CameraCourse {
     count_ = static_cast<double>(run.numbers().size());
     if (motion.turns != 0.0 && run.numbers().size() == 1)
       throw RequestError(
-          "--turntable: the camera turns from frame to frame, but this run has one frame; add --repeat N to show it N "
-          "times");
+          message("@turntable@: the camera turns from frame to frame, but this run has one frame; add @repeat N@ to "
+                  "show it N times"));
     if (!motion.follow) return;
     followed_ = followed_of(frames.first());
     start_ = middle_of(standing_balls(frames.first_shown(), followed_));
@@ -55,9 +55,9 @@ class CameraCourse {
   std::vector<bool> followed_of(const Structure& structure) const {
     std::vector<bool> followed = motion_.follow->evaluate(structure.atoms);
     if (std::ranges::find(followed, true) == followed.end())
-      throw RequestError(fmt::format("--follow {}: selects none of the {} atoms of the surface{}",
-                                     in_quotes(motion_.follow->text()), with_thousands(followed.size()),
-                                     structure.frame ? fmt::format(" in frame {}", *structure.frame) : ""));
+      throw RequestError(message("@follow {}@: selects none of the {} atoms of the surface{}",
+                                 in_quotes(motion_.follow->text()), with_thousands(followed.size()),
+                                 structure.frame ? fmt::format(" in frame {}", *structure.frame) : ""));
     return followed;
   }
 

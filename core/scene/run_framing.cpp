@@ -6,6 +6,7 @@
 
 #include <glm/common.hpp>
 
+#include "core/base/message.h"
 #include "core/color/color_atoms.h"
 #include "core/color/color_scale.h"
 #include "core/color/named_colors.h"
@@ -37,17 +38,17 @@ void share_colors(ColorScheme& color, const FrameRun& frames) {
   const bool is_categorical = color.map == ColorMap::categorical && !color.own_map;
   if ((color.by == ColorScheme::By::buried || color.by == ColorScheme::By::accessibility) && is_categorical)
     throw RequestError(
-        "--map categorical gives each number of a picture its own colour, but areas change from frame to frame; choose "
-        "another --map");
+        message("@map categorical@ gives each number of a picture its own colour, but areas change from frame to "
+                "frame; choose another @map@"));
   if (!frames.atoms_change() || !color.has_scale() || color.of_points()) return;
   if (is_categorical)
     throw RequestError(
-        "--map categorical gives each number of a picture its own colour, but --select chooses other atoms in each "
-        "frame; choose another --map, or add --select-once");
+        message("@map categorical@ gives each number of a picture its own colour, but @select@ chooses other atoms in "
+                "each frame; choose another @map@, or add @select-once@"));
   if (color.range || color.by == ColorScheme::By::radial || color.is_measured()) return;
   if (color.takes_file())
-    throw RequestError(
-        "--color-by-file needs --color-range LO:HI or --select-once where --select chooses other atoms in each frame");
+    throw RequestError(message(
+        "@color-by-file@ needs @color-range LO:HI@ or @select-once@ where @select@ chooses other atoms in each frame"));
   color.frames_range = color_scale(frames.reach(), color).range;
 }
 

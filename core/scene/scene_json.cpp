@@ -3,7 +3,6 @@
 #include "core/scene/scene_json.h"
 
 #include <algorithm>
-#include <array>
 #include <set>
 #include <utility>
 
@@ -26,13 +25,6 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kVersionKey = "meniscus_scene";
 constexpr const char* kSuperposedKey = "superposed";  // for readers: it sets nothing
 constexpr int kVersion = 1;
-/// Representations of objects that have a property of their own.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kShapes{{{"sticks", "figure.sticks"},
-                                                                                {"balls", "figure.balls"},
-                                                                                {"spheres", "figure.spheres"},
-                                                                                {"tube", "figure.tube"},
-                                                                                {"bases", "figure.bases"},
-                                                                                {"glycans", "figure.glycans"}}};
 
 /// The settings of one file.
 class SceneParser {
@@ -170,9 +162,9 @@ class SceneParser {
   }
 
   void read_object(const Json& object, const std::string& place) {
-    for (const auto& [word, key] : kShapes)
+    for (const std::string word : kShapeWords)
       if (object.size() == 2 && object.value("representation", Json()) == word && object.contains("selection"))
-        return set(meniscus::property_of(key), {text(object["selection"], place + ".selection")}, place);
+        return set(meniscus::property_of("figure." + word), {text(object["selection"], place + ".selection")}, place);
     set(meniscus::property_of("figure.object"), {object.dump()}, place);
   }
 
@@ -196,8 +188,8 @@ std::string scene_text(const Scene& scene, const std::string& folder, std::span<
     const std::string section(property->section()), name(property->name());
     (section == "surface" ? objects.front() : sections[section])[name] = json_of_texts(*property, texts, folder);
   }
-  for (const auto& [word, key] : kShapes)
-    for (const std::string& selection : value_texts(scene, property_of(key)))
+  for (const std::string word : kShapeWords)
+    for (const std::string& selection : value_texts(scene, property_of("figure." + word)))
       objects.push_back({{"representation", word}, {"selection", selection}});
   for (const std::string& json : value_texts(scene, property_of("figure.object")))
     objects.push_back(Json::parse(json, nullptr, false));

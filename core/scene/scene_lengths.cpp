@@ -61,15 +61,6 @@ void keep_length(Scene& scene, std::string_view key, const std::string& text) {
   if (parse_length(text).per_inch != 0.0) scene.lengths[std::string(key)] = text;
 }
 
-Written written_line(const Scene& scene, std::string_view key, const std::optional<float>& pixels) {
-  if (!pixels) return {};
-  const auto length = scene.lengths.find(key);
-  if (length != scene.lengths.end() &&
-      static_cast<float>(parse_length(length->second).pixels(scene.picture.dots_per_inch)) == *pixels)
-    return {length->second};
-  return {fmt::format("{}", *pixels)};
-}
-
 glm::ivec2 size_by_lengths(const Scene& scene) {
   const double shape = usual_scene().picture.aspect(), dots = scene.picture.dots_per_inch;
   const auto wide = scene.lengths.find("image.width"), high = scene.lengths.find("image.height");

@@ -2,9 +2,11 @@
 // Lengths in pictures: in pixels, or in millimetres, inches and points on paper.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include <glm/vec2.hpp>
 
@@ -33,8 +35,28 @@ double pixels_in_range(const Property& property, const std::string& text, double
 
 /// Remembers a length on paper as it was given.
 void keep_length(Scene& scene, std::string_view key, const std::string& text);
-/// A width of lines in pixels. The text on paper counts as long as it still means that width.
-Written written_line(const Scene& scene, std::string_view key, const std::optional<float>& pixels);
+
+/// Pixels as a width of lines has them, or as a height of letters, which is whole.
+template <typename Number>
+Number as_width(double pixels) {
+  return static_cast<Number>(std::is_integral_v<Number> ? std::round(pixels) : pixels);
+}
+
+template <typename Number>
+void read_length(const Property& property, Texts texts, Scene& scene, std::optional<Number>& width, const char* what) {
+  width = as_width<Number>(pixels_in_range(property, texts.back(), scene.picture.dots_per_inch, what));
+  keep_length(scene, property.key, texts.back());
+}
+
+/// The text on paper counts as long as it still means that width.
+template <typename Number>
+Written written_length(const Property& property, const Scene& scene, const std::optional<Number>& width) {
+  const auto length = scene.lengths.find(property.key);
+  if (width && length != scene.lengths.end() &&
+      as_width<Number>(parse_length(length->second).pixels(scene.picture.dots_per_inch)) == *width)
+    return {length->second};
+  return written(width, {});
+}
 
 /// The size that lengths make of sides. One side alone keeps the shape of the usual picture.
 glm::ivec2 size_by_lengths(const Scene& scene);

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/message.h"
 #include "core/base/system_file.h"
-#include "core/base/text.h"
 #include "core/base/utf8.h"
 #include "core/scene/scene_values.h"
 
@@ -47,9 +47,8 @@ std::string SceneTrust::path(const Property& property, const std::string& text, 
       fail(file, place, fmt::format("is {}, outside of the scene's folder; {}", in_quotes(text), advice));
     return path;
   }
-  const std::string own_advice =
-      fmt::format("name it by {} FILE, or add --trust-scene if the scene is yours",
-                  property.key == "output.file" ? "-o" : std::string(property.long_option()));
+  const std::string own_advice = message("name it by {} FILE, or add @trust-scene@ if the scene is yours",
+                                         property.key == "output.file" ? "-o" : std::string(property.long_option()));
   if (given != given.filename())
     fail(file, place,
          fmt::format("is {}; a scene cannot choose the folder of its picture: {}", in_quotes(text), own_advice));
@@ -59,8 +58,8 @@ std::string SceneTrust::path(const Property& property, const std::string& text, 
                      in_quotes(text), own_advice));
   if (replaces && fs::exists(fs::symlink_status(path_of_text(path), ignored)))
     fail(file, place,
-         fmt::format("is {}, which exists already; --force replaces what is named on the command line: {}",
-                     in_quotes(text), own_advice));
+         message("is {}, which exists already; @force@ replaces what is named on the command line: {}", in_quotes(text),
+                 own_advice));
   return path;
 }
 

@@ -4,10 +4,8 @@
 
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/base/error.h"
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/scene/figure_key.h"
 #include "core/scene/scene_values.h"
 #include "core/scene/seen_atoms.h"
@@ -52,8 +50,7 @@ void check_picture(const Scene& scene) {
   const auto has_color = [](const FigureObjectRequest& object) { return object.color.has_value(); };
   if (scene.legend.asked() && scene.molecule.color.by == ColorScheme::By::fixed && scene.molecule.color.rules.empty() &&
       std::ranges::none_of(scene.figure.objects, has_color))
-    throw RequestError(fmt::format("{} has nothing to explain: everything has one colour; choose another {}",
-                                   option_name("legend"), option_name("color")));
+    throw RequestError(message("@legend@ has nothing to explain: everything has one colour; choose another @color@"));
 }
 
 Framebuffer finished_picture(Framebuffer molecule, const Annotations& annotations, const PictureLayout& layout,

@@ -91,11 +91,11 @@ Written written(const std::optional<Value>& value, const std::optional<Value>&) 
     return {*value};
 }
 
-/// A value whose type says how it is read. Member: a function without state from a scene to it.
+/// A value whose type says how it is read. Member: a function without state from a scene to the address of it.
 template <typename Member>
 constexpr SceneValue plain(std::string_view key, Member) {
-  return {key, [](const Property& property, Texts texts, Scene& scene) { read(property, texts, Member{}(scene)); },
-          [](const Property&, const Scene& scene) { return written(Member{}(scene), Member{}(usual_scene())); }};
+  return {key, [](const Property& property, Texts texts, Scene& scene) { read(property, texts, *Member{}(scene)); },
+          [](const Property&, const Scene& scene) { return written(*Member{}(scene), *Member{}(usual_scene())); }};
 }
 
 /// One of the property's words. meanings: of them, in their order. Scene files of version 0.1.0 have the number of the
@@ -108,15 +108,43 @@ constexpr SceneValue worded(std::string_view key, Member) {
     const std::string& text = texts.back();
     const auto* const numbered = std::ranges::find_if(
         kMeanings, [&](Value meaning) { return text == fmt::format("{}", static_cast<int>(meaning)); });
-    Member{}(scene) = numbered != std::end(kMeanings) ? *numbered : kMeanings[place_of_word(words_of(property), text)];
+    *Member{}(scene) = numbered != std::end(kMeanings) ? *numbered : kMeanings[place_of_word(words_of(property), text)];
   };
   constexpr auto write_word = [](const Property& property, const Scene& scene) -> Written {
     constexpr Value kMeanings[] = {meanings...};
-    const Value value = Member{}(scene);
-    if (value == Member{}(usual_scene())) return {};
-    return {words_of(property)[static_cast<std::size_t>(std::ranges::find(kMeanings, value) - kMeanings)]};
+    const std::optional<Value> value = *Member{}(scene);
+    if (value == *Member{}(usual_scene())) return {};
+    return {words_of(property)[static_cast<std::size_t>(std::ranges::find(kMeanings, *value) - kMeanings)]};
   };
   return {key, read_word, write_word};
 }
+
+/// A value of which parse() reads one text, or one of each text where it is a list, and text() writes it.
+template <auto parse, auto text, typename Member>
+constexpr SceneValue coded(std::string_view key, Member) {
+  constexpr auto read_text = [](const Property&, Texts texts, Scene& scene) {
+    auto& value = *Member{}(scene);
+    if constexpr (requires { value.push_back(parse(texts.back())); })
+      for (const std::string& one : texts) value.push_back(parse(one));
+    else
+      value = parse(texts.back());
+  };
+  constexpr auto write_text = [](const Property&, const Scene& scene) -> Written {
+    const auto& value = *Member{}(scene);
+    Written texts;
+    if constexpr (requires { value.size(); })
+      for (const auto& one : value) texts.push_back(text(one));
+    else if constexpr (requires { value.has_value(); })
+      return value ? Written{std::string(text(*value))} : Written();
+    else
+      return written(std::string(text(value)), std::string(text(*Member{}(usual_scene()))));
+    return texts;
+  };
+  return {key, read_text, write_text};
+}
+
+/// A colour, or nothing for the word that stands for none. Throws RequestError.
+std::optional<glm::vec3> parse_color_or(std::string_view none, const std::string& text);
+inline std::optional<glm::vec3> parse_any_color(const std::string& text) { return parse_color_or("", text); }
 
 }  // namespace meniscus::scene_values

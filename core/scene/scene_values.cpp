@@ -12,6 +12,7 @@
 
 #include "core/base/parse_number.h"
 #include "core/base/text.h"
+#include "core/color/named_colors.h"
 #include "core/scene/scene_lengths.h"
 #include "core/scene/scene_value.h"
 
@@ -43,6 +44,13 @@ std::size_t place_of_word(const std::vector<std::string>& words, const std::stri
   if (word == words.end())
     throw RequestError(fmt::format("{} is not one of {}", in_quotes(text), fmt::join(words, ", ")));
   return static_cast<std::size_t>(word - words.begin());
+}
+
+std::optional<glm::vec3> parse_color_or(std::string_view none, const std::string& text) {
+  if (!none.empty() && text == none) return {};
+  if (const std::optional<glm::vec3> color = parse_color(text)) return color;
+  const std::string what = none.empty() ? "is not" : fmt::format("is neither {} nor", none);
+  throw RequestError(fmt::format("{} {} a colour: give a name such as red, or #rrggbb", in_quotes(text), what));
 }
 
 }  // namespace scene_values

@@ -11,7 +11,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/camera/open_side.h"
 #include "core/color/color_rule.h"
 
@@ -44,7 +44,7 @@ std::vector<Sought> sought_in(const Scene& scene, const std::vector<Atom>& atoms
   std::vector<bool> taken(atoms.size());
   const auto add = [&](const char* option, const std::string& text, const Selection& selection) -> Sought& {
     Sought& added = sought.emplace_back();
-    added.what = fmt::format("{} {}", option_name(option), in_quotes(text));
+    added.what = option_name(fmt::format("{} {}", option, in_quotes(text)));
     const std::vector<bool> selected = selection.evaluate(atoms);
     for (std::uint32_t a = 0; a < atoms.size(); ++a)
       if (selected[a] && !taken[a]) added.atoms.push_back(a);
@@ -86,7 +86,7 @@ std::string advice(const Sought& hidden, const std::vector<Atom>& atoms, const C
   if (!again.front().is_seen) return "no side was found that shows them";
   std::string words;
   for (const Turn& turn : turned.turns)
-    if (turn.degrees != 0.0) words += fmt::format("{} {}{} ", option_name("turn"), "xyz"[turn.axis], turn.degrees);
+    if (turn.degrees != 0.0) words += message("@turn {}{}@ ", "xyz"[turn.axis], turn.degrees);
   return words + "shows some";
 }
 

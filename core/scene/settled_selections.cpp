@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/base/error.h"
+#include "core/base/message.h"
 
 namespace meniscus {
 namespace {
@@ -75,7 +76,7 @@ void settle_selections(MoleculeRequest& molecule, RunRequest& run, const OtherSe
   expressions.keep_by_positions();
   const bool backbones = molecule.reading.secondary_structure;
   if (expressions.of_file.empty() && expressions.of_surface.empty() && !backbones)
-    throw RequestError("--select-once: no selection of this run depends on where atoms are; leave it out");
+    throw RequestError(message("@select-once@: no selection of this run depends on where atoms are; leave it out"));
   RunRequest first = run;
   first.select_once = false;
   FrameRun frames(molecule, first);

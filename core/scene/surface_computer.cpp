@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/message.h"
 #include "core/gpu/egl_context.h"
 #include "core/queries/compare.h"
 #include "core/scene/surface_kind.h"
@@ -28,8 +29,8 @@ DeviceChoice gl_for_verifying(const SurfaceRequest& request) {
 void require_equal(const Surface& a, const std::string& device_a, const Surface& b, const std::string& device_b) {
   const std::vector<std::string> found = differences(a, b);
   if (found.empty()) return;
-  throw OpenSurfaceError(fmt::format("--verify: {} differences between {} and {}: {}", found.size(), device_a, device_b,
-                                     fmt::join(found, "; ")));
+  throw OpenSurfaceError(message("@verify@: {} differences between {} and {}: {}", found.size(), device_a, device_b,
+                                 fmt::join(found, "; ")));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "core/scene/surface_kind.h"
 
 #include "core/base/error.h"
+#include "core/base/message.h"
 
 namespace meniscus {
 
@@ -19,7 +20,7 @@ std::vector<Ball> grown(std::span<const Ball> balls, double growth) {
 
 void require_probe_of_kind(const SurfaceRequest& request) {
   if (request.kind == SurfaceKind::vdw && request.probe_named)
-    throw RequestError("--probe: the van der Waals surface has no probe; leave --probe or --surface vdw out");
+    throw RequestError(message("@probe@: the van der Waals surface has no probe; leave @probe@ or @surface vdw@ out"));
 }
 
 }  // namespace meniscus

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/message.h"
 #include "core/queries/copies.h"
 #include "core/queries/part.h"
 
@@ -89,9 +90,9 @@ void require_apart(const Structure& structure, std::span<const CopiedBalls> grou
     return fmt::format("{} in copy {}", atom_place(structure.atoms[atoms[ball.group][ball.ball]]), ball.copy + 1);
   };
   throw InputError(structure.file, 0,
-                   fmt::format("{} and {} are {:.2f} Å apart, so near that a probe can touch both copies; leave "
-                               "--instances out, or choose --instances separate",
-                               place(contact->ball[0]), place(contact->ball[1]), contact->distance));
+                   message("{} and {} are {:.2f} Å apart, so near that a probe can touch both copies; leave "
+                           "@instances@ out, or choose @instances separate@",
+                           place(contact->ball[0]), place(contact->ball[1]), contact->distance));
 }
 
 /// Copies have to keep clear of each other, unless each is wanted as if it were alone: by --instances separate, or as

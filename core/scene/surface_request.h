@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/base/stage_clock.h"
+#include "core/base/usual_probe.h"
 #include "core/gpu/device_choice.h"
 
 namespace meniscus {
@@ -28,11 +29,11 @@ std::string probe_fault(double radius);
 /// Which surface is computed, and where: on the CPU, or through GL.
 struct SurfaceRequest {
   SurfaceKind kind = SurfaceKind::ses;
-  double probe_radius = 1.4;  ///< Å
-  bool probe_named = false;   ///< whether someone asked for it; a van der Waals surface has none
-  bool cpu = false;           ///< on the CPU; else on GL
-  DeviceChoice gl;            ///< automatic: a hardware GPU if there is one, else the CPU
-  bool verify = false;        ///< compute on the other device too and compare
+  double probe_radius = kUsualProbe;  ///< Å
+  bool probe_named = false;           ///< whether someone asked for it; a van der Waals surface has none
+  bool cpu = false;                   ///< on the CPU; else on GL
+  DeviceChoice gl;                    ///< automatic: a hardware GPU if there is one, else the CPU
+  bool verify = false;                ///< compute on the other device too and compare
   /// With `verify`, a further look at each closed surface, such as by its mesh; throws OpenSurfaceError. May be empty.
   std::function<void(const Surface&)> check;
   bool drawn = true;     ///< false: for numbers only, see ClipPlanes::left_out

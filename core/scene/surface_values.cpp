@@ -8,8 +8,8 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/message.h"
 #include "core/base/parse_number.h"
-#include "core/base/text.h"
 #include "core/color/color_maps.h"
 #include "core/color/color_rule.h"
 #include "core/color/named_colors.h"
@@ -58,42 +58,29 @@ void read_require_gpu(const Property&, Texts texts, Scene& scene) {
   SurfaceRequest& surface = scene.molecule.surface;
   if (texts.back() == "false") return;
   if (surface.cpu || surface.gl.kind == DeviceChoice::Kind::software)
-    throw GpuError(fmt::format("--require-gpu and --device {} exclude each other; leave one of them out",
-                               surface.cpu ? "cpu" : to_string(surface.gl)));
+    throw GpuError(message("@require-gpu@ and @device {}@ exclude each other; leave one of them out",
+                           surface.cpu ? "cpu" : to_string(surface.gl)));
   if (surface.gl.kind == DeviceChoice::Kind::automatic) surface.gl.kind = DeviceChoice::Kind::gpu;
 }
 
-constexpr std::pair<const char*, Grouping> kGroupings[] = {{"chain", Grouping::chain},
-                                                           {"model", Grouping::model},
-                                                           {"class", Grouping::atom_class},
-                                                           {"residue", Grouping::residue}};
+constexpr Grouping kGroupings[] = {Grouping::chain, Grouping::model, Grouping::atom_class, Grouping::residue};
 
-void read_division(const Property&, Texts texts, Scene& scene) {
+void read_division(const Property& property, Texts texts, Scene& scene) {
   Division& division = scene.molecule.division;
-  division.groups.reset();
-  division.components = texts.back() == "component";
-  if (division.components) return;
-  for (const auto& [word, grouping] : kGroupings)
-    if (texts.back() == word) division.groups = grouping;
-  if (!division.groups)
-    throw RequestError(in_quotes(texts.back()) + " is not one of chain, model, class, residue, component");
+  const std::size_t place = place_of_word(words_of(property), texts.back());
+  division.components = place == std::size(kGroupings);
+  division.groups = division.components ? std::nullopt : std::optional(kGroupings[place]);
 }
 
-Written write_division(const Property&, const Scene& scene) {
-  if (scene.molecule.division.components) return {"component"};
-  for (const auto& [word, grouping] : kGroupings)
-    if (scene.molecule.division.groups == grouping) return {word};
-  return {};
+Written write_division(const Property& property, const Scene& scene) {
+  const Division& division = scene.molecule.division;
+  if (!division.components && !division.groups) return {};
+  const auto* const group =
+      division.components ? std::end(kGroupings) : std::ranges::find(kGroupings, *division.groups);
+  return {words_of(property)[static_cast<std::size_t>(group - kGroupings)]};
 }
 
-void read_interface(const Property&, Texts texts, Scene& scene) {
-  scene.molecule.interface = parse_interface(texts.back());
-}
-
-Written write_interface(const Property&, const Scene& scene) {
-  if (!scene.molecule.interface) return {};
-  return {scene.molecule.interface->left.text() + ":" + scene.molecule.interface->right.text()};
-}
+std::string interface_text(const InterfaceRequest& sides) { return sides.left.text() + ":" + sides.right.text(); }
 
 // Colours.
 
@@ -121,64 +108,27 @@ Written write_color(const Property&, const Scene& scene) {
   return texts;
 }
 
-void read_map(const Property&, Texts texts, Scene& scene) {
-  scene.molecule.color.map = parse_color_map(texts.back());
-  if (scene.molecule.color.map) return;
+ColorMap map_of(const std::string& text) {
+  if (const std::optional<ColorMap> map = parse_color_map(text)) return *map;
   std::vector<std::string_view> names;
   for (const ColorMapMetadata& map : color_maps()) names.push_back(map.name);
-  throw RequestError(fmt::format("{} is not one of {}", in_quotes(texts.back()), fmt::join(names, ", ")));
+  throw RequestError(fmt::format("{} is not one of {}", in_quotes(text), fmt::join(names, ", ")));
 }
 
-Written write_map(const Property&, const Scene& scene) {
-  if (!scene.molecule.color.map) return {};
-  return {std::string(map_name(*scene.molecule.color.map))};
+std::optional<std::array<double, 2>> range_of(const std::string& text) {
+  const std::optional<std::array<double, 2>> range = parse_color_range(text);
+  if (!range && text != "auto")
+    throw RequestError(in_quotes(text) + " is neither auto nor lo:hi with lo < hi, such as 10:60");
+  return range;
 }
 
-void read_range(const Property&, Texts texts, Scene& scene) {
-  scene.molecule.color.range = parse_color_range(texts.back());
-  if (!scene.molecule.color.range && texts.back() != "auto")
-    throw RequestError(in_quotes(texts.back()) + " is neither auto nor lo:hi with lo < hi, such as 10:60");
-}
+std::string range_text(const std::array<double, 2>& range) { return fmt::format("{}:{}", range[0], range[1]); }
 
-Written write_range(const Property&, const Scene& scene) {
-  const auto& range = scene.molecule.color.range;
-  if (!range) return {};
-  return {fmt::format("{}:{}", (*range)[0], (*range)[1])};
-}
-
-void read_missing(const Property&, Texts texts, Scene& scene) {
-  scene.molecule.color.missing = parse_color(texts.back());
-  if (!scene.molecule.color.missing)
-    throw RequestError(in_quotes(texts.back()) + " is not a colour: give a name such as red, or #rrggbb");
-}
-
-Written write_missing(const Property&, const Scene& scene) {
-  if (!scene.molecule.color.missing) return {};
-  return {hex_color(*scene.molecule.color.missing)};
-}
-
-void read_opacity(const Property&, Texts texts, Scene& scene) {
-  for (const std::string& text : texts) scene.molecule.color.opacities.push_back(parse_opacity_rule(text));
-}
-
-Written write_opacity(const Property&, const Scene& scene) {
-  Written texts;
-  for (const OpacityRule& rule : scene.molecule.color.opacities)
-    texts.push_back((rule.atoms ? rule.atoms->text() + "=" : "") + fmt::format("{}", rule.opacity));
-  return texts;
+std::string opacity_text(const OpacityRule& rule) {
+  return (rule.atoms ? rule.atoms->text() + "=" : "") + fmt::format("{}", rule.opacity);
 }
 
 // The figure.
-
-void read_cuts(const Property&, Texts texts, Scene& scene) {
-  for (const std::string& text : texts) scene.figure.cuts.push_back(parse_cut(text));
-}
-
-Written write_cuts(const Property&, const Scene& scene) {
-  Written texts;
-  for (const Cut& cut : scene.figure.cuts) texts.push_back(cut_text(cut));
-  return texts;
-}
 
 /// Is written as what it stands for.
 void read_look_into(const Property&, Texts texts, Scene& scene) {
@@ -187,18 +137,7 @@ void read_look_into(const Property&, Texts texts, Scene& scene) {
   scene.figure.cuts.push_back(parse_cut(fmt::format("before {}", texts.back())));
 }
 
-void read_cap_color(const Property&, Texts texts, Scene& scene) {
-  std::optional<glm::vec3>& color = scene.figure.cap.color;
-  color.reset();
-  if (texts.back() == "atom") return;
-  color = parse_color(texts.back());
-  if (!color) throw RequestError(in_quotes(texts.back()) + " is neither atom nor a colour (red, #rrggbb)");
-}
-
-Written write_cap_color(const Property&, const Scene& scene) {
-  if (!scene.figure.cap.color) return {};
-  return {hex_color(*scene.figure.cap.color)};
-}
+std::optional<glm::vec3> atom_or_color(const std::string& text) { return parse_color_or("atom", text); }
 
 using Shape = RepresentationRequest::Kind;
 
@@ -247,65 +186,47 @@ Written write_objects(const Property&, const Scene& scene) {
 }
 
 constexpr auto kSurfaceRows = std::to_array<SceneValue>({
-    plain(
-        "surface.shown", [](auto& s) -> auto& { return s.figure.hides_surface; }),
-    {"surface.interface", read_interface, write_interface},
-    worded<SurfaceKind::ses, SurfaceKind::sas, SurfaceKind::vdw>(
-        "surface.kind", [](auto& s) -> auto& { return s.molecule.surface.kind; }),
+    plain("surface.shown", [](auto& s) { return &s.figure.hides_surface; }),
+    coded<parse_interface, interface_text>("surface.interface", [](auto& s) { return &s.molecule.interface; }),
+    worded<SurfaceKind::ses, SurfaceKind::sas, SurfaceKind::vdw>("surface.kind",
+                                                                 [](auto& s) { return &s.molecule.surface.kind; }),
     {"surface.probe", read_probe, write_probe},
-    plain(
-        "surface.show", [](auto& s) -> auto& { return s.molecule.show; }),
-    plain(
-        "surface.patches", [](auto& s) -> auto& { return s.molecule.patches; }),
-    plain(
-        "surface.min_patch", [](auto& s) -> auto& { return s.molecule.least_patch; }),
+    plain("surface.show", [](auto& s) { return &s.molecule.show; }),
+    plain("surface.patches", [](auto& s) { return &s.molecule.patches; }),
+    plain("surface.min_patch", [](auto& s) { return &s.molecule.least_patch; }),
     {"surface.by", read_division, write_division},
-    worded<Cavities::keep, Cavities::drop, Cavities::only>(
-        "surface.cavities", [](auto& s) -> auto& { return s.molecule.division.cavities; }),
+    worded<Cavities::keep, Cavities::drop, Cavities::only>("surface.cavities",
+                                                           [](auto& s) { return &s.molecule.division.cavities; }),
     {"surface.device", read_device, write_device},
     {"surface.require_gpu", read_require_gpu, [](const Property&, const Scene&) { return Written(); }},
-    plain(
-        "surface.threads", [](auto& s) -> auto& { return s.molecule.surface.threads; }),
-    plain(
-        "surface.verify", [](auto& s) -> auto& { return s.molecule.surface.verify; }),
+    plain("surface.threads", [](auto& s) { return &s.molecule.surface.threads; }),
+    plain("surface.verify", [](auto& s) { return &s.molecule.surface.verify; }),
     {"surface.color", read_color, write_color},
-    plain(
-        "surface.color_by_file", [](auto& s) -> auto& { return s.molecule.number_file; }),
-    plain(
-        "surface.color_column", [](auto& s) -> auto& { return s.molecule.number_column; }),
-    plain(
-        "surface.color_map_file", [](auto& s) -> auto& { return s.molecule.volume_file; }),
-    plain(
-        "surface.map_offset", [](auto& s) -> auto& { return s.molecule.volume_offset; }),
-    {"surface.map", read_map, write_map},
-    plain(
-        "surface.map_file", [](auto& s) -> auto& { return s.molecule.map_file; }),
-    {"surface.color_range", read_range, write_range},
-    {"surface.missing_color", read_missing, write_missing},
-    plain(
-        "surface.color_title", [](auto& s) -> auto& { return s.molecule.color.title; }),
-    plain(
-        "surface.color_unit", [](auto& s) -> auto& { return s.molecule.color.unit; }),
-    {"surface.opacity", read_opacity, write_opacity},
-    plain(
-        "surface.film_opacity", [](auto& s) -> auto& { return s.figure.thickens; }),
-    {"surface.clip", read_cuts, write_cuts},
-    plain(
-        "surface.clip_all", [](auto& s) -> auto& { return s.figure.cuts_all; }),
+    plain("surface.color_by_file", [](auto& s) { return &s.molecule.number_file; }),
+    plain("surface.color_column", [](auto& s) { return &s.molecule.number_column; }),
+    plain("surface.color_map_file", [](auto& s) { return &s.molecule.volume_file; }),
+    plain("surface.map_offset", [](auto& s) { return &s.molecule.volume_offset; }),
+    coded<map_of, map_name>("surface.map", [](auto& s) { return &s.molecule.color.map; }),
+    plain("surface.map_file", [](auto& s) { return &s.molecule.map_file; }),
+    coded<range_of, range_text>("surface.color_range", [](auto& s) { return &s.molecule.color.range; }),
+    coded<parse_any_color, hex_color>("surface.missing_color", [](auto& s) { return &s.molecule.color.missing; }),
+    plain("surface.color_title", [](auto& s) { return &s.molecule.color.title; }),
+    plain("surface.color_unit", [](auto& s) { return &s.molecule.color.unit; }),
+    coded<parse_opacity_rule, opacity_text>("surface.opacity", [](auto& s) { return &s.molecule.color.opacities; }),
+    plain("surface.film_opacity", [](auto& s) { return &s.figure.thickens; }),
+    coded<parse_cut, cut_text>("surface.clip", [](auto& s) { return &s.figure.cuts; }),
+    plain("surface.clip_all", [](auto& s) { return &s.figure.cuts_all; }),
     {"camera.look_into", read_look_into, [](const Property&, const Scene&) { return Written(); }},
-    {"surface.cap_color", read_cap_color, write_cap_color},
-    plain(
-        "surface.cap_hatching", [](auto& s) -> auto& { return s.figure.cap.hatching; }),
+    coded<atom_or_color, hex_color>("surface.cap_color", [](auto& s) { return &s.figure.cap.color; }),
+    plain("surface.cap_hatching", [](auto& s) { return &s.figure.cap.hatching; }),
     shapes<Shape::sticks>("figure.sticks"),
     shapes<Shape::balls_and_sticks>("figure.balls"),
     shapes<Shape::spheres>("figure.spheres"),
     shapes<Shape::backbone>("figure.tube"),
     shapes<Shape::bases>("figure.bases"),
     shapes<Shape::sugar_symbols>("figure.glycans"),
-    plain(
-        "shapes.stick_radius", [](auto& s) -> auto& { return s.figure.representations.stick_radius; }),
-    plain(
-        "shapes.tube_radius", [](auto& s) -> auto& { return s.figure.representations.tube_radius; }),
+    plain("shapes.stick_radius", [](auto& s) { return &s.figure.representations.stick_radius; }),
+    plain("shapes.tube_radius", [](auto& s) { return &s.figure.representations.tube_radius; }),
     {"figure.object", read_objects, write_objects},
 });
 

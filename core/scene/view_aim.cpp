@@ -6,10 +6,8 @@
 #include <map>
 #include <unordered_map>
 
-#include <fmt/format.h>
-
 #include "core/base/error.h"
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/queries/copies.h"
 #include "core/scene/copied_atoms.h"
 #include "core/scene/hidden_atoms.h"
@@ -80,9 +78,9 @@ ViewAim::ViewAim(const ViewRequest& request, const std::optional<Selection>& sho
     const std::vector<Atom> atoms = shown_atoms(structure);
     framed_ = request.zoom_to->evaluate(atoms);
     if (std::ranges::find(framed_, true) == framed_.end())
-      throw RequestError(fmt::format("--zoom-to {}: selects none of the {} atoms that are shown; {}",
-                                     in_quotes(request.zoom_to->text()), with_thousands(atoms.size()),
-                                     request.zoom_to->why_none(atoms)));
+      throw RequestError(message("@zoom-to {}@: selects none of the {} atoms that are shown; {}",
+                                 in_quotes(request.zoom_to->text()), with_thousands(atoms.size()),
+                                 request.zoom_to->why_none(atoms)));
     const auto first_beside = framed_.begin() + static_cast<std::ptrdiff_t>(structure.atoms.size());
     beside_.assign(first_beside, framed_.end());
     framed_.erase(first_beside, framed_.end());
@@ -90,15 +88,14 @@ ViewAim::ViewAim(const ViewRequest& request, const std::optional<Selection>& sho
   balls_beside_ = framed_beside(structure);
   using Axes = ViewDirection::Frame;
   if (request.direction && request.direction->frame == Axes::open && !request.zoom_to)
-    throw RequestError(
-        fmt::format("{} open looks at the atoms of {}; add it", option_name("view"), option_name("zoom-to")));
+    throw RequestError(message("@view open@ looks at the atoms of @zoom-to@; add it"));
   if (!request.direction || (request.direction->frame != Axes::symmetry && request.direction->frame != Axes::beside))
     return;
   symmetry_ = symmetry_axis(copy_motions(structure));
   if (!symmetry_)
     throw RequestError(
-        "--view symmetry: there is no axis: build an assembly whose copies are turned (--assembly), or choose another "
-        "side");
+        message("@view symmetry@: there is no axis: build an assembly whose copies are turned (@assembly@), or choose "
+                "another side"));
 }
 
 std::vector<Ball> ViewAim::framed_beside(const Structure& structure) const {

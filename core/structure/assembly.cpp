@@ -13,8 +13,8 @@
 #include <glm/matrix.hpp>
 
 #include "core/base/error.h"
+#include "core/base/message.h"
 #include "core/base/parse_number.h"
-#include "core/base/text.h"
 #include "core/base/text_file.h"
 #include "core/math/rigid_motion.h"
 #include "core/structure/structure.h"
@@ -218,8 +218,7 @@ const Assembly& find_assembly(std::span<const Assembly> assemblies, const std::s
   if (found != assemblies.end()) return *found;
   if (assemblies.empty())
     throw InputError(file, 0,
-                     fmt::format("describes no assembly (REMARK 350, _pdbx_struct_assembly_gen); leave {} out",
-                                 option_name("assembly")));
+                     message("describes no assembly (REMARK 350, _pdbx_struct_assembly_gen); leave @assembly@ out"));
   std::vector<std::string> ids;
   for (const Assembly& assembly : assemblies) ids.push_back(escaped(assembly.id));
   throw InputError(file, 0, fmt::format("has no assembly {}; it has {}", in_quotes(id), fmt::join(ids, ", ")));
@@ -260,10 +259,10 @@ void assemble(Structure& structure, const Assembly& assembly, CopyMode mode) {
   }
   if (total > kMostAssembledAtoms) {
     throw CapacityError(
-        fmt::format("{}: assembly {} has {} atoms, more than the limit of {}; one surface of it would need about {} "
-                    "GB; {} draws copies of one",
-                    structure.file, in_quotes(assembly.id), with_thousands(total), with_thousands(kMostAssembledAtoms),
-                    with_thousands(total / 250'000), option_name("instances")));
+        message("{}: assembly {} has {} atoms, more than the limit of {}; one surface of it would need about {} GB; "
+                "@instances@ draws copies of one",
+                structure.file, in_quotes(assembly.id), with_thousands(total), with_thousands(kMostAssembledAtoms),
+                with_thousands(total / 250'000)));
   }
   structure.atoms = expanded(structure.atoms, groups, total, copies, structure.file);
 }

@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/message.h"
 #include "core/base/parse_number.h"
-#include "core/base/text.h"
 #include "core/base/text_file.h"
 
 namespace meniscus {
@@ -84,8 +84,7 @@ class NumberReader {
         return std::move(result_);
       }
       if (!column_.empty())
-        fail(fmt::format("is not the header of a table, so {} {} cannot choose a column", option_name("color-column"),
-                         in_quotes(column_)));
+        fail(message("is not the header of a table, so @color-column {}@ cannot choose a column", in_quotes(column_)));
       if (first) by_residue_ = names_residue(cells);
       if (by_residue_)
         add_residue(cells);
@@ -209,7 +208,7 @@ class NumberReader {
     if (others.empty()) fail(fmt::format("is the header of a table without a column of numbers; {}", kNumberLayouts));
     std::string list;
     for (const std::size_t n : others) list += (list.empty() ? "" : ", ") + escaped(header[n]);
-    fail(column_.empty() ? fmt::format("is a table; choose one of its columns by --color-column: {}", list)
+    fail(column_.empty() ? message("is a table; choose one of its columns by @color-column@: {}", list)
                          : fmt::format("has no column {}; it has {}", in_quotes(column_), list));
   }
 
@@ -319,7 +318,7 @@ const NumberFile& NumberFile::of_frame(const std::optional<std::uint64_t>& frame
   const std::string held =
       fmt::format("holds numbers of {} {}, {} to {}", by_frame->size(), by_frame->size() == 1 ? "frame" : "frames",
                   by_frame->begin()->first, by_frame->rbegin()->first);
-  if (!frame) throw InputError(path, 0, held + "; add --frames, or leave out its column frame");
+  if (!frame) throw InputError(path, 0, held + message("; add @frames@, or leave out its column frame"));
   const auto found = by_frame->find(*frame);
   if (found == by_frame->end()) throw InputError(path, 0, fmt::format("{}, but none of frame {}", held, *frame));
   return found->second;

@@ -14,7 +14,7 @@
 #include <fmt/format.h>
 #include <glm/vec3.hpp>
 
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/math/vector_loops.h"
 #include "core/structure/structure.h"
 
@@ -143,9 +143,9 @@ void warn_of_overlaid_models(Structure& structure) {
   if (structure.atoms.empty() || median_nearest(structure.atoms, Neighbors::of_other_models) >= kShortestContact)
     return;
   structure.report.warnings.emplace_back(
-      fmt::format("{} models lie on one another, as states of one molecule do; the surface is that of all of them "
-                  "together; {} 1 takes one",
-                  with_thousands(structure.report.models), option_name("model")));
+      message("{} models lie on one another, as states of one molecule do; the surface is that of all of them "
+              "together; @model 1@ takes one",
+              with_thousands(structure.report.models)));
 }
 
 void WarningCollector::add(std::size_t line, std::string_view text) {

@@ -14,6 +14,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/error.h"
+#include "core/base/message.h"
 #include "core/surface/walks.h"
 
 namespace meniscus {
@@ -167,8 +168,8 @@ std::vector<PartedFaces> part_faces(const Surface& surface, std::span<const std:
     auto planes = planes_around(surface, std::span(&face, 1), others);
     if (!planes) {
       throw Error(
-          "one patch of the surface winds around another piece of itself, so that no plane separates them; "
-          "this part of the surface cannot be drawn alone (--cavities, --by component)");
+          message("one patch of the surface winds around another piece of itself, so that no plane separates them; "
+                  "this part of the surface cannot be drawn alone (@cavities@, @by component@)"));
     }
     parts.push_back({{face}, std::move(*planes)});
   }

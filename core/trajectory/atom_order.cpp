@@ -13,7 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/structure/bonds.h"
 
 namespace meniscus {
@@ -141,10 +141,10 @@ void check_atom_order(const Topology& topology, std::span<const Atom> used, cons
   if (scattered == 0 && !all.exceeds(10)) return;
   throw InputError(
       compared.trajectory, 0,
-      fmt::format("frame {}: {} of {} bonds of {} are too long (first: {}); its atoms are in another order, or are "
-                  "different atoms; write both files from the same atoms, or add --trust-atom-order if molecules may "
-                  "come apart like this",
-                  compared.number, with_thousands(all.too_long), with_thousands(all.bonds), compared.file, first));
+      message("frame {}: {} of {} bonds of {} are too long (first: {}); its atoms are in another order, or are "
+              "different atoms; write both files from the same atoms, or add @trust-atom-order@ if molecules may come "
+              "apart like this",
+              compared.number, with_thousands(all.too_long), with_thousands(all.bonds), compared.file, first));
 }
 
 }  // namespace meniscus

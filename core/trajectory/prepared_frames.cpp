@@ -13,7 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/math/rigid_motion.h"
 #include "core/structure/periodic_cell.h"
 #include "core/structure/superposition.h"
@@ -85,7 +85,7 @@ void PreparedFrames::read_placed(std::uint64_t number, Frame& frame) {
   std::vector<glm::dvec3>& positions = frame.positions;
   if (preparation_.whole) {
     const std::string where = fmt::format("{}: frame {}", trajectory_.path(), number);
-    if (!frame.cell) throw InputError(where, 0, "has no periodic box, which --whole needs; leave --whole out");
+    if (!frame.cell) throw InputError(where, 0, message("has no periodic box, which @whole@ needs; leave @whole@ out"));
     preparation_.whole->apply(*frame.cell, positions, where);
   }
   if (reference_.empty()) return;
@@ -187,11 +187,10 @@ void PreparedFrames::refuse_jumps(std::uint64_t number, const Frame& from, std::
   for (const std::uint32_t a : preparation_.followed) {
     const glm::dvec3 step = to.positions[a] - from.positions[a];
     if (glm::length(step - cell->shortest(step)) < 1e-3) continue;
-    throw InputError(
-        fmt::format("{}: frame {}", trajectory_.path(), next), 0,
-        fmt::format("atom {} is {:.1f} Å from where it was in frame {}, across the periodic box, so there is no way "
-                    "between them; add {} bonds, or leave its molecule out by {}",
-                    a + 1, glm::length(step), number, option_name("whole"), option_name("select")));
+    throw InputError(fmt::format("{}: frame {}", trajectory_.path(), next), 0,
+                     message("atom {} is {:.1f} Å from where it was in frame {}, across the periodic box, so there is "
+                             "no way between them; add @whole bonds@, or leave its molecule out by @select@",
+                             a + 1, glm::length(step), number));
   }
 }
 
@@ -226,11 +225,12 @@ void refuse_pieces(std::span<const Atom> atoms, std::span<const std::uint32_t> m
     const bool same_residue = atoms[n].residue == atoms[n - 1].residue;
     if (!same_residue || molecule[n] == molecule[n - 1]) continue;
     if (!is_taken[molecule[n]] && !is_taken[molecule[n - 1]]) continue;
-    throw InputError(file, 0,
-                     fmt::format("no bond is known between {} and the rest of its residue, so it cannot be made whole; "
-                                 "give a topology that lists bonds (PSF, PDB with CONECT), choose "
-                                 "--whole guess (bonds by distance), or leave it out by --select",
-                                 label_of(atoms[n])));
+    throw InputError(
+        file, 0,
+        message(
+            "no bond is known between {} and the rest of its residue, so it cannot be made whole; give a topology that "
+            "lists bonds (PSF, PDB with CONECT), choose @whole guess@ (bonds by distance), or leave it out by @select@",
+            label_of(atoms[n])));
   }
 }
 
@@ -282,7 +282,7 @@ WholeMolecules::WholeMolecules(std::span<const Atom> atoms, std::span<const Bond
 void WholeMolecules::apply(const glm::dmat3& vectors, std::vector<glm::dvec3>& positions,
                            const std::string& where) const {
   const std::optional<PeriodicCell> cell = PeriodicCell::of(vectors);
-  if (!cell) throw InputError(where, 0, "has a periodic box without volume; leave --whole out");
+  if (!cell) throw InputError(where, 0, message("has a periodic box without volume; leave @whole@ out"));
   for (const auto& [atom, from] : steps_)
     if (atom != from) positions[atom] = positions[from] + cell->shortest(positions[atom] - positions[from]);
   // A bond that no step went along closes a ring; through the box it would join the molecule with its own image.
@@ -291,9 +291,9 @@ void WholeMolecules::apply(const glm::dmat3& vectors, std::vector<glm::dvec3>& p
     // Equal but for rounding, or a vector of the lattice apart, which is longer than any bond.
     if (glm::length(bond - cell->shortest(bond)) > 1e-3) {
       throw InputError(where, 0,
-                       fmt::format("atoms {} and {} are bonded across the periodic box to an image of their own "
-                                   "molecule, which cannot be made whole; leave --whole out",
-                                   a + 1, b + 1));
+                       message("atoms {} and {} are bonded across the periodic box to an image of their own molecule, "
+                               "which cannot be made whole; leave @whole@ out",
+                               a + 1, b + 1));
     }
   }
   std::vector<std::uint32_t> atoms;

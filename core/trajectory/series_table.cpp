@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/message.h"
 #include "core/base/parse_number.h"
-#include "core/base/text.h"
 #include "core/base/text_file.h"
 
 namespace meniscus {
@@ -18,10 +18,10 @@ namespace meniscus {
 double SeriesTable::at(std::uint64_t frame) const {
   const auto found = by_frame.find(frame);
   if (found == by_frame.end())
-    throw InputError(path, 0,
-                     fmt::format("has no row for frame {}; write it again for all frames of the run: meniscus surface "
-                                 "... --csv-series",
-                                 frame));
+    throw InputError(
+        path, 0,
+        message("has no row for frame {}; write it again for all frames of the run by @csv-series@ of meniscus surface",
+                frame));
   return found->second;
 }
 
@@ -34,7 +34,8 @@ SeriesTable read_series_table(const std::string& path, const std::string& column
   const auto place = [&](std::string_view name) { return std::ranges::find(header, name); };
   const auto frame = place("frame");
   if (frame == header.end())
-    throw InputError(path, 1, "is not a header with a column 'frame', as meniscus surface --csv-series writes it");
+    throw InputError(path, 1,
+                     message("is not a header with a column 'frame', as @csv-series@ of meniscus surface writes it"));
   const auto value =
       column.empty()
           ? std::ranges::find_if(header, [](const std::string& name) { return name != "frame" && name != "time"; })

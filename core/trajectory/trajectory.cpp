@@ -14,8 +14,8 @@
 #include <glm/matrix.hpp>
 
 #include "core/base/error.h"
+#include "core/base/message.h"
 #include "core/base/parse_number.h"
-#include "core/base/text.h"
 
 namespace meniscus {
 
@@ -51,10 +51,11 @@ void check_positions(const Frame& frame, std::uint64_t number, const std::string
     for (int axis = 0; axis < 3; ++axis) {
       const double coordinate = frame.positions[n][axis];
       if (std::abs(coordinate) <= kLargestCoordinate) continue;  // false for NaN
-      throw InputError(path, 0,
-                       fmt::format("frame {}: {} of atom {} is {}; a simulation that blew up writes such frames: leave "
-                                   "them out by --frames",
-                                   number, "xyz"[axis], n + 1, coordinate));
+      throw InputError(
+          path, 0,
+          message(
+              "frame {}: {} of atom {} is {}; a simulation that blew up writes such frames: leave them out by @frames@",
+              number, "xyz"[axis], n + 1, coordinate));
     }
   }
 }

@@ -91,7 +91,7 @@ TEST_F(Words, ABackgroundMayHaveAnyNameOfAColour) {
   EXPECT_EQ(picture("grey"), picture("gray"));
   EXPECT_EQ(picture("grey"), picture("#808080"));
   EXPECT_NE(picture("white"), picture("gainsboro"));
-  EXPECT_NE(fault({"--background", "plaid"}).find("'plaid' is not a background: give transparent, a colour's name"),
+  EXPECT_NE(fault({"--background", "plaid"}).find("'plaid' is neither transparent nor a colour: give a name"),
             std::string::npos);
 }
 

@@ -74,6 +74,25 @@ class Pictures(unittest.TestCase):
         self.assertEqual((named["depth_cue"].key, named["depth_cue"].highest), ("look.depth_cue", 1.0))
         self.assertEqual(named["surface"].words, ["ses", "sas", "vdw"])
 
+    def test_messages_name_values_and_not_options_of_the_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "two.xyz"
+            path.write_text("2\n\nC 0 0 0\nO 1.2 0 0\n")
+            for values, said in (({"color": "bfactor"}, "choose another color"),
+                                 ({"color": "rmsf"}, "color=rmsf measures fluctuations over frames; add frames=all"),
+                                 ({"scale_bar": "500"}, "scale_bar: 500 Å are"),
+                                 ({"color": "file"}, "file needs color_by_file=FILE"),
+                                 ({"zoom_to": "resid 9"}, "zoom_to='resid 9': selects none"),
+                                 ({"label": "resid 9=x"}, "label='resid 9': none of the 2 atoms"),
+                                 ({"surface": "vdw", "probe": 2}, "leave probe or surface=vdw out")):
+                with self.subTest(**values):
+                    with self.assertRaises(meniscus.Error) as refused:
+                        meniscus.Scene(path, size="80x60", **values).render("cpu")
+                    self.assertIn(said, str(refused.exception))
+                    self.assertNotIn("--", str(refused.exception))
+        self.assertNotIn("@", "".join(p.help + p.initial for p in meniscus.properties()))
+        self.assertIn("(look_into)", {p.name: p for p in meniscus.properties()}["depth_cue"].help)
+
     @unittest.skipUnless(PROGRAM, "MENISCUS_PROGRAM is not set")
     def test_a_scene_is_drawn_as_the_program_draws_it(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -10,6 +10,7 @@
 #include <tbb/parallel_reduce.h>
 
 #include "core/base/error.h"
+#include "core/base/message.h"
 #include "core/gpu/context_description.h"
 #include "core/math/ball_grid.h"
 
@@ -164,9 +165,9 @@ bool GpuNeighbors::count_neighbors(BallBatch& batch) {
   const std::size_t limit = query_gpu_limits().storage_block_bytes;
   if (batch.neighbor_count * sizeof(glm::vec4) <= limit) return true;
   if (batch.count == 1)
-    throw CapacityError("ball " + std::to_string(batch.first + 1) + " overlaps " +
-                        std::to_string(batch.neighbor_count) + " others, more than this driver's storage blocks of " +
-                        std::to_string(limit >> 20) + " MiB hold; use --device cpu");
+    throw CapacityError(
+        message("ball {} overlaps {} others, more than this driver's storage blocks of {} MiB hold; use @device cpu@",
+                batch.first + 1, batch.neighbor_count, limit >> 20));
   return false;
 }
 
@@ -205,8 +206,8 @@ void GpuNeighbors::read_counts(BallBatch& batch) {
   ask(readback);
   readback.read();
   if (counted_.cut_short != 0)
-    throw CapacityError(
-        "an atom has more neighbours than this driver's kernels can process; use --device cpu, or a smaller probe");
+    throw CapacityError(message(
+        "an atom has more neighbours than this driver's kernels can process; use @device cpu@, or a smaller probe"));
   batch.neighbor_count = counted_.neighbors;
   batch.pair_count = counted_.pairs;
   known_ = batch.count == entry_count_ ? batch : BallBatch{};

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/base/text_file.h"
 
 namespace meniscus {
@@ -32,20 +32,18 @@ FileContents read(const TextFile& file, const ModelChoice& models, FileRadii rad
   const Reader& reader = choose_reader(file);
   FileContents contents = reader.read(file, {1, models.all});
   if (contents.without_positions)
-    throw InputError(file.path, 0,
-                     fmt::format("lists atoms without coordinates, so {} cannot use it", option_name("add")));
+    throw InputError(file.path, 0, message("lists atoms without coordinates, so @add@ cannot use it"));
   if ((contents.radii == FileRadii::usual) != (radii == FileRadii::usual))
     throw InputError(file.path, 0,
-                     fmt::format("has {} of its own, and {} has {}; {} needs files of one kind",
-                                 contents.radii == FileRadii::usual ? "radii" : "no radii", escaped(first),
-                                 radii == FileRadii::usual ? "them" : "none", option_name("add")));
+                     message("has {} of its own, and {} has {}; @add@ needs files of one kind",
+                             contents.radii == FileRadii::usual ? "radii" : "no radii", escaped(first),
+                             radii == FileRadii::usual ? "them" : "none"));
   return contents;
 }
 
 std::vector<bool> selected(const Selection& selection, std::span<const Atom> atoms, const std::string& path) {
   if (selection.uses_radius())
-    throw InputError(path, 0,
-                     fmt::format("has no radii yet, so {} cannot select by them", option_name("superpose-on")));
+    throw InputError(path, 0, message("has no radii yet, so @superpose-on@ cannot select by them"));
   return selection.evaluate(atoms);
 }
 
@@ -68,9 +66,9 @@ AddedFiles::AddedFiles(const std::string& path, std::span<const std::string> fil
                                        selected(*superpose_on, more.atoms, file.path));
       if (part.pairs.empty())
         throw InputError(file.path, 0,
-                         fmt::format("has no chain that corresponds to one of {} by its sequence, with three atoms or "
-                                     "more of {} {}; choose other atoms, or add the file where it is",
-                                     escaped(path), option_name("superpose-on"), in_quotes(superpose_on->text())));
+                         message("has no chain that corresponds to one of {} by its sequence, with three atoms or more "
+                                 "of @superpose-on {}@; choose other atoms, or add the file where it is",
+                                 escaped(path), in_quotes(superpose_on->text())));
       for (AtomPair& pair : part.pairs) pair.moved += ends.atoms;
     }
     for (Atom& atom : more.atoms) {

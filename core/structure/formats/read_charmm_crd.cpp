@@ -106,7 +106,7 @@ FileContents read(const TextFile& file, const ModelChoice& models) {
 const Reader kCharmmCrdReader{
     {"CRD", ".crd .cor", "coordinates of CHARMM (CARD), with names", "CHARMM documentation, io.info: coordinate files",
      "titles, count, atoms in fixed columns of both widths (EXT); segments are the chains, elements guessed by name; "
-     "alone, or as --trajectory of a PSF"},
+     "alone, or as @trajectory@ of a PSF"},
     recognizes,
     read};
 

@@ -318,10 +318,10 @@ FileContents read(const TextFile& file, const ModelChoice&) { return PrmtopReade
 }  // namespace
 
 const Reader kPrmtopReader{
-    {"prmtop", ".prmtop .parm7", "topology of Amber, without coordinates: add --trajectory",
+    {"prmtop", ".prmtop .parm7", "topology of Amber, without coordinates: add @trajectory@",
      "ambermd.org, File Formats: AMBER parameter/topology file",
      "atoms with residues, names, charges; elements by number or, where there are none, by mass and name; bonds; radii "
-     "of generalized Born models for --radii file; chains and numbers of ParmEd's addPDB"},
+     "of generalized Born models for @radii file@; chains and numbers of ParmEd's addPDB"},
     recognizes,
     read};
 

@@ -179,7 +179,7 @@ FileContents read(const TextFile& file, const ModelChoice&) { return PsfReader(f
 }  // namespace
 
 const Reader kPsfReader{
-    {"PSF", ".psf", "topology of CHARMM, NAMD and X-PLOR, without coordinates: add --trajectory",
+    {"PSF", ".psf", "topology of CHARMM, NAMD and X-PLOR, without coordinates: add @trajectory@",
      "CHARMM documentation, struct.info; NAMD tutorial, PSF files",
      "atoms with segments (they are the chains), residues, names, charges; elements by mass and name; Drude particles "
      "and lone pairs by type and mass; bonds; standard, EXT, XPLOR and NAMD forms"},

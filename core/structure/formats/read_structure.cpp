@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/structure/bonds.h"
 #include "core/structure/formats/added_files.h"
 #include "core/structure/martini.h"
@@ -125,7 +125,8 @@ void mark_shown(std::vector<Atom>& atoms, std::span<const ShownAtoms> shown, con
   for (std::size_t bit = 0; bit < shown.size(); ++bit) {
     const Selection& selection = shown[bit].atoms;
     if (selection.uses_radius() && !radii.from_molecule_file())
-      throw InputError(path, 0, fmt::format("has no radii yet, so {} cannot select by them", shown[bit].option));
+      throw InputError(path, 0,
+                       fmt::format("has no radii yet, so {} cannot select by them", option_name(shown[bit].option)));
     const std::vector<bool> selected = selected_of(selection, atoms, meaning), named = selection.names(atoms);
     bool any = false;
     for (std::size_t n = 0; n < atoms.size(); ++n) {
@@ -135,9 +136,10 @@ void mark_shown(std::vector<Atom>& atoms, std::span<const ShownAtoms> shown, con
     }
     if (any || meaning == Meaning::in_a_frame) continue;
     throw InputError(path, 0,
-                     fmt::format("none of its {} atoms is shown by {} {}; chains and names are case-sensitive, water "
+                     fmt::format("none of its {} atoms is shown by {}; chains and names are case-sensitive, water "
                                  "and free ions are shown where the expression names them",
-                                 with_thousands(atoms.size()), shown[bit].option, in_quotes(selection.text())));
+                                 with_thousands(atoms.size()),
+                                 option_name(fmt::format("{} {}", shown[bit].option, in_quotes(selection.text())))));
   }
 }
 
@@ -210,8 +212,8 @@ std::vector<Bond> bonds_of_shown(const Structure& structure, const FileContents&
 void refuse_no_atoms(const Structure& structure) {
   if (!structure.atoms.empty()) return;
   throw InputError(structure.file, 0,
-                   fmt::format("no atoms are left to make a surface of: {}; {} and {} use more",
-                               structure.report.sentence(), option_name("keep-water"), option_name("keep-ions")));
+                   message("no atoms are left to make a surface of: {}; @keep-water@ and @keep-ions@ use more",
+                           structure.report.sentence()));
 }
 
 /// why: FileContents::unknown_elements.
@@ -228,14 +230,12 @@ void halt_on_unknown_elements(const Structure& structure, const std::vector<std:
     examples += (examples.empty() ? "" : ", ") + escaped(name);
   }
   if (martini_version(structure.atoms).number != 0)
-    throw InputError(
-        structure.file, 0,
-        fmt::format("the type of {} {} is unknown: {}; give {} radius by {} 'resname NAME=2.64', or choose "
-                    "{} guess",
-                    with_thousands(unknown.size()), unknown.size() == 1 ? "bead" : "beads", examples,
-                    unknown.size() == 1 ? "its" : "their", option_name("radius"), option_name("unknown-element")));
-  const std::string advice =
-      fmt::format("correct the element column, or choose {} guess or skip", option_name("unknown-element"));
+    throw InputError(structure.file, 0,
+                     message("the type of {} {} is unknown: {}; give {} radius by @radius 'resname NAME=2.64'@, or "
+                             "choose @unknown-element guess@",
+                             with_thousands(unknown.size()), unknown.size() == 1 ? "bead" : "beads", examples,
+                             unknown.size() == 1 ? "its" : "their"));
+  const std::string advice = message("correct the element column, or choose @unknown-element guess@ or skip");
   throw InputError(structure.file, 0,
                    fmt::format("the element of {} {} is unknown: {}; {}", with_thousands(unknown.size()),
                                unknown.size() == 1 ? "atom" : "atoms", examples, why.empty() ? advice : why));
@@ -244,9 +244,8 @@ void halt_on_unknown_elements(const Structure& structure, const std::vector<std:
 void require_model(const std::string& path, const ModelChoice& choice, std::size_t models) {
   if (choice.all || static_cast<std::size_t>(choice.number) <= models) return;
   throw InputError(path, 0,
-                   fmt::format("has no model {}: it holds {} {}; choose {} 1{}", choice.number, models,
-                               models == 1 ? "model" : "models", option_name("model"),
-                               models == 1 ? "" : fmt::format(" to {}", models)));
+                   message("has no model {}: it holds {} {}; choose @model 1@{}", choice.number, models,
+                           models == 1 ? "model" : "models", models == 1 ? "" : fmt::format(" to {}", models)));
 }
 
 void warn_of_missing_altloc(Structure& structure, const std::vector<Atom>& atoms, const AltlocChoice& choice) {
@@ -260,7 +259,7 @@ void warn_of_missing_altloc(Structure& structure, const std::vector<Atom>& atoms
 void keep_trajectory_atoms(FileContents& contents, const Selection& selection, const TextFile& file,
                            ReadReport& report) {
   const auto refuse = [&](const std::string& what) {
-    throw InputError(file.path, 0, fmt::format("--trajectory-atoms {}: {}", in_quotes(selection.text()), what));
+    throw InputError(file.path, 0, message("@trajectory-atoms {}@: {}", in_quotes(selection.text()), what));
   };
   if (selection.uses_radius()) refuse("'radius' cannot be used here: radii are assigned later");
   if (contents.without_positions && selection.uses_positions())
@@ -290,9 +289,8 @@ void keep_trajectory_atoms(FileContents& contents, const Selection& selection, c
 void place_atoms(FileContents& contents, const ReadOptions& options, const TextFile& file) {
   if (!contents.without_positions) return;
   if (options.positions.empty())
-    throw InputError(
-        file.path, 0,
-        fmt::format("lists atoms without coordinates; add {} with a file that has them", option_name("trajectory")));
+    throw InputError(file.path, 0,
+                     message("lists atoms without coordinates; add @trajectory@ with a file that has them"));
   if (options.positions.size() != contents.atoms.size()) {
     throw InputError(file.path, 0,
                      fmt::format("lists {} atoms, but a frame of the trajectory has {}: {}",
@@ -316,8 +314,7 @@ std::optional<Assembly> asked_assembly(const TextFile& file, const Reader& reade
   if (options.assembly.empty()) return {};
   if (!reader.assemblies) {
     throw InputError(file.path, 0,
-                     fmt::format("is {}, which describes no assemblies; leave {} out", reader.metadata.name,
-                                 option_name("assembly")));
+                     message("is {}, which describes no assemblies; leave @assembly@ out", reader.metadata.name));
   }
   return find_assembly(reader.assemblies(file), options.assembly, file.path);
 }
@@ -387,29 +384,26 @@ struct StructureFile::Parts {
   void note_other_molecules() {
     if (!contents.of_molecules || contents.models < 2 || options.model.all || options.model.number != 1) return;
     report.warnings.emplace_back(
-        fmt::format("{} molecules are in the file; the first is used, {} 2 takes the next, {} all unites them",
-                    with_thousands(contents.models), option_name("model"), option_name("model")));
+        message("{} molecules are in the file; the first is used, @model 2@ takes the next, @model all@ unites them",
+                with_thousands(contents.models)));
   }
 
   void note_version_of_beads() {
     const MartiniVersion martini = martini_version(contents.atoms);
     if (martini.number == 0 || martini.certain || !options.radii.set.empty()) return;
     report.warnings.emplace_back(
-        fmt::format("nothing in the names tells Martini 2 from Martini 3; beads have the types and radii of 3; {} "
-                    "martini2 takes those of 2",
-                    option_name("radii")));
+        message("nothing in the names tells Martini 2 from Martini 3; beads have the types and radii of 3; @radii "
+                "martini2@ takes those of 2"));
   }
 
   void add_files() {
     if (options.added.empty()) {
       if (options.superpose_on)
-        throw RequestError(fmt::format("{} superposes the files of {}, and there are none", option_name("superpose-on"),
-                                       option_name("add")));
+        throw RequestError(message("@superpose-on@ superposes the files of @add@, and there are none"));
       return;
     }
     if (!options.assembly.empty())
-      throw RequestError(fmt::format("{} and {} cannot be combined: write the assembly to a file and add that",
-                                     option_name("add"), option_name("assembly")));
+      throw RequestError(message("@add@ and @assembly@ cannot be combined: write the assembly to a file and add that"));
     added.emplace(file.path, options.added, options.model, options.superpose_on, contents);
   }
 

@@ -25,7 +25,7 @@ enum class Hydrogens { automatic, keep, drop };
 
 /// Atoms that something else than a surface shows, such as sticks.
 struct ShownAtoms {
-  std::string option;  ///< that asks for them, for messages: "--sticks"
+  std::string option;  ///< that asks for them, for messages: "sticks"
   Selection atoms;     ///< of the same atoms as ReadOptions::selection, with the same rule for water and ions
 };
 

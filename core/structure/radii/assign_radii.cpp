@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/base/parse_number.h"
 #include "core/structure/element_tables.h"
 #include "core/structure/martini.h"
@@ -73,10 +73,10 @@ RadiiChoice::RadiiChoice(const RadiiOptions& options, const std::string& molecul
   const MartiniVersion martini = martini_version(atoms);
   if (martini.number != 0 && options.set.empty()) set_ = martini.number == 2 ? &kMartini2Set : &kMartini3Set;
   if (martini.number != 0 && set_ != &kMartini2Set && set_ != &kMartini3Set)
-    throw InputError(molecule_file, 0,
-                     fmt::format("holds beads of Martini, for which {} has no radii; choose "
-                                 "martini2 or martini3, or leave {} out",
-                                 set_->name, option_name("radii")));
+    throw InputError(
+        molecule_file, 0,
+        message("holds beads of Martini, for which {} has no radii; choose martini2 or martini3, or leave @radii@ out",
+                set_->name));
   refuse_covering_none(molecule_file, atoms);
 }
 
@@ -86,8 +86,8 @@ void RadiiChoice::refuse_covering_none(const std::string& molecule_file, std::sp
   if (atoms.empty() || options_.may_cover_none || !options_.overrides.empty() || std::ranges::any_of(atoms, is_covered))
     return;
   throw InputError(molecule_file, 0,
-                   fmt::format("{} has a radius for none of its {} {}; choose other radii by {}", name(),
-                               with_thousands(atoms.size()), atoms_word(atoms.size()), option_name("radii")));
+                   message("{} has a radius for none of its {} {}; choose other radii by @radii@", name(),
+                           with_thousands(atoms.size()), atoms_word(atoms.size())));
 }
 
 bool RadiiChoice::united(bool any_hydrogens) const {

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/structure/element_tables.h"
 #include "core/structure/point_tree.h"
 #include "core/structure/selection/selection_classes.h"
@@ -394,10 +394,10 @@ std::string advice_on_count(std::span<const Atom> atoms, std::size_t frame_atoms
   for (const Part& part : kParts) {
     const std::vector<bool> selected = parse_selection(part.selection).evaluate(atoms);
     if (static_cast<std::size_t>(std::ranges::count(selected, true)) == frame_atoms)
-      return fmt::format("as many as it has {}: choose --trajectory-atoms '{}'", part.words, part.selection);
+      return message("as many as it has {}: choose @trajectory-atoms '{}'@", part.words, part.selection);
   }
-  return "they do not belong together; if the trajectory has only some of these atoms, select them by "
-         "--trajectory-atoms";
+  return message(
+      "they do not belong together; if the trajectory has only some of these atoms, select them by @trajectory-atoms@");
 }
 
 }  // namespace meniscus

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/structure/selection/selection_steps.h"
 
 namespace meniscus {
@@ -29,14 +29,14 @@ constexpr SelectionWord kWords[] = {
     {"index", WordKind::whole, of(AtomField::index), "index 0 to 99", "place in the file, from 0"},
     {"serial bynum", WordKind::whole, of(AtomField::serial), "serial 1 to 100",
      "position in the file, from 1; not the file's own serial numbers"},
-    {"model", WordKind::whole, of(AtomField::model), "model 1", "model of the file, from 1; files of --add count on"},
+    {"model", WordKind::whole, of(AtomField::model), "model 1", "model of the file, from 1; files of @add@ count on"},
 
     {"bfactor b beta tempfactor", WordKind::number, of(AtomField::b_factor), "bfactor > 40",
      "B-factor in Å²; < <= > >= = !="},
     {"occupancy q", WordKind::number, of(AtomField::occupancy), "occupancy < 1", "occupancy"},
     {"charge", WordKind::number, of(AtomField::charge), "charge > 0.5", "partial charge in e, where the file has it"},
     {"radius", WordKind::number, of(AtomField::radius), "radius >= 1.8",
-     "radius in Å; not in --select unless from file"},
+     "radius in Å; not in @select@ unless from file"},
     {"hydrophobicity", WordKind::number, of(AtomField::hydrophobicity), "hydrophobicity > 1.5",
      "hydropathy of the amino acid, -4.5 to 4.5 (Kyte & Doolittle 1982)"},
     {"x", WordKind::number, of(AtomField::x), "x > 0", "coordinate in Å"},
@@ -118,13 +118,13 @@ Rules:
   After within, around, byres, bychain or same ... as, put EXPR in parentheses if and/or follows.
   SET within 5 of (EXPR): atoms of SET near EXPR. (EXPR) around 5 and (EXPR) expand 5 work as in PyMOL.
   Distances are exact, between the atoms of the file, without periodic images. In a run of frames
-  within, x, y, z, helix, strand and coil are evaluated in each frame; with --select-once in the first
+  within, x, y, z, helix, strand and coil are evaluated in each frame; with @select-once@ in the first
   frame only.
   An atom without a value (B-factor, charge) never matches a comparison.
 
 Water and free ions:
   Expressions see them (within 5 of water works), but the surface leaves them out even if chain A or all
-  selects them, unless --keep-water or --keep-ions is given or the expression names them: water by the
+  selects them, unless @keep-water@ or @keep-ions@ is given or the expression names them: water by the
   keyword or its residue name; ions by the keyword, residue name, element or atom name (a name that other
   atoms of the file also have, such as CA, does not name an ion). Then the expression decides.
 )";
@@ -159,7 +159,7 @@ std::string selection_help() {
     }
     help += fmt::format("  {:<24}{}{}\n", entry.usage, entry.help, others);
   }
-  return help += kRules;
+  return with_options(help += kRules);
 }
 
 }  // namespace meniscus

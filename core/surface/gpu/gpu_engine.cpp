@@ -12,6 +12,7 @@
 #include <tbb/parallel_sort.h>
 
 #include "core/base/error.h"
+#include "core/base/message.h"
 #include "core/gpu/kernel_lists.h"
 #include "core/gpu/egl_context.h"
 #include "core/gpu/program.h"
@@ -52,7 +53,7 @@ class GpuEngine final : public ReducedSurfaceEngine {
     rs.exact_within = decided_within(growth_as_roundoff(arcs_.weights()), stats().ties, protruding);
     // Some atom is exposed, whatever the atoms: with arcs, or as a whole.
     if (rs.arcs.empty() && rs.lone_atoms.empty())
-      throw GpuError("the GPU found no surface, which is impossible; run again, or choose another --device");
+      throw GpuError(message("the GPU found no surface, which is impossible; run again, or choose another @device@"));
     return rs;
   }
 

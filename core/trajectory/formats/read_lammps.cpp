@@ -14,8 +14,8 @@
 
 #include "core/base/constants.h"
 #include "core/base/error.h"
+#include "core/base/message.h"
 #include "core/base/parse_number.h"
-#include "core/base/text.h"
 #include "core/base/text_file.h"
 #include "core/base/binary_file.h"
 #include "core/trajectory/formats/frame_index.h"
@@ -238,10 +238,8 @@ class LammpsDump final : public Trajectory {
     Columns columns{};
     columns.place[0] = place("id");
     if (columns.place[0] == names.size() && !trusts_order_)
-      refuse(number,
-             fmt::format("has no column 'id', so its atoms cannot be identified; add id to dump custom, or {} if "
-                         "they are in the order of FILE in every frame",
-                         option_name("trust-atom-order")));
+      refuse(number, message("has no column 'id', so its atoms cannot be identified; add id to dump custom, or "
+                             "@trust-atom-order@ if they are in the order of FILE in every frame"));
     for (const PositionColumns& kind : kPositionColumns) {
       for (std::size_t axis = 0; axis < 3; ++axis) columns.place[axis + 1] = place(kind.names[axis]);
       columns.last = *std::max_element(columns.place.begin() + 1, columns.place.end());

@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/message.h"
 #include "core/base/parse_number.h"
-#include "core/base/text.h"
 #include "core/base/text_file.h"
 #include "core/base/binary_file.h"
 #include "core/trajectory/formats/trajectory_formats.h"
@@ -61,8 +61,8 @@ class Mdcrd final : public Trajectory {
   Mdcrd(const std::string& path, const TrajectoryOptions& options) : Trajectory(path, "mdcrd"), file_(path) {
     if (!options.atoms)
       throw InputError(path, 0,
-                       "does not say how many atoms a frame has; give their structure or topology as FILE, and this "
-                       "file with --trajectory");
+                       message("does not say how many atoms a frame has; give their structure or topology as FILE, and "
+                               "this file with @trajectory@"));
     atom_count_ = options.atoms();
     if (atom_count_ == 0) throw InputError(path, 0, "does not say how many atoms a frame has, and FILE has none");
     numbers_ = 3 * atom_count_;

@@ -8,7 +8,7 @@
 
 #include "core/base/constants.h"
 #include "core/base/error.h"
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/base/binary_file.h"
 #include "core/trajectory/formats/frame_index.h"
 #include "core/trajectory/formats/trajectory_formats.h"
@@ -124,8 +124,8 @@ class Trr final : public Trajectory {
     file_.check_unchanged();
     if (!fault.empty()) {
       throw InputError(path_, 0,
-                       fmt::format("frame {} at byte {} {}; leave it out by --frames, or write the file again", number,
-                                   with_thousands(offset), fault));
+                       message("frame {} at byte {} {}; leave it out by @frames@, or write the file again", number,
+                               with_thousands(offset), fault));
     }
     time_precision_ = header.doubles ? kDoublePrecision : kSinglePrecision;
     header.doubles ? copy<double>(header, frame) : copy<float>(header, frame);

@@ -8,7 +8,7 @@
 
 #include "core/base/constants.h"
 #include "core/base/error.h"
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/base/binary_file.h"
 #include "core/trajectory/formats/frame_index.h"
 #include "core/trajectory/formats/packed_coordinates.h"
@@ -112,8 +112,8 @@ class Xtc final : public Trajectory {
     if (fault.empty()) fault = unpack_frame(header, frame);
     if (!fault.empty()) {
       throw InputError(path_, 0,
-                       fmt::format("frame {} at byte {} {}; leave it out by --frames, or write the file again", number,
-                                   with_thousands(offset), fault));
+                       message("frame {} at byte {} {}; leave it out by @frames@, or write the file again", number,
+                               with_thousands(offset), fault));
     }
   }
 

@@ -8,18 +8,21 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/text.h"
+#include "core/base/message.h"
 #include "core/properties/properties.h"
 #include "exporters/bindings/c/caller_memory.h"
 
 namespace meniscus::c_api {
 namespace {
 
-/// In messages: as callers spell a value of scenes and an option of meniscus_read().
-std::string spelled(std::string_view name) {
+/// In messages: as callers spell a value of scenes and an option of meniscus_read(), "keep_water" and "frames=all".
+std::string spelled(std::string_view option) {
+  const std::size_t end = std::min(option.find(' '), option.size());
+  const std::string name = "--" + std::string(option.substr(0, end));
   for (const Property* property : properties())
-    if (is_scene_value(*property) && property->long_option() == "--" + std::string(name)) return value_name(*property);
-  return "the program's --" + std::string(name);
+    if (is_scene_value(*property) && property->long_option() == name)
+      return value_name(*property) + (end < option.size() ? "=" + std::string(option.substr(end + 1)) : "");
+  return "the program's --" + std::string(option);
 }
 
 [[maybe_unused]] const bool kSpelled = (spell_options(spelled), true);
@@ -73,7 +76,7 @@ const std::vector<meniscus_property>& property_rows() {
       if (is_scene_value(*property)) held.push_back(property);
     for (const Property* property : held)
       texts.push_back({value_name(*property), std::string(property->key), std::string(property->value),
-                       std::string(property->help), std::string(property->words), std::string(property->initial)});
+                       with_options(property->help), std::string(property->words), with_options(property->initial)});
     std::vector<meniscus_property> made;
     for (std::size_t n = 0; n < held.size(); ++n)
       made.push_back({texts[n].name.c_str(), texts[n].key.c_str(), texts[n].value.c_str(), texts[n].help.c_str(),

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/base/parse_number.h"
+#include "core/base/usual_probe.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/properties/properties.h"
 #include "core/render/look.h"
@@ -73,6 +75,9 @@ TEST(Properties, RangesAreThoseOfTheCode) {
   expect("pockets.tolerance", kSmallestTolerance, kLargestTolerance);
   expect("mesh.density", kSmallestDensity, kLargestDensity);
   expect("mesh.scale", kSmallestFileScale, kLargestFileScale);
+  double probe = 0.0;
+  EXPECT_TRUE(parse_number(std::string(property_of("surface.probe").initial), probe));
+  EXPECT_EQ(probe, kUsualProbe);
 }
 
 // A number of the look that had no property, or whose property is not one of scenes, bundles and the preview, would be

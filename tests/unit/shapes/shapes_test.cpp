@@ -208,7 +208,7 @@ TEST_F(ShapesOfThree, AppendedMeshesKeepTheirCorners) {
 TEST(ShownAtoms, NeedNotBeAtomsOfTheSurface) {
   ReadOptions options;
   options.selection = parse_selection("chain A and resid 5 to 40");
-  options.shown = {{"--sticks", parse_selection("chain A and resid 40 41")}, {"--balls", parse_selection("chain C")}};
+  options.shown = {{"sticks", parse_selection("chain A and resid 40 41")}, {"balls", parse_selection("chain C")}};
   const Structure structure = read_structure(kToxin, options);
   ReadOptions without = options;
   without.shown.clear();
@@ -243,16 +243,16 @@ TEST(ShownAtoms, NeedNotBeAtomsOfTheSurface) {
 
 TEST(ShownAtoms, ThatAreNoneAreAnError) {
   ReadOptions options;
-  options.shown = {{"--sticks", parse_selection("chain Q")}};
+  options.shown = {{"sticks", parse_selection("chain Q")}};
   try {
     read_structure(kToxin, options);
     FAIL() << "nothing is shown";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("is shown by --sticks 'chain Q'"), std::string::npos) << error.what();
   }
-  options.shown = {{"--spheres", parse_selection("(within 6 of resid 40) and not polymer")}};
+  options.shown = {{"spheres", parse_selection("(within 6 of resid 40) and not polymer")}};
   EXPECT_THROW(read_structure(kUbiquitin, options), InputError);  // it is water, which the expression does not name
-  options.shown = {{"--spheres", parse_selection("water and within 6 of (resid 40)")}};
+  options.shown = {{"spheres", parse_selection("water and within 6 of (resid 40)")}};
   const Structure water = read_structure(kUbiquitin, options);
   ASSERT_FALSE(water.beside.empty());
   for (const Atom& one : water.beside) EXPECT_EQ(one.kind, AtomClass::water);

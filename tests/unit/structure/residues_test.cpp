@@ -179,7 +179,7 @@ TEST(Altloc, BondsJoinWhatCompletesAResidue) {
   const test::TemporaryFolder folder;
   const std::string path = folder.file("a.pdb", pdb_of(kSerine));
   ReadOptions options;
-  options.shown.push_back({"--sticks", parse_selection("all")});
+  options.shown.push_back({"sticks", parse_selection("all")});
   const Structure mixed = read_structure(path, options);
   std::set<std::pair<std::string, std::string>> joined;
   for (const auto& [a, b] : *mixed.shown_bonds) joined.insert({mixed.atoms[a].name, mixed.atoms[b].name});

@@ -51,20 +51,20 @@ class SurfaceValues(TypedDict, total=False):
     #: WIDTH: Width of black outlines: pixels, 0.5pt or 0.2mm; 0: no lines. They are drawn around whatever is in
     #: front, and between chains
     silhouettes: Text
-    #: WIDTH: Width of the outline around the whole molecule [--silhouettes]
+    #: WIDTH: Width of the outline around the whole molecule [silhouettes]
     outer_lines: Text
-    #: WIDTH: Width of lines where one part is in front of another [--silhouettes]
+    #: WIDTH: Width of lines where one part is in front of another [silhouettes]
     inner_lines: Text
-    #: WIDTH: Width of lines where chains meet [--silhouettes]
+    #: WIDTH: Width of lines where chains meet [silhouettes]
     part_lines: Text
-    #: WIDTH: Width of the lines around --patches; 0: no lines [2.5 pixels of a picture of 960, wider in larger
+    #: WIDTH: Width of the lines around patches; 0: no lines [2.5 pixels of a picture of 960, wider in larger
     #: ones]
     patch_lines: Text
-    #: COLOR: Colour of the lines around --patches [black]
+    #: COLOR: Colour of the lines around patches [black]
     patch_line_color: Text
     #: F: Fade of the farthest atoms into the background, 0 to 1. A transparent background counts as white.
     #: Presets do not fade where colours show numbers, a legend explains them, or a surface is seen through or
-    #: cut for atoms to be seen (--look-into)
+    #: cut for atoms to be seen (look_into)
     depth_cue: float
     #: Make transparent edges for programs that blend in linear light. Without it .png and .tif pictures look
     #: right on a page
@@ -102,8 +102,8 @@ class SceneValues(SurfaceValues, total=False):
     file: Path
     #: FILE: Add the atoms of another molecule file, as model 2, 3 ... of the first. Repeatable
     add: Union[Path, Sequence[Path]]
-    #: EXPR: Superpose the files of --add on FILE by these atoms. 'name CA' takes alpha carbons. Chains are
-    #: paired and aligned by sequence; the number of atoms and the RMSD are printed
+    #: EXPR: Superpose the files of add on FILE by these atoms. 'name CA' takes alpha carbons. Chains are paired
+    #: and aligned by sequence; the number of atoms and the RMSD are printed
     superpose_on: Text
     #: N|all: Model to read, from 1; all: all models as one molecule [1]
     model: Text
@@ -125,7 +125,7 @@ class SceneValues(SurfaceValues, total=False):
     #: (Chothia 1976) and protor (Tsai et al. 1999) include hydrogens; martini2 and martini3: of beads; file:
     #: those of FILE [file if it has radii, else bondi; of Martini's beads those of its version]
     radii: Text
-    #: FILE: File of radii by residue and atom, used before --radii. Formats: atmtypenumbers of MSMS, FreeSASA
+    #: FILE: File of radii by residue and atom, used before radii. Formats: atmtypenumbers of MSMS, FreeSASA
     #: .config, CHARMM .rtf with .prm (or .str), PDB2PQR .DAT, or lines RESIDUE ATOM RADIUS. Repeatable; the
     #: last file that has an atom counts
     radii_file: Union[Path, Sequence[Path]]
@@ -157,7 +157,7 @@ class SceneValues(SurfaceValues, total=False):
     #: F*N + 1 and so on [1]
     repeat: int
     #: N: Make N frames of each: itself, and N - 1 on the way to the next. Atoms go along smooth curves; the
-    #: files are numbered as with --repeat [1]
+    #: files are numbered as with repeat [1]
     interpolate: int
     #: LIST: Make only these frames, as one part of the whole run. Camera, colours and scene stay those of the
     #: whole run
@@ -172,7 +172,7 @@ class SceneValues(SurfaceValues, total=False):
     superpose: Text
     #: EXPR: Move each frame so that the centre of these atoms stays fixed
     center: Text
-    #: N: Reference frame of --superpose and --center: a number, or last [0]
+    #: N: Reference frame of superpose and center: a number, or last [0]
     reference: Text
     #: N: Average positions over N frames around each frame; N is odd [1]
     smooth: int
@@ -224,14 +224,14 @@ class SceneValues(SurfaceValues, total=False):
     #: Compute on GPU and CPU, and report every difference
     verify: bool
     #: NUMBERS: Colour by numbers from a file. One number per atom of FILE or per atom used; lines of chain,
-    #: residue and number; or a table with a header, such as meniscus surface --csv-residues writes, or
-    #: resid,score for one chain. Commas, semicolons, tabs or blanks; nan, ? and - mean missing. Grades from 1
-    #: to 9: --color conservation
+    #: residue and number; or a table with a header, such as the program's --csv-residues of meniscus surface
+    #: writes, or resid,score for one chain. Commas, semicolons, tabs or blanks; nan, ? and - mean missing.
+    #: Grades from 1 to 9: color=conservation
     color_by_file: Path
-    #: NAME: Column of the table of --color-by-file
+    #: NAME: Column of the table of color_by_file
     color_column: Text
     #: FILE: Colour by a volume map, such as a potential from APBS. Formats: OpenDX (.dx), Gaussian cube,
-    #: CCP4/MRC. Needs --color-range; the default --map is red-white-blue
+    #: CCP4/MRC. Needs color_range; the default map is red-white-blue
     color_map_file: Path
     #: Å: Distance outside the surface at which the map is sampled, in Å. Centres of solvent molecules lie at
     #: 1.4 [0]
@@ -262,13 +262,13 @@ class SceneValues(SurfaceValues, total=False):
     #: depth runs along the line of sight from 0 (nearest) to 1 (farthest). 'through EXPR' goes through the
     #: middle of these atoms, 'before EXPR' is as deep as it must be for them to be seen. Repeatable; all apply
     clip: Union[Text, Sequence[Text]]
-    #: Cut sticks, balls, tubes and all else beside the surface by --clip, too
+    #: Cut sticks, balls, tubes and all else beside the surface by clip, too
     clip_all: bool
     #: COLOR: Colour of caps: atom (that of the nearest) or a colour (red, #rrggbb) [atom]
     cap_color: Text
     #: Å: Distance of dark lines on caps, in Å; 0: no lines [0]
     cap_hatching: float
-    #: EXPR: Draw these atoms as sticks, also outside --select. Repeatable
+    #: EXPR: Draw these atoms as sticks, also outside select. Repeatable
     sticks: Union[Text, Sequence[Text]]
     #: EXPR: Draw these atoms as balls and sticks
     balls: Union[Text, Sequence[Text]]
@@ -279,8 +279,8 @@ class SceneValues(SurfaceValues, total=False):
     tube: Union[Text, Sequence[Text]]
     #: EXPR: Draw the bases of these nucleotides as filled rings. Rungs lead to the tube
     bases: Union[Text, Sequence[Text]]
-    #: EXPR: Draw these sugars as solid symbols (3D-SNFG). Such as spheres, cubes, cones; their colours: --color
-    #: snfg
+    #: EXPR: Draw these sugars as solid symbols (3D-SNFG). Such as spheres, cubes, cones; their colours:
+    #: color=snfg
     glycans: Union[Text, Sequence[Text]]
     #: Å: Radius of sticks in Å, also of bases and between glycans [0.25; 0.15 between balls]
     stick_radius: float
@@ -293,17 +293,17 @@ class SceneValues(SurfaceValues, total=False):
     #: view matrix [shows everything]
     camera: Path
     #: SIDE: Side that faces the viewer, such as front, top or left. front: the broad side; back, bottom, right;
-    #: x, y, z: axes of the file; 1, 2, 3: axes of inertia, longest first; symmetry: along the axis of
-    #: --assembly; symmetry-side: with that axis upright; open: from where the atoms of --zoom-to are hidden
-    #: least; channel: along a channel through them. A minus sign before it shows the opposite side [front]
+    #: x, y, z: axes of the file; 1, 2, 3: axes of inertia, longest first; symmetry: along the axis of assembly;
+    #: symmetry-side: with that axis upright; open: from where the atoms of zoom_to are hidden least; channel:
+    #: along a channel through them. A minus sign before it shows the opposite side [front]
     view: Text
     #: AXISANGLE: Turn the molecule about an axis by degrees: y90, x-30, z45. x points right, y up, z to the
     #: viewer. Repeatable, applied in this order
     turn: Union[Text, Sequence[Text]]
-    #: EXPR: Fill the picture with these atoms [all that --show leaves]
+    #: EXPR: Fill the picture with these atoms [all that show leaves]
     zoom_to: Text
-    #: EXPR: Look at these atoms from the open side, with the surface cut before them. Short for --zoom-to EXPR
-    #: --view open --clip 'before EXPR'
+    #: EXPR: Look at these atoms from the open side, with the surface cut before them. Short for zoom_to=EXPR
+    #: view=open clip='before EXPR'
     look_into: Text
     #: FILE: JSON file of key frames (frame, camera) of a moving camera
     camera_path: Path
@@ -317,8 +317,7 @@ class SceneValues(SurfaceValues, total=False):
     legend_file: Path
     #: TEXT: Title of the legend; '' for none [by the colours]
     legend_title: Text
-    #: SIZE: Height of the letters: pixels, 8pt or 3mm [that of --letter-size, or a thirtieth of the shorter
-    #: side]
+    #: SIZE: Height of the letters: pixels, 8pt or 3mm [that of letter_size, or a thirtieth of the shorter side]
     legend_size: Text
     #: ENTRY=TEXT: Write TEXT instead of an entry of the legend, as in 'A=Alpha' for chain A. Repeatable
     legend_name: Union[Text, Sequence[Text]]
@@ -334,21 +333,21 @@ class SceneValues(SurfaceValues, total=False):
     #: SIZE: Height of all letters that have no size of their own: pixels, 8pt or 3mm [by the size of the
     #: picture]
     letter_size: Text
-    #: SIZE: Height of the letters of labels [that of --letter-size]
+    #: SIZE: Height of the letters of labels [that of letter_size]
     label_size: Text
-    #: SIZE: Height of the letters of the scale bar [that of --letter-size]
+    #: SIZE: Height of the letters of the scale bar [that of letter_size]
     scale_bar_size: Text
-    #: SIZE: Height of the letter of the panel [1.5 times --letter-size]
+    #: SIZE: Height of the letter of the panel [1.5 times letter_size]
     panel_size: Text
-    #: COLOR: Colour of letters, lines and bars: auto, or a colour. auto: dark or light, as --background needs;
+    #: COLOR: Colour of letters, lines and bars: auto, or a colour. auto: dark or light, as background needs;
     #: dark if it is transparent [auto]
     letter_color: Text
     #: EXPR=TEXT: Write TEXT at these atoms, with a line to their centre. Repeatable
     label: Union[Text, Sequence[Text]]
     #: Write the time of each frame in ps, ns or µs, or else its number
     time_stamp: bool
-    #: FILE.csv: Draw a curve of the run from a CSV table, with a mark at each frame. meniscus surface --csv-
-    #: series writes such tables
+    #: FILE.csv: Draw a curve of the run from a CSV table, with a mark at each frame. Such tables are written by
+    #: the program's --csv-series of meniscus surface
     curve: Path
     #: NAME: Column of the table to draw [the first after the time]
     curve_column: Text

@@ -74,7 +74,7 @@ TEST(Sdf, AtomsBondsAndChargesOfALigand) {
 TEST(Sdf, SticksHaveTheBondsOfTheFileAlone) {
   // O2 is 3.8 Å from C2, but bonded; H is 1 Å from C1, and is not.
   ReadOptions options;
-  options.shown.push_back({"--sticks", parse_selection("all")});
+  options.shown.push_back({"sticks", parse_selection("all")});
   const std::string text =
       with(with(kAcetate, "  4  3", "  5  3"), "  1  2  1", "    0.0000    1.0000    0.0000 H   0  0\n  1  2  1");
   EXPECT_EQ(*read_text("a.sdf", text, options).shown_bonds, (std::vector<Bond>{{0, 1}, {1, 2}, {1, 3}}));
@@ -89,7 +89,7 @@ TEST(Sdf, AddedToAProteinItsBondsStayItsOwn) {
                   "ATOM      1  CA  ALA A   1      17.047  14.099   3.625  1.00 10.00           C  \n"
                   "ATOM      2  CB  ALA A   1      18.547  14.099   3.625  1.00 10.00           C  \n");
   ReadOptions options;
-  options.shown.push_back({"--sticks", parse_selection("all")});
+  options.shown.push_back({"sticks", parse_selection("all")});
   for (const auto& [first, second] : {std::pair(ligand, protein), std::pair(protein, ligand)}) {
     options.added = {second};
     EXPECT_EQ(read_structure(first, options).shown_bonds->size(), 2u) << first << ": one of each, none by distance";
