@@ -22,7 +22,7 @@ build=build/lint
 cmake --preset asan -B "$build" -DMENISCUS_PRECOMPILED=OFF -DMENISCUS_UNITY=OFF >/dev/null
 
 printf '%s\0' "${files[@]}" |
-  xargs -0 -P "${MENISCUS_JOBS:-$(nproc)}" -I FILE /usr/bin/python3 scripts/lint_file.py "$build" FILE "${checks[@]}" |
+  xargs -0 -P "${MENISCUS_JOBS:-$(nproc)}" -I FILE /usr/bin/python3 scripts/check/lint_file.py "$build" FILE "${checks[@]}" |
   tee "$build/clang-tidy.log"
 failures=$(grep -c '^FAILED ' "$build/clang-tidy.log" || true)
 echo "cases ${#files[@]} failures $failures"

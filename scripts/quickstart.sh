@@ -61,7 +61,7 @@ blender -b --factory-startup --python-exit-code 3 --python "$here/exporters/blen
 }
 
 step "5/5 compare the three"
-/usr/bin/python3 "$here/scripts/compare_pictures.py" "$out/1tii.exr" "$out/povray/surface_normal.png" \
+/usr/bin/python3 "$here/scripts/check/compare_pictures.py" "$out/1tii.exr" "$out/povray/surface_normal.png" \
   "$out/1tii_blender.exr"
 echo "pictures: $out/1tii_chains.png $out/1tii.png $out/povray/surface.png $out/1tii_blender.png"
 

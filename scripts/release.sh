@@ -3,7 +3,7 @@
 #
 #   scripts/release.sh [OUT]        OUT is a new folder; build/dist/VERSION by default
 #
-# Made are the source archive, the Debian packages, and, of each target that scripts/targets.sh has built from this commit, a
+# Made are the source archive, the Debian packages, and, of each target that scripts/package/targets.sh has built from this commit, a
 # wheel and a Blender extension. SHA256SUMS has a line for each. Refused are a tree with changes, versions that disagree, and
 # a changelog without this version.
 set -euo pipefail
@@ -38,12 +38,12 @@ for target in x86_64-linux aarch64-linux x86_64-windows aarch64-macos x86_64-mac
   if [[ $(cat "build/targets/$target/commit" 2>/dev/null) == "$commit" ]]; then
     built+=("$target")
   else
-    echo "left out: $target, which scripts/targets.sh has not built from this commit" >&2
+    echo "left out: $target, which scripts/package/targets.sh has not built from this commit" >&2
   fi
 done
 if ((${#built[@]})); then
   echo "wheels and extensions: ${built[*]}" >&2
-  /usr/bin/python3 scripts/wheels.py "$made" "${built[@]}" >&2
+  /usr/bin/python3 scripts/package/wheels.py "$made" "${built[@]}" >&2
   for target in "${built[@]}"; do
     case $target in
       x86_64-linux) platform=linux-x64 ;;

@@ -2,7 +2,7 @@
 # Installs what the tests need, checks the code's form, builds everything and runs the tests: as released all but those
 # labelled "long" (scripts/prove.sh runs these), and the unit, property and trajectory tests with asserts, warnings as
 # errors, AddressSanitizer and UBSan. At the end it names what could not run; with CI=true a skip that
-# scripts/expected_skips.txt does not name is a failure.
+# scripts/check/expected_skips.txt does not name is a failure.
 # Safe to run again; options go to ctest (-R NAME, -L LABEL).
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -47,14 +47,14 @@ bash scripts/lint.sh || failed+=("clang-tidy")
 step "8/8 the add-on in the newest Blender"
 if [[ $(uname -m) == x86_64 ]]; then  # PyPI has no other
   MENISCUS_INSIDE="inside_baked inside_blender inside_handed_on inside_sequence inside_shot" \
-    bash scripts/newer_blenders.sh "$build/meniscus" newest && newest=0 || newest=$?
+    bash scripts/check/newer_blenders.sh "$build/meniscus" newest && newest=0 || newest=$?
   ((newest == 0 || newest == 77)) || failed+=("newest Blender")  # 77: no registry
 fi
 
 step "what was tried"
 strict=()
 [[ ${CI:-} == true ]] && strict=(--strict)
-/usr/bin/python3 scripts/test_summary.py "${strict[@]}" --expected scripts/expected_skips.txt \
+/usr/bin/python3 scripts/check/test_summary.py "${strict[@]}" --expected scripts/check/expected_skips.txt \
   "release=$results/release.xml" "sanitized=$results/sanitized.xml" || failed+=("summary")
 if ((${#failed[@]})); then
   echo "failed: ${failed[*]}" >&2

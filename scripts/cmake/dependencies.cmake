@@ -4,7 +4,7 @@ option(MENISCUS_APP "Build the programs; OFF: libmeniscus alone, of what is ther
 option(MENISCUS_DROP_INS "Build the programs in the place of MSMS and NanoShaper, which need molecule files and no more" ${MENISCUS_APP})
 option(MENISCUS_PREVIEW "Build the window and the page of `meniscus preview`; with the programs only" ON)
 # Sine, arctangent and the like differ in the last bit from system to system. With one library of them for all
-# (scripts/targets.sh: musl's) results have the same bits everywhere.
+# (scripts/package/targets.sh: musl's) results have the same bits everywhere.
 set(MENISCUS_LIBM "" CACHE FILEPATH "A static library of elementary functions in the place of the system's")
 find_package(fmt REQUIRED)
 find_package(glm REQUIRED)

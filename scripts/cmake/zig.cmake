@@ -1,4 +1,4 @@
-# Compiles for another system by zig, whose clang brings the C and C++ libraries of all: scripts/targets.sh.
+# Compiles for another system by zig, whose clang brings the C and C++ libraries of all: scripts/package/targets.sh.
 # MENISCUS_ZIG: the program. MENISCUS_ZIG_TARGET: such as aarch64-linux-gnu.2.28.
 set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES MENISCUS_ZIG MENISCUS_ZIG_TARGET)
 string(REGEX MATCH "^[^-]+" CMAKE_SYSTEM_PROCESSOR ${MENISCUS_ZIG_TARGET})

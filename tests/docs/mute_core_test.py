@@ -9,7 +9,7 @@ import sys
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
+sys.path.insert(0, str(ROOT / "scripts/check"))
 from list_messages import texts_of_cpp  # noqa: E402
 
 OPTION = re.compile(r"(?:-\w,)?--([a-z][a-z-]*)")

@@ -10,8 +10,8 @@ VERSION = re.search(r"project\(meniscus VERSION ([0-9.]+)", (ROOT / "CMakeLists.
 PLACES = {
     "CITATION.cff": r"^version: (.+)$",
     "exporters/blender/addon/meniscus_import/blender_manifest.toml": r'^version = "(.+)"$',
-    "scripts/packaging/conda/recipe.yaml": r'^  version: "(.+)"$',
-    "scripts/packaging/default.nix": r'^  version = "(.+)";$',
+    "scripts/package/conda/recipe.yaml": r'^  version: "(.+)"$',
+    "scripts/package/default.nix": r'^  version = "(.+)";$',
 }
 #: Three numbers, each in a place of its own.
 NUMBERS = {
@@ -20,7 +20,7 @@ NUMBERS = {
     "exporters/blender/addon/meniscus_import/__init__.py": r'"version": \((\d+), (\d+), (\d+)\)',
 }
 #: What asks for a version asks for the same minor one.
-MINOR = ("docs/reference/library.md", "exporters/bindings/c/example/CMakeLists.txt", "scripts/packaging/try_package.sh",
+MINOR = ("docs/reference/library.md", "exporters/bindings/c/example/CMakeLists.txt", "scripts/package/try_package.sh",
          "tests/c_api/installed_test.py")
 
 

@@ -2,7 +2,7 @@
 """words_test.py [--program PROGRAM] [--docs]: the words of messages, of help and of documents are those of the field.
 
 Each row of WORDS has a pattern that readers stumble over, and what to write instead. Messages come from
-scripts/list_messages.py; --program adds the help of every command and every page of help, --docs the documents."""
+scripts/check/list_messages.py; --program adds the help of every command and every page of help, --docs the documents."""
 
 import ast
 import pathlib
@@ -12,7 +12,7 @@ import sys
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
+sys.path.insert(0, str(ROOT / "scripts/check"))
 
 import list_messages  # noqa: E402
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Views of `export mvs` as others read them: by molviewspec of PyPI, and drawn by Mol* of npm in Chromium, beside render().
-mvs_check.py CHROMIUM MOLSTAR/build/viewer; MENISCUS_PROGRAM is the program: scripts/notebooks.sh.
+mvs_check.py CHROMIUM MOLSTAR/build/viewer; MENISCUS_PROGRAM is the program: scripts/check/notebooks.sh.
 
 With MENISCUS_SCREENSHOTS=FOLDER in the environment, pictures are left there to be looked at."""
 

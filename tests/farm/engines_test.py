@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Job files of the engines: make and Snakemake run them themselves; for OpenJD, Flamenco, OpenCue and Kubernetes their tasks
-are run here as those engines would. scripts/schedulers.sh has OpenJD's own runner and Kubernetes' schema."""
+are run here as those engines would. scripts/check/schedulers.sh has OpenJD's own runner and Kubernetes' schema."""
 
 import json
 import os

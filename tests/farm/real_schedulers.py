@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The page of schedulers and the files for OpenJD and Kubernetes, read and run by the schedulers' own code; scripts/schedulers.sh installs it."""
+"""The page of schedulers and the files for OpenJD and Kubernetes, read and run by the schedulers' own code; scripts/check/schedulers.sh installs it."""
 
 import os
 import subprocess

@@ -54,7 +54,7 @@ class Schedulers(FarmCase):
                 self.assert_each_frame_is_made_once(folder)
 
     def test_nextflow(self):
-        """Its command alone: the program itself runs in scripts/schedulers.sh."""
+        """Its command alone: the program itself runs in scripts/check/schedulers.sh."""
         folder = self.film("nextflow")
         (text,) = page.files("Nextflow")
         commands = re.findall(r'"""\n\s*(.*?)\n\s*"""', text)

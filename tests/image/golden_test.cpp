@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small pictures as they should look; scripts/update_golden.sh writes them again.
+// Small pictures as they should look; scripts/check/update_golden.sh writes them again.
 #include <cmath>
 #include <cstdlib>
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """alone_test.py BUILD: the library without the programs. Configured without any of its parts it includes and links to
 nothing but GLM, fmt, TBB and the system; each part says why it is not built; the programs refuse to do without most of
-them. Nothing is compiled here: scripts/packaging/try_library.sh does that in a bare system."""
+them. Nothing is compiled here: scripts/package/try_library.sh does that in a bare system."""
 import json
 import pathlib
 import re

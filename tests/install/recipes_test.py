@@ -7,7 +7,7 @@ import unittest
 
 from installation import ROOT, run
 
-FOLDER = ROOT / "scripts/packaging"
+FOLDER = ROOT / "scripts/package"
 RECIPES = {"conda": FOLDER / "conda/recipe.yaml", "nix": FOLDER / "default.nix", "homebrew": FOLDER / "meniscus.rb"}
 PARTS = ("cmake", "ninja", "glm", "fmt", "tbb", "gemmi", "zlib", "freetype", "nlohmann.json", "libdeflate", "libepoxy")
 

@@ -142,7 +142,7 @@ with pymol2.PyMOL() as pymol:
             self.assertTrue(0.8 < surface[axis + 3] - molecule[axis + 3] < 6)
 
 
-@unittest.skipUnless(has("pyvol"), "bio-pyvol is not installed; scripts/more_mesh_readers.sh does it")
+@unittest.skipUnless(has("pyvol"), "bio-pyvol is not installed; scripts/check/more_mesh_readers.sh does it")
 class PyVol(WithMsmsInPath):
     def test_surfaces_of_both_probes_and_a_cavity(self):
         """Its defaults: 1.4 Å, and 3.4 Å for the large probe that tells pockets from the outside."""

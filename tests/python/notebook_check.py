@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pages and widgets in a real JupyterLab, in Chromium: what a cell shows, pixel by pixel beside render(), and what Python and
-a page tell each other. notebook_check.py CHROMIUM; needs jupyterlab, anywidget and playwright of PyPI: scripts/notebooks.sh.
+a page tell each other. notebook_check.py CHROMIUM; needs jupyterlab, anywidget and playwright of PyPI: scripts/check/notebooks.sh.
 
 With MENISCUS_SCREENSHOTS=FOLDER in the environment, pictures are left there to be looked at."""
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Do the files that ask the system, the compiler or the processor for something compile for every target?
 
-compile_test.py ROOT FOLDER [--few]: zig is installed into FOLDER, from PyPI. scripts/targets.sh builds and runs all the
+compile_test.py ROOT FOLDER [--few]: zig is installed into FOLDER, from PyPI. scripts/package/targets.sh builds and runs all the
 rest. --few: one target of each system, and only the files that differ most."""
 
 import os

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Are the programs in a wheel, and found as commands where pip has installed it?
 
-wheels_test.py ROOT BUILD: packs what BUILD has in the place of what scripts/targets.sh builds."""
+wheels_test.py ROOT BUILD: packs what BUILD has in the place of what scripts/package/targets.sh builds."""
 
 import csv
 import importlib.util
@@ -21,8 +21,8 @@ UBIQUITIN = "/usr/share/freesasa/test-data/1ubq.pdb"
 
 
 def wheels_of(folder):
-    """scripts/wheels.py, which finds a target and licences in this folder."""
-    spec = importlib.util.spec_from_file_location("wheels", os.path.join(ROOT, "scripts", "wheels.py"))
+    """scripts/package/wheels.py, which finds a target and licences in this folder."""
+    spec = importlib.util.spec_from_file_location("wheels", os.path.join(ROOT, "scripts", "package", "wheels.py"))
     wheels = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(wheels)
     wheels.BUILT = folder

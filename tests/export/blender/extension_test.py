@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The zips of the Blender extension, made of stand-ins for wheels: SCRIPT (scripts/extension.sh) ADDON. Blender's own
-validator and installer, which are not in Debian's, run in scripts/newer_blenders.sh."""
+validator and installer, which are not in Debian's, run in scripts/check/newer_blenders.sh."""
 
 import os
 import subprocess

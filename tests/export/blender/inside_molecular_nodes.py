@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Surfaces of what the real package molecularnodes made: its attributes and units, its selections, its trajectories and models.
 
-scripts/newer_blenders.sh runs it, where that package is installed beside bpy."""
+scripts/check/newer_blenders.sh runs it, where that package is installed beside bpy."""
 
 import importlib.metadata
 import inspect

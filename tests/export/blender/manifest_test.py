@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The add-on's manifest keeps the limits of Blender's extensions: ADDON VERSION. Blender's own validator, which is not in Debian's,
-runs in scripts/newer_blenders.sh."""
+runs in scripts/check/newer_blenders.sh."""
 
 import os
 import re

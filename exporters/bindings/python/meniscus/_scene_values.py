@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The types of a scene's values, written by scripts/scene_values.py from the table of properties."""
+"""The types of a scene's values, written by scripts/check/scene_values.py from the table of properties."""
 from __future__ import annotations
 
 import os

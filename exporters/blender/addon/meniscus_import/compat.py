@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Everything that differs between Blender 3.4 and 5.3; run on 3.4.1, and by scripts/newer_blenders.sh on the versions that it lists."""
+"""Everything that differs between Blender 3.4 and 5.3; run on 3.4.1, and by scripts/check/newer_blenders.sh on the versions that it lists."""
 
 import math
 

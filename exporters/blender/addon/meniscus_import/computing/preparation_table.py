@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the panel asks about molecules and runs, written by scripts/scene_values.py from Meniscus' table of properties."""
+"""What the panel asks about molecules and runs, written by scripts/check/scene_values.py from Meniscus' table of properties."""
 
 import collections
 

@@ -1,0 +1,125 @@
+#!/usr/bin/env bash
+# Adds an exporter to a copy of the tree, as a folder of exporters and one command, and uses it: help, completion, manual,
+# scenes, selections and runs follow from its row. Ends with `cases N failures M`.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+git ls-files -z --cached --others --exclude-standard | xargs -0 cp --parents -t "$work" 2>/dev/null || true
+cd "$work"
+git init -q . && git add -A
+
+mkdir exporters/balls
+cat >exporters/balls/CMakeLists.txt <<'CMAKE'
+# Text files of balls.
+add_library(meniscus_balls STATIC balls_file.cpp)
+target_link_libraries(meniscus_balls PUBLIC meniscus_scene_picture PRIVATE fmt::fmt)
+CMAKE
+cat >exporters/balls/balls_file.h <<'HEADER'
+// SPDX-License-Identifier: BSD-3-Clause
+// Text files of balls: one a line.
+#pragma once
+
+#include <string>
+
+#include "core/scene/molecule.h"
+
+namespace meniscus {
+
+/// Returns center and radius of each atom of the surface, Å.
+std::string balls_of(const Molecule& molecule);
+
+}  // namespace meniscus
+HEADER
+cat >exporters/balls/balls_file.cpp <<'SOURCE'
+// SPDX-License-Identifier: BSD-3-Clause
+// Writes balls as text.
+#include "exporters/balls/balls_file.h"
+
+#include <fmt/format.h>
+
+namespace meniscus {
+
+std::string balls_of(const Molecule& molecule) {
+  std::string text;
+  for (const SurfaceObject& object : molecule.objects)
+    for (const std::uint32_t index : object.atom) {
+      const Atom& atom = molecule.structure.atoms[index];
+      text += fmt::format("{} {} {} {}\n", atom.position.x, atom.position.y, atom.position.z, atom.radius);
+    }
+  return text;
+}
+
+}  // namespace meniscus
+SOURCE
+cat >app/commands/export_balls.cpp <<'COMMAND'
+// SPDX-License-Identifier: BSD-3-Clause
+// `meniscus export balls`: writes the balls of a surface as text.
+#include <memory>
+#include <span>
+
+#include "app/commands/commands.h"
+#include "app/options/scene_options.h"
+#include "app/reports/notes.h"
+#include "core/base/output_file.h"
+#include "exporters/balls/balls_file.h"
+
+namespace meniscus {
+namespace {
+
+void declare_balls(CLI::App& command) {
+  describe(command, "  meniscus export balls 1tii.pdb -o 1tii.balls");
+  auto declared = std::make_shared<DeclaredCommand<>>(command, for_atoms);
+  declared->options.describe_output("File to write");
+  command.callback([declared] {
+    declared->options.take();
+    const std::string text = balls_of(load_molecule(declared->state));
+    OutputFile file(declared->state.scene.output, declared->state.existing());
+    file.write(std::as_bytes(std::span(text)));
+    file.commit();
+  });
+}
+
+const ExportCommand kBalls("balls", "Write balls that only this test knows", declare_balls);
+
+}  // namespace
+}  // namespace meniscus
+COMMAND
+git add -A
+
+cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DMENISCUS_UNITY=ON >/dev/null
+cmake --build build --target meniscus >/dev/null
+program=$work/build/meniscus
+cases=0 failures=0
+# expect WHAT COMMAND...: the command succeeds.
+expect() {
+  local what=$1
+  shift
+  cases=$((cases + 1))
+  if "$@" >"$work/said" 2>&1; then return; fi
+  failures=$((failures + 1))
+  echo "failed: $what: $(tail -n 1 "$work/said")"
+}
+# says WORDS COMMAND...: the command, which may fail, says so.
+says() {
+  local said
+  said=$("${@:2}" 2>&1 || true)
+  grep -q -e "$1" <<<"$said"
+}
+
+printf '1 0 0 1.7\n3 0 0 1.5\n' >two.xyzr
+expect "its place among the folders" python3 tests/docs/include_graph_test.py
+expect "the file" "$program" export balls two.xyzr -o two.balls -q
+expect "what it holds" test "$(cat two.balls)" = $'1 0 0 1.7\n3 0 0 1.5'
+expect "a file that exists" says "exists already; --force replaces it" "$program" export balls two.xyzr -o two.balls
+expect "no output" says "-o" "$program" export balls two.xyzr
+expect "a selection" "$program" export balls two.xyzr -o one.balls -q --select 'index 2'
+expect "what was selected" test "$(cat one.balls)" = '3 0 0 1.5'
+expect "the help of export" says "balls .*this test knows" "$program" export --help
+expect "its own help" says "--select EXPR" "$program" export balls --help
+expect "completion" says "balls" "$program" completion bash
+expect "manual pages" "$program" help --man man
+expect "a manual page of it" test -s man/meniscus-export-balls.1
+expect "a scene" bash -c "echo '{\"molecule\": {\"file\": \"two.xyzr\"}}' >a.json; '$program' export balls --scene a.json -o scene.balls -q"
+echo "cases $cases failures $failures"
+((failures == 0))

@@ -1,0 +1,75 @@
+#!/usr/bin/env bash
+# Builds the image of a farm node (Dockerfile) on a bare Debian 12, and makes the frames of a film in it as a node does:
+# the bundle is mounted, nobody works on it, software GL draws. As root, with buildah and mmdebstrap; without a registry
+# of images and without a daemon, and (storage by copies, isolation by chroot) inside of other containers, too.
+#
+#   scripts/package/try_image.sh [FOLDER [BARE.tar]]
+#
+# As for try_package.sh: FOLDER has the packages, or is a clone (.), which the image's first stage then builds; BARE.tar is a
+# bare system. The last line says `cases N failures M`.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+packages=${1:-}
+bare=${2:-}
+((EUID == 0)) || { echo "try_image.sh: root is needed to build an image in this way" >&2; exit 2; }
+
+work=$(mktemp -d)
+trap 'rm -rf --one-file-system "$work"' EXIT
+export STORAGE_DRIVER=vfs BUILDAH_ISOLATION=chroot
+buildah() { command buildah --root "$work/storage" --runroot "$work/run" "$@"; }
+
+if [[ ! $packages ]]; then
+  packages=$work/packages
+  cpack --config build/test/CPackConfig.cmake -B "$packages" >/dev/null
+fi
+if [[ ! $bare ]]; then
+  bare=$work/bare.tar
+  mmdebstrap --variant=minbase bookworm "$bare" >"$work/mmdebstrap.log" 2>&1 || { tail -n 5 "$work/mmdebstrap.log" >&2; exit 1; }
+fi
+
+cases=0 failures=0
+# check WHAT COMMAND...
+check() {
+  local what=$1
+  shift
+  cases=$((cases + 1))
+  if "$@" >"$work/log" 2>&1; then
+    echo "good    $what: $(tail -n 1 "$work/log" | cut -c 1-120)"
+  else
+    failures=$((failures + 1))
+    echo "FAILED  $what"
+    tail -n 5 "$work/log"
+  fi
+}
+
+base() {
+  local container
+  container=$(buildah from scratch) && buildah add -q "$container" "$bare" / && buildah commit -q --rm "$container" bare
+}
+# in_node COMMAND...: as a container of the image runs it, with the bundle's folder mounted.
+in_node() { buildah run -v "$work/films:/bundle" "$node" -- "$@"; }
+entry_point() {
+  local told='{{.OCIv1.Config.Entrypoint}} {{.OCIv1.Config.User}}'
+  [[ $(buildah inspect --type image --format "$told" node) == "[meniscus] nobody" ]]
+}
+pictures() { [[ $(head -q -c 4 "$work"/films/film/images/frame_*.png | tr -d '\211') == PNGPNGPNG ]]; }
+
+check "a base of nothing but Debian" base
+check "the image" buildah build -q --build-arg BASE=localhost/bare -f scripts/package/Dockerfile \
+  --ignorefile scripts/package/Dockerfile.dockerignore -t node "$packages"
+check "its size" buildah images --format '{{.Size}}' node
+check "it runs the program, as nobody" entry_point
+node=$(buildah from node)
+mkdir -m 777 "$work/films"
+for frame in 1 2 3; do
+  printf 'MODEL     %4d\nHETATM    1  C   LIG A   1      %6.3f   0.000   0.000  1.00  0.00           C\n' $frame $frame
+  printf 'HETATM    2  O   LIG A   1       0.000   0.000   0.000  1.00  0.00           O\nENDMDL\n'
+done >"$work/films/moving.pdb"
+check "version" in_node meniscus --version --verbose
+check "a bundle" in_node meniscus farm bundle film --chunk-frames 1 -- \
+  render moving.pdb --frames all --size 160x120 --device software
+check "the work" in_node meniscus work film
+check "all is there" in_node meniscus farm verify film
+check "three pictures" pictures
+echo "cases $cases failures $failures"
+((failures == 0))

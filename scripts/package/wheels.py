@@ -1,0 +1,169 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Packs the libraries and programs that scripts/package/targets.sh built into wheels, one a system, with the notices of all that is in
+them.
+
+    wheels.py OUT [TARGET...]      targets as in targets.sh; all that are built by default
+
+The same files give the same bytes. Each wheel has the package, its library, the programs as scripts, which installers put
+beside Python, LICENSE, THIRD_PARTY.txt with the licences of what is linked into them, and a bill of materials (CycloneDX 1.5;
+PEP 770)."""
+
+import base64
+import glob
+import hashlib
+import json
+import os
+import re
+import stat
+import sys
+import zipfile
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+BUILT = os.path.join(ROOT, "build", "targets")
+PACKAGE = os.path.join(ROOT, "exporters", "bindings", "python", "meniscus")
+#: Its name for installers, and in the names of wheels. On PyPI "meniscus" is another project; Python imports meniscus.
+DISTRIBUTION, WHEEL = "meniscus-ses", "meniscus_ses"
+#: Target: its tag, and the name of its library.
+TARGETS = {"x86_64-linux": ("manylinux_2_28_x86_64", "libmeniscus.so"),
+           "aarch64-linux": ("manylinux_2_28_aarch64", "libmeniscus.so"),
+           "x86_64-windows": ("win_amd64", "meniscus.dll"),
+           "aarch64-macos": ("macosx_13_0_arm64", "libmeniscus.dylib"),
+           "x86_64-macos": ("macosx_13_0_x86_64", "libmeniscus.dylib")}
+#: In all of them, and from which file; a wheel has no links, so two names are two copies.
+DROP_INS = {"meniscus-msms": "meniscus-msms", "meniscus-nanoshaper": "meniscus-nanoshaper",
+            "meniscus-pdb_to_xyzr": "meniscus-pdb_to_xyzr", "meniscus-pdb_to_xyzrn": "meniscus-pdb_to_xyzr"}
+#: What is linked or compiled into the library and the programs: its name, licence, and where its text is, below build/targets/sources or in
+#: the system. The first file that is there counts.
+PARTS = [("oneTBB", "Apache-2.0", "onetbb-*/LICENSE.txt"), ("FreeType", "FTL", "freetype-*/docs/FTL.TXT"),
+         ("zlib", "Zlib", "zlib-*/LICENSE"), ("libdeflate", "MIT", "libdeflate-*/COPYING"),
+         ("fmt", "MIT", "fmtlib-*/LICENSE.rst"), ("musl", "MIT", "musl-*/COPYRIGHT"), ("gemmi", "MPL-2.0", "gemmi-*/LICENSE*"),
+         ("PEGTL", "MIT", "/usr/share/doc/tao-pegtl-dev/copyright"), ("GLM", "MIT", "/usr/share/doc/libglm-dev/copyright"),
+         ("nlohmann-json", "MIT", "/usr/share/doc/nlohmann-json3-dev/copyright"),
+         ("LLVM libc++", "Apache-2.0 WITH LLVM-exception", "../tools/lib/python3*/site-packages/ziglang-*.dist-info/licenses/ziglang/lib/libcxx/LICENSE.TXT")]
+#: Further ones, of the program meniscus.
+PARTS_OF_MENISCUS = [("OpenSSL", "Apache-2.0", "openssl-*/LICENSE.txt"), ("CLI11", "BSD-3-Clause", "/usr/share/doc/libcli11-dev/copyright")]
+
+
+def version():
+    with open(os.path.join(ROOT, "CMakeLists.txt"), encoding="utf-8") as file:
+        return re.search(r"project\(meniscus VERSION ([0-9.]+)", file.read())[1]
+
+
+def text_of(name, pattern):
+    found = sorted(glob.glob(os.path.join(BUILT, "sources", pattern)))
+    if not found:
+        sys.exit(f"wheels.py: the licence of {name} is not at {pattern}; run scripts/package/targets.sh first")
+    with open(found[0], encoding="utf-8", errors="replace") as file:
+        return file.read()
+
+
+def version_of(pattern):
+    """That of a source folder such as onetbb-2021.8.0; else nothing."""
+    found = sorted(glob.glob(os.path.join(BUILT, "sources", pattern.split("/")[0])))
+    match = found and re.search(r"-([0-9][0-9.]*)", os.path.basename(found[0]))
+    return match[1].rstrip(".") if match else None
+
+
+def has_meniscus(target):
+    return target.endswith("linux")
+
+
+def parts(target):
+    return PARTS + (PARTS_OF_MENISCUS if has_meniscus(target) else [])
+
+
+def third_party(target):
+    begin = "What is linked or compiled into the library and the programs of this package, beside Meniscus itself.\n"
+    return begin + "".join(f"\n{'=' * 80}\n{name} ({licence})\n{'=' * 80}\n\n{text_of(name, pattern)}"
+                           for name, licence, pattern in parts(target))
+
+
+def materials(target):
+    components = [{"type": "library", "name": name, **({"version": number} if (number := version_of(pattern)) else {}),
+                   "licenses": [{"expression": licence}]} for name, licence, pattern in parts(target)]
+    return json.dumps({"bomFormat": "CycloneDX", "specVersion": "1.5", "version": 1,
+                       "metadata": {"component": {"type": "library", "name": "meniscus", "version": version(),
+                                                  "licenses": [{"expression": "BSD-3-Clause"}]}},
+                       "components": components}, indent=1) + "\n"
+
+
+def metadata():
+    with open(os.path.join(ROOT, "docs", "reference", "library.md"), encoding="utf-8") as file:
+        description = file.read()
+    return (f"Metadata-Version: 2.4\nName: {DISTRIBUTION}\n"
+            f"Version: {version()}\n"
+            "Summary: Exact solvent-excluded surfaces of molecules: areas, volumes, patches, meshes, distances, pictures\n"
+            "License-Expression: BSD-3-Clause AND Apache-2.0 AND MIT AND MPL-2.0 AND FTL AND Zlib\n"
+            "License-File: LICENSE\nLicense-File: THIRD_PARTY.txt\n"
+            "Requires-Python: >=3.9\nRequires-Dist: numpy>=1.21\nDescription-Content-Type: text/markdown\n\n" + description)
+
+
+def read(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def programs(target):
+    """Names in the wheel -> paths. Installers make them executable and put them where commands are found."""
+    suffix = ".exe" if "windows" in target else ""
+    names = {**DROP_INS, **({"meniscus": "meniscus"} if has_meniscus(target) else {})}
+    return {f"{WHEEL}-{version()}.data/scripts/{name}{suffix}": os.path.join(BUILT, target, file + suffix)
+            for name, file in names.items()}
+
+
+def contents(target):
+    """Names in the wheel -> bytes."""
+    tag, library = TARGETS[target]
+    info = f"{WHEEL}-{version()}.dist-info"
+    files = {f"meniscus/{name}": read(os.path.join(PACKAGE, name)) for name in os.listdir(PACKAGE)
+             if name.endswith(".py") or name == "py.typed"}
+    files[f"meniscus/{library}"] = read(os.path.join(BUILT, target, library))
+    files.update({name: read(path) for name, path in programs(target).items()})
+    files[f"{info}/METADATA"] = metadata().encode()
+    files[f"{info}/WHEEL"] = ("Wheel-Version: 1.0\nGenerator: meniscus scripts/package/wheels.py\nRoot-Is-Purelib: false\n"
+                              f"Tag: py3-none-{tag}\n").encode()
+    files[f"{info}/licenses/LICENSE"] = read(os.path.join(ROOT, "LICENSE"))
+    files[f"{info}/licenses/THIRD_PARTY.txt"] = third_party(target).encode()
+    files[f"{info}/sboms/meniscus.cdx.json"] = materials(target).encode()
+    record = "".join(f"{name},sha256={base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b'=').decode()},"
+                     f"{len(data)}\n" for name, data in sorted(files.items()))
+    files[f"{info}/RECORD"] = (record + f"{info}/RECORD,,\n").encode()
+    return files
+
+
+def pack(target, out):
+    """Writes the wheel of a target, whole or not at all; its path."""
+    path = os.path.join(out, f"{WHEEL}-{version()}-py3-none-{TARGETS[target][0]}.whl")
+    files = contents(target)
+    with zipfile.ZipFile(path + ".part", "w", zipfile.ZIP_DEFLATED) as wheel:
+        for name in sorted(files, key=lambda name: (".dist-info/" in name, name)):
+            entry = zipfile.ZipInfo(name)  # of 1980
+            executable = "libmeniscus" in name or ".data/scripts/" in name
+            entry.create_system, entry.external_attr = 3, (stat.S_IFREG | (0o755 if executable else 0o644)) << 16
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            wheel.writestr(entry, files[name], compresslevel=9)
+    os.replace(path + ".part", path)
+    return path
+
+
+def main(arguments):
+    if not arguments or arguments[0].startswith("-"):
+        print(__doc__, file=sys.stderr)
+        return 2
+    out, *targets = arguments
+    for target in targets:
+        if target not in TARGETS:
+            sys.exit(f"wheels.py: there is no target {target}; there are {', '.join(TARGETS)}")
+    targets = targets or [t for t, (_, name) in TARGETS.items() if os.path.exists(os.path.join(BUILT, t, name))]
+    if not targets:
+        sys.exit("wheels.py: nothing is built; run scripts/package/targets.sh first")
+    os.makedirs(out, exist_ok=True)
+    for target in targets:
+        path = pack(target, out)
+        print(f"{path}  {os.path.getsize(path) / 1e6:.2f} MB")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
