@@ -161,7 +161,9 @@ class Scenes(ComputedCase):
                     continue
             self.assertEqual(done, {"FINISHED"}, scheme)
             self.assertGreater(len(item.data.polygons), 100, scheme)
-        item.meniscus.color, item.meniscus.colors = "own", "#ff0000"
+        item.meniscus.color, item.meniscus.colors = "own", " ; "  # as if nothing were written
+        self.assertEqual(update(), {"FINISHED"})
+        item.meniscus.colors = "#ff0000"
         self.assertFalse(request.Request(color=item.meniscus.written_color()).needs_program())
         self.assertEqual(update(), {"FINISHED"})
         np.testing.assert_allclose(vertices_of_faces(item), np.tile([1.0, 0.0, 0.0], (len(item.data.vertices), 1)), atol=1e-6)

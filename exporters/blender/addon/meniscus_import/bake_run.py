@@ -90,14 +90,6 @@ def kind_of(item):
     return Panel if showing.frame_count(item) else Followed
 
 
-def count_of(item, scene):
-    """How many frames a bake has; 0: not known yet."""
-    try:
-        return kind_of(item)(item, scene).count
-    except (mns_reader.MnsError, OSError):
-        return 0
-
-
 def frame_bytes(mesh):
     """How much memory a mesh takes, to a fifth; a file that is not compressed takes as much."""
     parts = zip(ELEMENT_BYTES, (mesh.vertices, mesh.edges, mesh.loops, mesh.polygons))
@@ -107,7 +99,10 @@ def frame_bytes(mesh):
 
 def told_size(item, scene):
     """Short lines: how many frames, and how large they are if all are like the one that shows."""
-    count = count_of(item, scene)
+    try:
+        count = kind_of(item)(item, scene).count
+    except (mns_reader.MnsError, OSError):
+        count = 0  # as before it was read
     size = count * frame_bytes(item.data) / 1e6
     return (f"{count:,} frames, {_rounded(size)}", f"{_rounded(COMPRESSED * size)} compressed") if size else ("Frames of unknown size",)
 

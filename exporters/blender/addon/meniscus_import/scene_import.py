@@ -39,7 +39,7 @@ class OBJECT_OT_meniscus_from_scene(panel.Waiting, bpy.types.Operator, ImportHel
         for name in set(fields) & set(scene_reader.FILES):
             fields[name] = build.remembered_path(fields[name])
         detail = "PROXY" if "density" in fields else "FINE" if "tolerance" in fields else "AUTO"
-        return panel.new_object(context, stem_of(self.filepath) + ".surface", "FILE", detail=detail, **fields)
+        return panel.new_object(context, build.stem_of(self.filepath) + ".surface", "FILE", detail=detail, **fields)
 
     def import_exported(self, context, scene):
         program = computed.working().told()["program"]
@@ -48,7 +48,7 @@ class OBJECT_OT_meniscus_from_scene(panel.Waiting, bpy.types.Operator, ImportHel
                                       "them, is not found; name it in the add-on's preferences")
         is_run = any(key.startswith("frames.") for key in scene.others) or scene.fields["is_run"]
         with tempfile.TemporaryDirectory(prefix="meniscus_") as folder:
-            target = os.path.join(folder, stem_of(self.filepath) + ("" if is_run else ".mns"))
+            target = os.path.join(folder, build.stem_of(self.filepath) + ("" if is_run else ".mns"))
             done = subprocess.run([program, "export", "blender", "--scene", self.filepath, "-o", target], stdin=subprocess.DEVNULL,
                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, check=False)
             lines = [line.removeprefix("meniscus: ") for line in done.stderr.decode("utf-8", "replace").splitlines()]
@@ -63,10 +63,6 @@ class OBJECT_OT_meniscus_from_scene(panel.Waiting, bpy.types.Operator, ImportHel
                 return
             for item in build.import_file(target, context).surfaces:
                 del item["meniscus_file"]  # which goes
-
-
-def stem_of(path):
-    return os.path.splitext(os.path.basename(path))[0]
 
 
 def register():

@@ -17,10 +17,10 @@ def read(library, request):
     """An atoms.AtomFile of a request about a file without a trajectory; its frames are the file's models. library: the package
     meniscus. Raises its Error, or MnsError."""
     if not request.place:
-        return AtomFile(request.file, _atoms(_structure(library, request), request.color), [], None)
+        return AtomFile(request.file, _atoms(_structure(library, request), request.colors()[0]), [], None)
     numbers = _frames(library, request)
     first = _structure(library, request, numbers[0])
-    return AtomFile(request.file, _atoms(first, request.color), numbers, Models(library, request, numbers, first))
+    return AtomFile(request.file, _atoms(first, request.colors()[0]), numbers, Models(library, request, numbers, first))
 
 
 class Models:
