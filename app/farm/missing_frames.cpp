@@ -88,7 +88,7 @@ std::vector<std::size_t> missing_pictures(const std::vector<std::string>& paths,
   }
   if (!others.empty() && existing == Existing::refuse)
     throw UsageError(fmt::format(
-        "--resume: {}{} cut short, or made of another scene, of other files, by another version, or without --resume; "
+        "--resume: {}{} made of another scene, of other files, by another version, without --resume, or cut short; "
         "choose another name, or add --force to replace {}",
         escaped(paths[others.front()]),
         others.size() == 1 ? " was" : fmt::format(" and {} more were", with_thousands(others.size() - 1)),

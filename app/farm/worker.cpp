@@ -121,7 +121,10 @@ class Worker {
       if (step == Step::surface) mark_scene(frame, files);
       if (step == share_.steps.back()) progress_.done(frame, files, 1000.0 * seconds);
     };
-    listener.failed = [&](std::uint64_t frame, int code, const std::string& error) { fail(frame, code, error); };
+    listener.failed = [&](std::uint64_t frame, int code, const std::string& error) {
+      // Another worker may have made it, and replaced files that were being read.
+      if (share_.force || !missing_of(share_.steps.back(), {frame}).empty()) fail(frame, code, error);
+    };
     make_frames(bundle_, step, place_, frames, listener);
   }
 

@@ -75,6 +75,15 @@ class ResumedRuns(unittest.TestCase):
         self.render("--resume", "--force")
         self.assertIn("5 of 5 pictures are there", self.render("--resume"))
 
+    def test_a_picture_that_is_cut_short_is_made_again(self):
+        self.render("--resume")
+        whole = self.pictures()
+        (self.folder / "f_03.png").write_bytes(whole["f_03.png"][:-1])
+        self.assertIn("f_03.png was made of another scene, of other files, by another version, without --resume, or cut short",
+                      self.render("--resume", code=2))
+        self.assertIn("4 of 5 pictures are there", self.render("--resume", "--force"))
+        self.assertEqual(self.pictures(), whole)
+
     def test_pictures_without_the_note_are_not_taken_and_usual_ones_have_none(self):
         self.render()
         self.assertNotIn(b"Meniscus run", b"".join(self.pictures().values()))
