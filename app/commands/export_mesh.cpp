@@ -126,7 +126,7 @@ void export_to_mesh(const SceneCommand& asked) {
   const auto numbered = NumberedPath::parse(asked.scene.output);
   const bool one_file = asked.scene.frames.asked() && !numbered;
   if (one_file) check_one_file(format, asked.scene);
-  FigureRun run(asked, one_file);
+  FigureRun run(asked, one_file ? Velocities::central : Velocities::none);
   run.aim(asked.scene.picture, false);
   const SceneCommand& command = run.command();
   OneFile whole{{}, {{}, command.scene.film.frames_per_second}};

@@ -43,7 +43,9 @@ Arguments meniscus_command(const Bundle& bundle, const Step& step, const Workpla
   command.insert(command.end(), checked.begin(), checked.end());
   const Arguments device = device_words(step, place, alone);
   command.insert(command.end(), device.begin(), device.end());
-  const bool layered = std::ranges::find(checked, "--aovs") != checked.end();
+  const bool layered = std::ranges::any_of(checked, [](const std::string& word) {
+    return word == "--aovs" || word == "--cryptomatte" || word == "--color-space=acescg";
+  });
   const char* const output = bundle.command.front() != "render" ? "scene"
                              : layered                          ? "images/frame_#####.exr"
                                                                 : "images/frame_#####.png";

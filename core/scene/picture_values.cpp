@@ -280,6 +280,10 @@ constexpr auto kPictureRows = std::to_array<SceneValue>({
     {"image.background", read_background, write_background},
     plain(
         "image.aovs", [](auto& s) -> auto& { return s.image.aovs; }),
+    plain(
+        "image.cryptomatte", [](auto& s) -> auto& { return s.image.cryptomatte; }),
+    worded<Primaries::rec709, Primaries::ap1>(
+        "image.color_space", [](auto& s) -> auto& { return s.image.primaries; }),
     {"image.extent", read_extent, write_extent},
 
     plain(
