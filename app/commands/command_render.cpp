@@ -28,6 +28,7 @@
 #include "core/render/image_output.h"
 #include "core/render/picture_file.h"
 #include "core/scene/frame_run.h"
+#include "core/scene/mattes.h"
 #include "core/scene/motion_blur.h"
 #include "core/scene/picture_device.h"
 #include "core/scene/scene_paths.h"
@@ -41,6 +42,11 @@
 namespace meniscus {
 namespace {
 
+/// Of a pixel of an .exr, not compressed.
+double channel_bytes(const Scene& scene) {
+  return 16.0 + (scene.image.aovs ? 72.0 : 0.0) + (scene.image.cryptomatte ? 144.0 : 0.0);
+}
+
 void tell_memory(const RenderCommand& command) {
   constexpr double kManyPixels = 3e7, kMebibyte = 1 << 20;
   const Scene& scene = command.scene;
@@ -50,7 +56,7 @@ void tell_memory(const RenderCommand& command) {
       fmt::format("note: {} files are encoded in memory: up to {} MiB beside the picture's bands; .png, .jpg and .tif "
                   "are written as they come",
                   std::filesystem::path(scene.output).extension().string(),
-                  with_thousands(static_cast<std::uint64_t>(pixels * (scene.image.aovs ? 56.0 : 16.0) / kMebibyte))));
+                  with_thousands(static_cast<std::uint64_t>(pixels * channel_bytes(scene) / kMebibyte))));
 }
 
 void tell_hue_changes(const RenderCommand& command) {
@@ -79,6 +85,21 @@ void name_output(const CLI::App& program, RenderCommand& command) {
   say(command, "the picture goes to " + scene.output + "; -o PATH sends it elsewhere");
 }
 
+/// What EXR files alone hold.
+void check_layers(const Scene& scene) {
+  const PictureOutput& image = scene.image;
+  const char* const layers = image.aovs ? "--aovs" : image.cryptomatte ? "--cryptomatte" : "";
+  if (image.motion_blur > 1 && (*layers || image.extent))
+    throw UsageError(
+        fmt::format("--motion-blur: {} has no mean; leave one of them out", *layers ? layers : "--extent"));
+  if (*layers && !holds_aovs(scene.output))
+    throw UsageError(fmt::format("{} needs an .exr output; other formats hold colour only", layers));
+  if (*layers && image.extent)
+    throw UsageError(fmt::format("{} needs the complete surface; leave --extent out", layers));
+  if (image.primaries != Primaries::rec709 && !holds_aovs(scene.output))
+    throw UsageError("--color-space acescg needs an .exr output; other formats and films are sRGB");
+}
+
 /// Before anything is read.
 void check_scene(const RenderCommand& command) {
   const Scene& scene = command.scene;
@@ -102,12 +123,7 @@ void check_scene(const RenderCommand& command) {
   check_cost(command, scene, scene.picture.size());
   if (scene.image.motion_blur > 1 && !scene.frames.asked())
     throw UsageError("--motion-blur: one molecule does not move; add the frames of a run (--frames)");
-  if (scene.image.motion_blur > 1 && (scene.image.aovs || scene.image.extent))
-    throw UsageError(
-        fmt::format("--motion-blur: {} has no mean; leave one of them out", scene.image.aovs ? "--aovs" : "--extent"));
-  if (scene.image.aovs && !holds_aovs(scene.output))
-    throw UsageError("--aovs needs an .exr output; other formats hold colour only");
-  if (scene.image.extent && scene.image.aovs) throw UsageError("--aovs needs the complete surface; leave --extent out");
+  check_layers(scene);
   if (scene.image.extent && (!scene.figure.plain() || !scene.molecule.color.opacities.empty()))
     throw UsageError(
         "--extent draws the surface alone, whole and opaque; leave --extent out, or --opacity, --clip and the like");
@@ -137,7 +153,10 @@ void draw_figures(FigureRun& run, const PictureLayout& layout, PictureSink& sink
   if (const int moments = run.scene().image.motion_blur; moments > 1)
     blur.emplace(run.scene(), moments, run.framing().cameras, device.context());
   const auto keep = [&](SurfaceRenderer& renderer, FigureFrame frame) {
-    const SinkPicture picture{frame.number, frame.place, frame.source, frame.time, frame.camera};
+    SinkPicture picture{frame.number, frame.place, frame.source, frame.time, frame.camera};
+    if (run.scene().image.cryptomatte) picture.mattes = mattes_of(frame.figure.molecule.structure);
+    picture.moves = !frame.velocities.empty();
+    const FigureMotion motion{std::move(frame.velocities), run.next_camera(frame.place)};
     Annotations annotations = sink.annotations(picture, frame.figure.molecule.structure);
     std::vector<std::string> unseen;
     const bool is_told = !run.is_run() && !run.command().reporting.quiet;
@@ -149,14 +168,17 @@ void draw_figures(FigureRun& run, const PictureLayout& layout, PictureSink& sink
         if (settings.take_band) settings.take_band(Framebuffer(drawn), 0);
         return drawn;
       }
-      return draw(renderer, std::move(frame.figure), run.scene().figure, frame.camera, settings, survey);
+      return draw(renderer, std::move(frame.figure), run.scene().figure, frame.camera, settings, survey, &motion);
     });
     for (const std::string& sentence : unseen) say(run.command(), "note: " + sentence);
     return finish;
   };
-  constexpr std::uint64_t kBytesPerPixel = 100;  // sums, samples and what a look needs of them, files
+  // Sums, samples and what a look needs of them; files.
+  const PictureOutput& image = run.scene().image;
+  const std::uint64_t bytes_per_pixel = 84 + static_cast<std::uint64_t>(channel_bytes(run.scene())) +
+                                        (image.cryptomatte ? 4 * static_cast<std::uint64_t>(image.samples) : 0);
   const glm::u64vec2 size(run.scene().picture.size());
-  const FigureWork work{kSurfaceBytesPerAtom, kBytesPerPixel * size.x * size.y, device.context()};
+  const FigureWork work{kSurfaceBytesPerAtom, bytes_per_pixel * size.x * size.y, device.context()};
   run.make(work, [&]() -> FigureRun::Sink {
     if (!device.context() && run.is_run()) {
       std::shared_ptr<SurfaceRenderer> renderer = make_cpu_renderer();
@@ -170,7 +192,7 @@ void draw_figures(FigureRun& run, const PictureLayout& layout, PictureSink& sink
 }
 
 void render_figures(const RenderCommand& command) {
-  FigureRun run(command);
+  FigureRun run(command, command.scene.image.aovs ? Velocities::forward : Velocities::none);
   const PictureLayout layout(command.scene, run.key());
   run.aim(layout.size, false);
   PictureSink sink(command, layout, run.is_run() ? &run.frames() : nullptr);
@@ -244,6 +266,7 @@ ImageSettings image_settings(const RenderCommand& command) {
   settings.names_program = command.names_program;
   if (command.provenance) settings.command = command_line();
   if (command.keeps_scene) settings.scene = scene_text(scene, "", *command.added);
+  settings.exr.primaries = scene.image.primaries;
   settings.made_of = command.made_of;
   return settings;
 }

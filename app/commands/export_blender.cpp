@@ -76,7 +76,7 @@ void export_to_blender(const SceneCommand& asked) {
   check_blender(asked.scene);
   check_saved_camera(asked);
   const blender::SurfaceNumbers numbers = blender::parse_surface_numbers(asked.scene.mesh.attributes);
-  FigureRun run(asked, true);
+  FigureRun run(asked, Velocities::central);
   run.aim(asked.scene.picture, true);
   const SceneCommand& command = run.command();
   const Scene& scene = command.scene;

@@ -152,7 +152,7 @@ void export_to_mesh(const SceneCommand& asked) {
   const auto is_partial = [](const OpacityRule& rule) { return rule.opacity > 0.0f && rule.opacity < 1.0f; };
   if (!format.opacity && std::ranges::any_of(asked.scene.molecule.color.opacities, is_partial))
     say(asked, fmt::format("note: --opacity: {} has none, so what is translucent is opaque there", format.title));
-  FigureRun run(asked, one_file);
+  FigureRun run(asked, one_file ? Velocities::central : Velocities::none);
   run.aim(asked.scene.picture, false);
   const SceneCommand& command = run.command();
   OneFile whole{{}, {{}, command.scene.film.frames_per_second}};

@@ -38,7 +38,7 @@ std::vector<CameraKey> keys_of(std::span<const Camera> cameras, std::span<const 
 
 }  // namespace
 
-FigureRun::FigureRun(const SceneCommand& command, bool velocities)
+FigureRun::FigureRun(const SceneCommand& command, Velocities velocities)
     : command_(ready(command)), given_(given_cameras(command_.scene.picture, command_.scene.run_camera)) {
   if (command_.scene.frames.asked())
     open_run(velocities);
@@ -46,10 +46,11 @@ FigureRun::FigureRun(const SceneCommand& command, bool velocities)
     make_one_figure();
 }
 
-void FigureRun::open_run(bool velocities) {
+void FigureRun::open_run(Velocities velocities) {
   MoleculeRequest& molecule = command_.scene.molecule;
   // Where pages open, atoms do not go on from where they were.
-  frames_ = std::make_unique<FrameRun>(molecule, command_.scene.frames, velocities && !molecule.interface);
+  frames_ =
+      std::make_unique<FrameRun>(molecule, command_.scene.frames, molecule.interface ? Velocities::none : velocities);
   shown_ = std::make_unique<ShownFrames>(molecule, *frames_);
   tell_run(command_, *frames_);
   measure_colors(molecule.color, *shown_);

@@ -2,6 +2,7 @@
 // The figures that a command makes from a scene: one of a molecule, or one of each frame of a run.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -50,7 +51,7 @@ class FigureRun {
  public:
   /// Reads the molecule and computes its figure, or opens the run; and says so. Throws what reading and computing
   /// throw.
-  explicit FigureRun(const SceneCommand& command, bool velocities = false);
+  explicit FigureRun(const SceneCommand& command, Velocities velocities = Velocities::none);
 
   /// Finds the camera of each frame. picture: with the size of the part that the molecule has. extent: framing() also
   /// has the box around all frames. Throws as run_cameras does.
@@ -69,6 +70,10 @@ class FigureRun {
   FrameRun& frames() { return *frames_; }
   const RunFraming& framing() const { return framing_; }
   const Camera& camera(std::uint64_t place) const { return framing_.cameras[framing_.cameras.size() == 1 ? 0 : place]; }
+  /// That of the place behind it; of the last place the same.
+  const Camera& next_camera(std::uint64_t place) const {
+    return framing_.cameras[std::min<std::size_t>(place + 1, framing_.cameras.size() - 1)];
+  }
   /// --save-camera, once they are found. Throws OutputError.
   void save_cameras() const;
   /// Of one molecule: must be.
@@ -88,7 +93,7 @@ class FigureRun {
   void make(const FigureWork& work, const std::function<Sink()>& make_sink);
 
  private:
-  void open_run(bool velocities);
+  void open_run(Velocities velocities);
   void make_one_figure();
   void tell_idle_cuts() const;
 

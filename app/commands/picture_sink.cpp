@@ -169,9 +169,11 @@ FinishFrame PictureSink::to_file(const SinkPicture& picture, const Annotations& 
   RenderSettings settings = picture_settings(command_, layout_);
   std::optional<PictureProgress> progress;
   if (!run_) progress.emplace(command_, settings);
+  settings.motion = picture.moves;
+  ImageSettings image = image_settings(command_);
+  image.exr.mattes = picture.mattes;
   const std::string path = numbered_ ? numbered_->at(picture.number) : command_.scene.output;
-  PictureFile file(path, {annotations, layout_.legend, layout_.strips}, picture.camera, image_settings(command_),
-                   settings);
+  PictureFile file(path, {annotations, layout_.legend, layout_.strips}, picture.camera, image, settings);
   if (run_ && layout_.legend)
     settings.take_band = [this, take = settings.take_band](Framebuffer band, int first_row) {
       const std::lock_guard lock(legend_);

@@ -27,6 +27,9 @@ struct SinkPicture {
   std::uint64_t source = 0;  ///< in the trajectory
   std::optional<double> time{};
   Camera camera{};
+  /// Of Framebuffer::seen, and whether there is motion to the next frame: for EXR files with them.
+  std::shared_ptr<const std::vector<Matte>> mattes{};
+  bool moves = false;
 };
 
 /// What is written into the pictures of a molecule, or of a run.

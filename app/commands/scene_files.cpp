@@ -45,9 +45,12 @@ SceneCommand read_scene_file(const std::string& path, std::vector<std::string> w
   read.state.reporting.quiet = true;  // an option that does nothing in one scene may do something in another
   read.options.take();
   SceneCommand command = std::move(static_cast<SceneCommand&>(read.state));
-  if (command.scene.image.extent || command.scene.image.aovs)
-    throw UsageError(fmt::format(
-        "{}: this command shows complete surfaces as colours; leave image.extent and image.aovs out", escaped(path)));
+  const PictureOutput& image = command.scene.image;
+  if (image.extent || image.aovs || image.cryptomatte || image.primaries != Primaries::rec709)
+    throw UsageError(
+        fmt::format("{}: this command shows complete surfaces as sRGB colours; leave image.extent, "
+                    "image.aovs, image.cryptomatte and image.color_space out",
+                    escaped(path)));
   command.reporting = reporting;
   return command;
 }

@@ -198,7 +198,9 @@ Maker Bundle::maker(Step step) const {
 
 std::string Bundle::result_pattern(Step step) const {
   if (step == Step::surface) return fmt::format("scene/frame_{}.done", kPlace);
-  const bool is_layered = std::ranges::find(command, "--aovs") != command.end();
+  const bool is_layered = std::ranges::any_of(command, [](const std::string& word) {
+    return word == "--aovs" || word == "--cryptomatte" || word.starts_with("--color-space");
+  });
   return fmt::format("images/frame_{}.{}", kPlace, is_layered ? "exr" : "png");
 }
 

@@ -244,8 +244,10 @@ Bundle described(const BundleOptions& options, const BundledCommand& asked, Bund
   bundle.renderer = asked.renderer;
   if (options.film && bundle.steps().back() != Step::render)
     throw UsageError("--film: this bundle makes scenes, not pictures; leave it out");
-  if (options.film && scene.image.aovs)
-    throw UsageError("--film: pictures with --aovs are .exr, which films cannot use; leave one of them out");
+  if (options.film && (scene.image.aovs || scene.image.cryptomatte || scene.image.primaries != Primaries::rec709))
+    throw UsageError(
+        "--film: pictures with --aovs, --cryptomatte or --color-space are .exr, which films cannot use; leave one of "
+        "them out");
   bundle.width = scene.picture.width;
   bundle.height = scene.picture.height;
   bundle.film = options.film;

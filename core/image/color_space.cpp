@@ -10,6 +10,8 @@
 #include <string_view>
 #include <utility>
 
+#include <glm/mat3x3.hpp>
+
 namespace meniscus {
 
 float linear_from_srgb(float value) {
@@ -20,6 +22,20 @@ float linear_from_srgb(float value) {
 float srgb_from_linear(float value) {
   value = std::clamp(value, 0.0f, 1.0f);
   return value <= 0.0031308f ? value * 12.92f : 1.055f * std::pow(value, 1.0f / 2.4f) - 0.055f;
+}
+
+const std::array<float, 8>& chromaticities(Primaries primaries) {
+  static constexpr std::array<float, 8> kRec709{0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.329f},
+      kAp1{0.713f, 0.293f, 0.165f, 0.83f, 0.128f, 0.044f, 0.32168f, 0.33767f};
+  return primaries == Primaries::ap1 ? kAp1 : kRec709;
+}
+
+glm::vec3 from_rec709(const glm::vec3& color, Primaries primaries) {
+  // By the chromaticities above and Lam & Rigg's "Bradford" adaptation from D65; OpenColorIO's configurations for ACES
+  // have the same numbers. Columns are red, green and blue.
+  static const glm::mat3 kAp1(0.6130974024f, 0.0701937225f, 0.0206155929f, 0.3395231462f, 0.9163538791f, 0.1095697729f,
+                              0.0473794514f, 0.0134523985f, 0.8698146342f);
+  return primaries == Primaries::ap1 ? kAp1 * color : color;
 }
 
 namespace {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // sRGB (IEC 61966-2-1): conversion from and to linear light, screen colours of gathered light, and the profile that
-// pictures carry.
+// pictures carry; and linear light by other primaries.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -24,6 +25,18 @@ inline glm::vec3 linear_from_srgb(const glm::vec3& c) {
 inline glm::vec3 srgb_from_linear(const glm::vec3& c) {
   return {srgb_from_linear(c.x), srgb_from_linear(c.y), srgb_from_linear(c.z)};
 }
+
+/// Primaries and white of linear light.
+enum class Primaries {
+  rec709,  ///< ITU-R BT.709, those of sRGB
+  ap1      ///< ACEScg (Academy S-2014-004)
+};
+
+/// x and y of red, green, blue and white.
+const std::array<float, 8>& chromaticities(Primaries primaries);
+
+/// A linear colour of Rec. 709, perhaps premultiplied, by other primaries.
+glm::vec3 from_rec709(const glm::vec3& color, Primaries primaries);
 
 /// A linear pixel with its alpha multiplied in, before an sRGB background if there is one (alpha 1 then).
 glm::vec4 over(const glm::vec4& front, const std::optional<glm::vec3>& background);

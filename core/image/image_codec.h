@@ -5,10 +5,12 @@
 // make no picture. So what needs it is a module of its own (openimageio_codec.cpp), found beside the program.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace meniscus {
@@ -33,9 +35,14 @@ struct ImageToEncode {
   std::string command;                          ///< how it was made, likewise
   std::string scene;                            ///< what it was made of (JSON), likewise
   std::string made_of;                          ///< PNG: kMadeOfNote, likewise
-  std::string date;                             ///< "YYYY:MM:DD HH:MM:SS", in EXR and TIFF, which always have one
+  std::string date;                             ///< "YYYY:MM:DD HH:MM:SS", in EXR and TIFF; "" for none
   double dots_per_inch = 0.0;                   ///< likewise; 0 for nothing
   std::span<const std::uint8_t> color_profile;  ///< ICC; empty for none
+
+  // Of EXR.
+  std::vector<std::pair<std::string, std::string>> header;          ///< names of more attributes, and their texts
+  std::vector<std::pair<std::string, std::array<float, 16>>> maps;  ///< of points, row after row, for row vectors
+  std::array<float, 8> chromaticities{};  ///< x and y of red, green, blue and white; zeros: not said
 };
 
 /// A picture read from a file: floats in [0, 1], colours multiplied by their alpha.

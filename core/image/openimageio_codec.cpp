@@ -28,7 +28,11 @@ OIIO::ImageSpec spec_of(const ImageToEncode& image) {
   if (image.format == "jpeg") spec.attribute("jpeg:subsampling", "4:4:4");
   if (image.png_level >= 0) spec.attribute("png:compressionLevel", image.png_level);
   if (!image.software.empty()) spec.attribute("Software", image.software);
-  if (!image.date.empty()) spec.attribute("DateTime", image.date);  // else it is now
+  // Where there is none OpenImageIO takes the present time; what is no text is left out.
+  if (image.date.empty())
+    spec.attribute("DateTime", 0);
+  else
+    spec.attribute("DateTime", image.date);
   if (!image.color_profile.empty())
     spec.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, static_cast<int>(image.color_profile.size())),
                    image.color_profile.data());
@@ -36,6 +40,10 @@ OIIO::ImageSpec spec_of(const ImageToEncode& image) {
   const std::string& told = image.command.empty() && image.format != "openexr" ? image.scene : image.command;
   if (!told.empty()) spec.attribute("ImageDescription", told);
   if (!image.scene.empty() && image.format == "openexr") spec.attribute("meniscus:scene", image.scene);
+  for (const auto& [name, text] : image.header) spec.attribute(name, text);
+  for (const auto& [name, map] : image.maps) spec.attribute(name, OIIO::TypeMatrix44, map.data());
+  if (image.chromaticities.front() > 0.0f)
+    spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), image.chromaticities.data());
   if (image.dots_per_inch > 0.0) {
     spec.attribute("XResolution", static_cast<float>(image.dots_per_inch));
     spec.attribute("YResolution", static_cast<float>(image.dots_per_inch));
@@ -112,6 +120,7 @@ class OpenImageIOCodec final : public ImageCodec {
 extern "C" __attribute__((visibility("default"))) const meniscus::ImageCodec* meniscus_image_codec(
     const char* version, std::size_t image_size) {
   static const meniscus::OpenImageIOCodec codec;
+  OIIO::attribute("debug", 0);  // else it says on stderr what it leaves out
   return version == std::string_view(MENISCUS_VERSION) && image_size == sizeof(meniscus::ImageToEncode) ? &codec
                                                                                                         : nullptr;
 }

@@ -103,8 +103,19 @@ constexpr auto kTable = of_commands(
             .in_short_help()
             .of(kForPictures | for_page),
         flag("image.aovs", "--aovs",
-             "Add depth, normals, positions and atoms to an .exr. Channels: Z, N.xyz, P.xyz, atom, kind and component "
-             "at each pixel's centre")
+             "Add depth, normals, positions and atoms to an .exr. Layers: Z, N, P, Nview, Pview, atom, kind and "
+             "component at each pixel's centre; in frames of a run also forward, the motion to the next one")
+            .in(kPicture, kShared)
+            .of(for_render),
+        flag("image.cryptomatte", "--cryptomatte",
+             "Add mattes of chains, residues and atoms to an .exr (Cryptomatte). "
+             "Layers: CryptoChain, CryptoResidue and CryptoAtom")
+            .in(kPicture, kShared)
+            .of(for_render),
+        word("image.color_space", "--color-space", "WORD",
+             "Primaries of the colours of an .exr: rec709, those of sRGB, or acescg")
+            .one_of("rec709|acescg")
+            .initially("rec709")
             .in(kPicture, kShared)
             .of(for_render),
         text("image.extent", "--extent", "WORD",

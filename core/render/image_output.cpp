@@ -77,13 +77,14 @@ std::string extension_of(const std::filesystem::path& path) {
   return extension;
 }
 
-/// EXR and TIFF always have a date, in UTC.
+/// In UTC; empty where none is given.
 std::string date_of_pictures() {
   const std::time_t time = source_date();
+  if (time == 0) return {};
   std::tm parts{};
   std::array<char, 32> date{};
   if (!::gmtime_r(&time, &parts) || std::strftime(date.data(), date.size(), "%Y:%m:%d %H:%M:%S", &parts) != 19)
-    return "1970:01:01 00:00:00";
+    return {};
   return date.data();
 }
 
@@ -108,11 +109,6 @@ Rows all_rows(const Framebuffer& picture) { return {picture, 0, picture.color.si
 std::vector<std::string> display_names(const std::optional<glm::vec3>& background) {
   if (background) return {"R", "G", "B"};
   return {"R", "G", "B", "A"};
-}
-
-std::vector<std::string> scene_names(bool aovs) {
-  if (!aovs) return {"R", "G", "B", "A"};
-  return {"R", "G", "B", "A", "Z", "N.x", "N.y", "N.z", "P.x", "P.y", "P.z", "atom", "kind", "component"};
 }
 
 /// Calls work(pixels from, to) on all threads.
@@ -149,25 +145,6 @@ std::vector<std::uint8_t> display_values_8(const Rows& rows, const std::optional
     else
       layout_bytes(pixels, &values[from * channels]);
   });
-  return values;
-}
-
-float index_value(std::uint32_t index) { return index == kNone ? -1.0f : static_cast<float>(index); }
-
-/// Linear light and everything else there is.
-std::vector<float> scene_values(const Rows& rows, bool aovs, const std::optional<glm::vec3>& background) {
-  const Framebuffer& picture = rows.picture;
-  std::vector<float> values;
-  values.reserve(rows.count * scene_names(aovs).size());
-  for (std::size_t i = rows.first; i < rows.first + rows.count; ++i) {
-    const glm::vec4 c = over(picture.color[i], background);
-    values.insert(values.end(), {c.x, c.y, c.z, c.w});
-    if (!aovs) continue;
-    const glm::vec3& n = picture.normal[i];
-    const glm::vec3& p = picture.position[i];
-    values.insert(values.end(), {picture.z[i], n.x, n.y, n.z, p.x, p.y, p.z, index_value(picture.atom[i]),
-                                 index_value(picture.kind[i]), index_value(picture.component[i])});
-  }
   return values;
 }
 
@@ -215,17 +192,18 @@ void refuse_limited_size(const std::filesystem::path& path, const ImageToEncode&
 /// OpenImageIO never writes to the disk itself, for its PNG writer overlooks writes that fail.
 class ImageWriter::File {
  public:
-  File(const std::filesystem::path& path, glm::ivec2 size, bool aovs, ImageSettings settings)
+  File(const std::filesystem::path& path, glm::ivec2 size, const PictureLayers& layers, ImageSettings settings)
       : path_(path),
         extension_(extension_of(path)),
-        aovs_(aovs),
         width_(static_cast<std::size_t>(size.x)),
         settings_(std::move(settings)),
+        exr_(layers, settings_.background, settings_.exr),
         output_(path, settings_.existing) {
     // JPEG knows no transparency.
     if (is_jpeg(extension_) && !settings_.background) settings_.background = glm::vec3(1.0f);
-    ImageToEncode image = described(
-        size, extension_ == ".exr" ? scene_names(aovs) : display_names(settings_.background), settings_, extension_);
+    ImageToEncode image = described(size, extension_ == ".exr" ? exr_.names() : display_names(settings_.background),
+                                    settings_, extension_);
+    if (extension_ == ".exr") exr_.describe(image);
     if (extension_ == ".png") {
       png_.emplace(image, [this](std::span<const std::uint8_t> bytes) { output_.write(std::as_bytes(bytes)); });
       return;
@@ -265,7 +243,7 @@ class ImageWriter::File {
       return png_->add(values, settings_.background ? 3 : 4);
     }
     const std::vector<float> values = extension_ == ".exr"
-                                          ? scene_values(rows, aovs_, settings_.background)
+                                          ? exr_.values(rows.picture, rows.first, rows.count)
                                           : display_values(rows, settings_.background, settings_.linear_alpha);
     encoding([&] { rows_->add(values); });
   }
@@ -282,9 +260,9 @@ class ImageWriter::File {
 
   std::filesystem::path path_;
   std::string extension_;
-  bool aovs_;
   std::size_t width_;
   ImageSettings settings_;
+  ExrChannels exr_;
   OutputFile output_;
   std::optional<MemoryFile> named_;
   std::optional<PngEncoder> png_;
@@ -322,9 +300,10 @@ void check_image_path(const std::filesystem::path& path) {
   image_codec();  // what is missing is missed before anything is computed
 }
 
-ImageWriter::ImageWriter(const std::filesystem::path& path, glm::ivec2 size, bool aovs, const ImageSettings& settings) {
+ImageWriter::ImageWriter(const std::filesystem::path& path, glm::ivec2 size, const PictureLayers& layers,
+                         const ImageSettings& settings) {
   check_image_path(path);
-  file_ = std::make_unique<File>(path, size, aovs, settings);
+  file_ = std::make_unique<File>(path, size, layers, settings);
 }
 
 ImageWriter::~ImageWriter() = default;
@@ -334,7 +313,7 @@ void ImageWriter::add(const Framebuffer& rows) { file_->add(rows); }
 void ImageWriter::commit() { file_->commit(); }
 
 void write_image(const std::filesystem::path& path, const Framebuffer& picture, const ImageSettings& settings) {
-  ImageWriter writer(path, picture.size, !picture.z.empty(), settings);
+  ImageWriter writer(path, picture.size, layers_of(picture), settings);
   writer.add(picture);
   writer.commit();
 }

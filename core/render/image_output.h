@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/output_file.h"
+#include "core/render/exr_channels.h"
 #include "core/render/picture.h"
 
 namespace meniscus {
@@ -24,6 +25,7 @@ struct ImageSettings {
   bool names_program = true;   ///< the program's version is in the file
   std::string command = {};    ///< how it was made, in words; empty: not said. Not in WebP.
   std::string scene = {};      ///< what it was made of, JSON; likewise
+  ExrContent exr = {};         ///< in EXR files
   std::string made_of = {};    ///< of PNG: by which a picture of a run is known again (kMadeOfNote); empty: nothing
 };
 
@@ -46,14 +48,14 @@ void check_image_path(const std::filesystem::path& path);
 /// A picture that is written as its rows come, so that files of any size need little memory: all but .webp and .exr,
 /// which are in memory until the end, .exr compressed. By extension: .png and .webp (quality 95) 8 bit, .tif and .tiff
 /// 16 bit, all sRGB with unassociated alpha; .jpg and .jpeg (quality 95, colours not subsampled) 8 bit sRGB before
-/// white where no background is given; .exr float, linear, associated alpha, plus the channels Z, N.x N.y N.z, P.x P.y
-/// P.z, atom, kind, component when the picture has them (atom, kind and component are -1 where nothing is hit; Z is
-/// +inf). An opaque background leaves no alpha, in EXR alpha 1. Nothing is under the final name before the end. Throws
+/// white where no background is given; .exr float, linear, associated alpha, with the channels of ExrChannels. An
+/// opaque background leaves no alpha, in EXR alpha 1. Nothing is under the final name before the end. Throws
 /// OutputError.
 class ImageWriter {
  public:
-  /// aovs: whether rows have them.
-  ImageWriter(const std::filesystem::path& path, glm::ivec2 size, bool aovs, const ImageSettings& settings);
+  /// layers: those of its rows.
+  ImageWriter(const std::filesystem::path& path, glm::ivec2 size, const PictureLayers& layers,
+              const ImageSettings& settings);
   ~ImageWriter();
 
   /// The next rows, as a picture of their own.

@@ -43,17 +43,18 @@ void draw_box(Framebuffer& rows, int first, const LegendBox& box, const glm::vec
 
 }  // namespace
 
-Framebuffer with_margin(const Framebuffer& part, glm::ivec2 size, int top, bool aovs) {
+Framebuffer with_margin(const Framebuffer& part, glm::ivec2 size, int top, const PictureLayers& layers) {
   Framebuffer whole;
   whole.size = size;
-  const auto widen = [&](auto& to, const auto& from, auto empty) {
-    to.assign(static_cast<std::size_t>(size.x) * size.y, empty);
+  const auto widen = [&](auto& to, const auto& from, auto empty, std::ptrdiff_t each = 1) {
+    to.assign(static_cast<std::size_t>(each) * size.x * size.y, empty);
     for (int y = 0; y < part.size.y; ++y)
-      std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(y) * part.size.x, part.size.x,
-                  to.begin() + static_cast<std::ptrdiff_t>(top + y) * size.x);
+      std::copy_n(from.begin() + each * y * part.size.x, each * part.size.x, to.begin() + each * (top + y) * size.x);
   };
   widen(whole.color, part.color, glm::vec4(0.0f));
-  if (!aovs) return whole;
+  if (layers.rays > 0) widen(whole.seen, part.seen, kNone, layers.rays);
+  if (!layers.aovs) return whole;
+  if (layers.motion) widen(whole.motion, part.motion, glm::vec2(0.0f));
   widen(whole.z, part.z, std::numeric_limits<float>::infinity());
   widen(whole.normal, part.normal, glm::vec3(0.0f));
   widen(whole.position, part.position, glm::vec3(0.0f));
@@ -65,13 +66,13 @@ Framebuffer with_margin(const Framebuffer& part, glm::ivec2 size, int top, bool 
 
 Framebuffer Legend::add_to(const Framebuffer& molecule, const std::optional<glm::vec3>& background) const {
   assert(molecule.size == molecule_size_);
-  return rows(molecule, 0, picture_size_.y, !molecule.z.empty(), background);
+  return rows(molecule, 0, picture_size_.y, layers_of(molecule), background);
 }
 
-Framebuffer Legend::rows(const Framebuffer& molecule, int first, int count, bool aovs,
+Framebuffer Legend::rows(const Framebuffer& molecule, int first, int count, const PictureLayers& layers,
                          const std::optional<glm::vec3>& background) const {
   assert(molecule.size.y == std::clamp(molecule_size_.y - first, 0, count));
-  Framebuffer picture = with_margin(molecule, {picture_size_.x, count}, 0, aovs);
+  Framebuffer picture = with_margin(molecule, {picture_size_.x, count}, 0, layers);
   const glm::vec3 ink = linear_from_srgb(inks(background).ink);
   for (const LegendBox& box : boxes_) draw_box(picture, first, box, ink, frame_width());
 

@@ -66,7 +66,7 @@ class Legend {
 
   /// The same of `count` rows from `first` on. molecule: those of them that the molecule's picture has. aovs: whether
   /// it has any.
-  Framebuffer rows(const Framebuffer& molecule, int first, int count, bool aovs,
+  Framebuffer rows(const Framebuffer& molecule, int first, int count, const PictureLayers& layers,
                    const std::optional<glm::vec3>& background) const;
 
   /// The legend as a picture of its own, with a margin half as wide as its letters are high. Empty if there is nothing
@@ -109,7 +109,7 @@ class Legend {
 };
 
 /// `part` at the left of a picture of `size`, from row `top` on; nothing around it. AOVs there are those of a miss.
-Framebuffer with_margin(const Framebuffer& part, glm::ivec2 size, int top, bool aovs);
+Framebuffer with_margin(const Framebuffer& part, glm::ivec2 size, int top, const PictureLayers& layers);
 
 /// At most so many multiples of 1, 2 or 5 times a power of ten between two numbers, without these, ascending.
 std::vector<double> round_numbers(double low, double high, int most);

@@ -28,9 +28,39 @@ struct Framebuffer {
   std::vector<std::uint32_t> kind;       ///< PatchKind, kShape, kCap, or kNone
   std::vector<std::uint32_t> component;  ///< index into Surface::components, or kNone
   std::vector<std::uint32_t> object;     ///< of several: which one; empty for one
+  /// From where the point is in this picture to where it is in the next frame's, pixels to the right and upwards; 0
+  /// where nothing is hit.
+  std::vector<glm::vec2> motion;
+
+  /// What each ray of a pixel meets, ray after ray, as RenderSettings::name_seen has it, or kNone. Empty unless it was
+  /// asked for.
+  std::vector<std::uint32_t> seen;
 
   /// Beyond PatchKind: on a shape beside a surface, on a plane that cuts one.
   static constexpr std::uint32_t kShape = 3, kCap = 4;
+};
+
+/// What a picture has beside colour.
+struct PictureLayers {
+  PictureLayers(bool has_aovs = false, bool has_motion = false, int rays_of_seen = 0)
+      : aovs(has_aovs), motion(has_motion), rays(rays_of_seen) {}
+
+  bool aovs, motion;
+  int rays;  ///< of each pixel in Framebuffer::seen; 0: it is empty
+};
+
+/// Those that it has.
+inline PictureLayers layers_of(const Framebuffer& picture) {
+  return {!picture.z.empty(), !picture.motion.empty(),
+          picture.seen.empty() ? 0 : static_cast<int>(picture.seen.size() / picture.color.size())};
+}
+
+/// A point that a ray has met.
+struct SeenPoint {
+  std::uint32_t object = 0, atom = 0;  ///< as SurfaceRenderer::render() has them
+  std::uint32_t kind = 0;              ///< as Framebuffer::kind
+  std::uint32_t patch = 0;             ///< of that kind, in the tables of a surface; else of no meaning
+  glm::dvec3 position{0.0}, normal{0.0, 0.0, 1.0};
 };
 
 /// How a picture is made.
@@ -38,6 +68,8 @@ struct RenderSettings {
   glm::ivec2 size{1024, 768};  ///< pixels
   int samples = 1;             ///< rays per pixel, the first through its centre
   bool aovs = false;           ///< of render(): fill the AOV arrays too; for drawables with a surface()
+  bool mattes = false;         ///< of render(): fill Framebuffer::seen, with name_seen; made on the CPU
+  bool motion = false;         ///< of render(), with aovs: fill Framebuffer::motion, with move
   int block_edge = 2048;       ///< of render(): larger pictures are cast in blocks of at most this edge, in pixels
   Look look;                   ///< its background is that of draw(); render() leaves it transparent
   StageTiming timing = StageTiming::rough;
@@ -48,6 +80,12 @@ struct RenderSettings {
   /// what render() returns has its size and no pixels. Bands are pictures of their own, of rows from `first_row` on,
   /// and have the same pixels as the whole picture. What it throws ends the picture.
   std::function<void(Framebuffer band, int first_row)> take_band{};
+  /// What Framebuffer::seen has for an atom of an object; on any thread.
+  std::function<std::uint32_t(std::uint32_t object, std::uint32_t atom)> name_seen{};
+  /// What Framebuffer::motion has for a point; on any thread.
+  std::function<glm::vec2(const SeenPoint& point)> move{};
+
+  PictureLayers layers() const { return {aovs, aovs && motion, mattes ? samples : 0}; }
 };
 
 enum class Extent {

@@ -165,8 +165,10 @@ namespace {
 
 /// Of a band: what fits into 256 MiB, in bands as equal as whole tiles allow.
 int band_rows(const RenderSettings& settings, int edge) {
-  constexpr std::int64_t kBandBytes = std::int64_t{1} << 28, kColorBytes = 16, kAovBytes = 48;
-  const std::int64_t row_bytes = (kColorBytes + (settings.aovs ? kAovBytes : 0)) * settings.size.x;
+  constexpr std::int64_t kBandBytes = std::int64_t{1} << 28, kColorBytes = 16, kAovBytes = 56, kSeenBytes = 4;
+  const PictureLayers layers = settings.layers();
+  const std::int64_t row_bytes =
+      (kColorBytes + (layers.aovs ? kAovBytes : 0) + kSeenBytes * layers.rays) * settings.size.x;
   const auto in_tiles = [](std::int64_t rows) { return (rows + kTileEdge - 1) / kTileEdge * kTileEdge; };
   const std::int64_t most =
       std::clamp<std::int64_t>(kBandBytes / row_bytes / kTileEdge * kTileEdge, std::int64_t{kTileEdge}, edge);
@@ -209,16 +211,17 @@ NameHit names_of(std::span<const HitSource> sources) {
     const ray_cast::Primitive& primitive = source.primitives[hit.primitive];
     const ComponentLookup components(*source.surface);
     return HitNames{hit.atom, components.at(static_cast<PatchKind>(primitive.kind), primitive.patch_index, point),
-                    primitive.kind};
+                    primitive.kind, primitive.patch_index};
   };
 }
 
 PictureCollector::PictureCollector(const PictureFrame& frame, const RenderSettings& settings, NameHit names,
-                                   bool several)
+                                   bool several, NameAtom name_atom)
     : frame_(frame),
       settings_(settings),
       per_sample_(1.0f / static_cast<float>(settings.samples)),
       names_(std::move(names)),
+      name_atom_(std::move(name_atom)),
       several_(several) {
   if (!settings.take_band) begin_rows(0, settings.size.y);
 }
@@ -235,6 +238,7 @@ void PictureCollector::begin_rows(int first, int count_of_rows) {
   first_row_ = first;
   picture_.size = {settings_.size.x, count_of_rows};
   picture_.color.assign(count, glm::vec4(0.0f));
+  if (settings_.mattes) picture_.seen.assign(count * static_cast<std::size_t>(settings_.samples), kNone);
   if (!settings_.aovs) return;
   picture_.z.assign(count, std::numeric_limits<float>::infinity());
   picture_.normal.assign(count, glm::vec3(0.0f));
@@ -243,6 +247,7 @@ void PictureCollector::begin_rows(int first, int count_of_rows) {
   picture_.kind.assign(count, kNone);
   picture_.component.assign(count, kNone);
   if (several_) picture_.object.assign(count, kNone);
+  if (settings_.motion) picture_.motion.assign(count, glm::vec2(0.0f));
 }
 
 void PictureCollector::add_colors(const PictureBlock& inner, const PictureBlock& block,
@@ -255,6 +260,16 @@ void PictureCollector::add_hits(const PictureBlock& inner, const PictureBlock& b
                                 std::span<const ray_cast::Hit> hits) {
   for_each_pixel(inner, block, picture_.size.x, first_row_,
                  [&](std::size_t from, std::size_t to) { copy_hit(hits[from], to); });
+}
+
+void PictureCollector::add_seen(const PictureBlock& inner, const PictureBlock& block,
+                                std::span<const ray_cast::Hit> hits, int sample) {
+  const auto rays = static_cast<std::size_t>(settings_.samples), ray = static_cast<std::size_t>(sample);
+  for_each_pixel(inner, block, picture_.size.x, first_row_, [&](std::size_t from, std::size_t to) {
+    const ray_cast::Hit& hit = hits[from];
+    if (hit.primitive == ray_cast::kNoPrimitive) return;
+    picture_.seen[to * rays + ray] = settings_.name_seen(hit.object, name_atom_ ? name_atom_(hit) : hit.atom);
+  });
 }
 
 void PictureCollector::end_block(const PictureBlock& block) {
@@ -280,6 +295,9 @@ void PictureCollector::copy_hit(const ray_cast::Hit& hit, std::size_t at) {
   picture_.atom[at] = names.atom;
   picture_.kind[at] = names.kind;
   picture_.component[at] = names.component;
+  if (!picture_.motion.empty())
+    picture_.motion[at] =
+        settings_.move({hit.object, names.atom, names.kind, names.patch, point.position, glm::dvec3(hit.normal)});
 }
 
 }  // namespace meniscus

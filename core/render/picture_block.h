@@ -81,10 +81,13 @@ struct HitSource {
 struct HitNames {
   std::uint32_t atom = kNone, component = kNone;  ///< into the tables of what Hit::object says
   std::uint32_t kind = kNone;                     ///< as Framebuffer::kind
+  std::uint32_t patch = kNone;                    ///< as SeenPoint::patch
 };
 
 /// Tells them for a hit of some primitive, at a point, Å; on any thread.
 using NameHit = std::function<HitNames(const ray_cast::Hit& hit, const glm::dvec3& point)>;
+/// Tells HitNames::atom alone.
+using NameAtom = std::function<std::uint32_t(const ray_cast::Hit& hit)>;
 
 /// sources: one for each Hit::object; what they point to must stay.
 NameHit names_of(std::span<const HitSource> sources);
@@ -94,7 +97,9 @@ NameHit names_of(std::span<const HitSource> sources);
 class PictureCollector {
  public:
   /// names: for settings.aovs; else not asked. several: there is more than one Hit::object.
-  PictureCollector(const PictureFrame& frame, const RenderSettings& settings, NameHit names, bool several = false);
+  /// name_atom: for settings.mattes, where atoms are not Hit::atom.
+  PictureCollector(const PictureFrame& frame, const RenderSettings& settings, NameHit names, bool several = false,
+                   NameAtom name_atom = {});
 
   /// Of at most `edge` pixels, a multiple of kTileEdge: those to be cast, in this order. Of a picture that is taken in
   /// bands they are as high as these, and lower the wider it is.
@@ -103,6 +108,8 @@ class PictureCollector {
   /// sums: of the samples of each of the block's pixels, linear and premultiplied; hits: through their centres.
   void add_colors(const PictureBlock& inner, const PictureBlock& block, std::span<const glm::vec4> sums);
   void add_hits(const PictureBlock& inner, const PictureBlock& block, std::span<const ray_cast::Hit> hits);
+  /// For settings.mattes. hits: of sample `sample` of each of the block's pixels.
+  void add_seen(const PictureBlock& inner, const PictureBlock& block, std::span<const ray_cast::Hit> hits, int sample);
 
   /// Nothing more comes of one of blocks().
   void end_block(const PictureBlock& block);
@@ -118,6 +125,7 @@ class PictureCollector {
   const RenderSettings& settings_;
   const float per_sample_;
   const NameHit names_;
+  const NameAtom name_atom_;
   const bool several_;
   int first_row_ = 0;    // of what picture_ holds
   Framebuffer picture_;  // or the band at work

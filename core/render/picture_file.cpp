@@ -8,6 +8,8 @@
 
 #include <glm/common.hpp>
 
+#include "core/camera/camera_matrices.h"
+
 namespace meniscus {
 namespace {
 
@@ -21,6 +23,7 @@ std::vector<Value> part_of(const std::vector<Value>& values, std::size_t first, 
 }
 
 Framebuffer slice_of(const Framebuffer& band, int first_row, int rows) {
+  const auto each = static_cast<std::size_t>(layers_of(band).rays);
   const std::size_t width = static_cast<std::size_t>(band.size.x), first = width * first_row, count = width * rows;
   return {.size = {band.size.x, rows},
           .color = part_of(band.color, first, count),
@@ -30,7 +33,9 @@ Framebuffer slice_of(const Framebuffer& band, int first_row, int rows) {
           .atom = part_of(band.atom, first, count),
           .kind = part_of(band.kind, first, count),
           .component = part_of(band.component, first, count),
-          .object = part_of(band.object, first, count)};
+          .object = part_of(band.object, first, count),
+          .motion = part_of(band.motion, first, count),
+          .seen = part_of(band.seen, first * each, count * each)};
 }
 
 }  // namespace
@@ -39,7 +44,7 @@ PictureFile::PictureFile(const std::filesystem::path& path, const PictureMargins
                          const ImageSettings& image, RenderSettings& settings)
     : margins_(margins),
       background_(image.background),
-      aovs_(settings.aovs),
+      layers_(settings.layers()),
       molecule_size_(settings.size),
       size_(margins.legend ? margins.legend->picture_size()
                            : settings.size + glm::ivec2(0, margins.strips.top + margins.strips.bottom)),
@@ -50,8 +55,18 @@ PictureFile::PictureFile(const std::filesystem::path& path, const PictureMargins
   if (is_page(path))
     page_ = std::make_unique<PageFile>(path, PageLayout{{}, size_, {0, margins.strips.top}, molecule_size_}, image);
   else
-    writer_ = std::make_unique<ImageWriter>(path, size_, settings.aovs, image);
+    writer_ = std::make_unique<ImageWriter>(path, size_, layers_, seen_by(camera, image));
   settings.take_band = [this](const Framebuffer& band, int first_row) { take(band, first_row); };
+}
+
+ImageSettings PictureFile::seen_by(const Camera& camera, ImageSettings image) const {
+  const glm::dvec2 molecule(molecule_size_), whole(size_);
+  glm::dmat4 into_file(1.0);
+  into_file[0][0] = molecule.x / whole.x;
+  into_file[1][1] = molecule.y / whole.y;
+  into_file[3][1] = margins_.strips.top / whole.y;
+  image.exr.view = ViewMatrices{world_to_camera(camera), into_file * world_to_picture(camera, molecule.x / molecule.y)};
+  return image;
 }
 
 void PictureFile::take(const Framebuffer& band, int first_row) {
@@ -69,7 +84,8 @@ void PictureFile::write_strip(int first_row, int count) {
   for (int row = 0; row < count; row += kSlice) {
     Framebuffer nothing;
     nothing.size = {molecule_size_.x, 0};
-    write_molecule(with_margin(nothing, {molecule_size_.x, std::min(kSlice, count - row)}, 0, aovs_), first_row + row);
+    write_molecule(with_margin(nothing, {molecule_size_.x, std::min(kSlice, count - row)}, 0, layers_),
+                   first_row + row);
   }
 }
 
@@ -80,7 +96,7 @@ void PictureFile::write_molecule(Framebuffer rows, int first_row) {
 }
 
 void PictureFile::write(Framebuffer rows, int first_row, int count) {
-  if (margins_.legend) rows = margins_.legend->rows(rows, first_row, count, aovs_, background_);
+  if (margins_.legend) rows = margins_.legend->rows(rows, first_row, count, layers_, background_);
   writer_->add(rows);
 }
 

@@ -45,6 +45,7 @@ class PictureFile {
   void commit();
 
  private:
+  ImageSettings seen_by(const Camera& camera, ImageSettings image) const;
   void take(const Framebuffer& band, int first_row);
   void write_strip(int first_row, int count);
   void write_molecule(Framebuffer rows, int first_row);
@@ -52,7 +53,7 @@ class PictureFile {
 
   const PictureMargins margins_;
   const std::optional<glm::vec3> background_;
-  const bool aovs_;
+  const PictureLayers layers_;
   const glm::ivec2 molecule_size_, size_;
   AnnotationLayer annotations_;
   std::unique_ptr<ImageWriter> writer_;  // one of the two

@@ -200,14 +200,14 @@ class GlRenderer final : public SurfaceRenderer {
   Framebuffer render(const Surface& surface, const Coloring& coloring, const Camera& camera,
                      const RenderSettings& settings) override {
     by_cpu_.reset();
-    if (!settings.look.traces_light()) return renderer_.render(surface, coloring, camera, settings);
+    if (!settings.look.traces_light() && !settings.mattes) return renderer_.render(surface, coloring, camera, settings);
     by_cpu_ = make_cpu_renderer();
     return by_cpu_->render(surface, coloring, camera, settings);
   }
   Framebuffer render(std::span<const PictureObject> objects, const Camera& camera,
                      const RenderSettings& settings) override {
     by_cpu_.reset();
-    if (objects.size() == 1 && !needs_layers(objects.front()) && !settings.look.traces_light())
+    if (objects.size() == 1 && !needs_layers(objects.front()) && !settings.look.traces_light() && !settings.mattes)
       return renderer_.render(*objects.front().surface, *objects.front().coloring, camera, settings);
     by_cpu_ = make_cpu_renderer();
     return by_cpu_->render(objects, camera, settings);

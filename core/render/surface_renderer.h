@@ -29,9 +29,9 @@ class SurfaceRenderer {
   virtual Framebuffer render(const Surface& surface, const Coloring& coloring, const Camera& camera,
                              const RenderSettings& settings) = 0;
 
-  /// A picture of any objects, cut and seen through as they say; made on the CPU wherever it needs layers, or light is
-  /// traced. Atoms of the
-  /// AOVs are places in the colouring of their object. objects: at least one. Throws as render().
+  /// A picture of any objects, cut and seen through as they say; made on the CPU wherever it needs layers or mattes,
+  /// or light is traced. Atoms of the AOVs are places in the colouring of their object. objects: at least one. Throws
+  /// as render().
   virtual Framebuffer render(std::span<const PictureObject> objects, const Camera& camera,
                              const RenderSettings& settings) = 0;
 

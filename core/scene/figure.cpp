@@ -181,9 +181,9 @@ const SurfaceObject* surface_beside(const BesideSurface& beside, const PictureOb
 }
 
 Framebuffer draw(SurfaceRenderer& renderer, Figure figure, const FigureRequest& request, const Camera& camera,
-                 const RenderSettings& settings, const Survey& survey) {
+                 const RenderSettings& settings, const Survey& survey, const FigureMotion* motion) {
   // In bands or as a whole, as the renderer gives it.
-  const auto renamed = [&](const auto& render, const auto& rename) {
+  const auto renamed = [&](const auto& render, const auto& rename, const auto& name_seen) {
     if (survey)
       survey([&](const Camera& seen_from, glm::ivec2 size) {
         RenderSettings own;
@@ -194,6 +194,7 @@ Framebuffer draw(SurfaceRenderer& renderer, Figure figure, const FigureRequest& 
         return seen;
       });
     RenderSettings own = settings;
+    own.name_seen = name_seen;
     if (settings.take_band)
       own.take_band = [&](Framebuffer band, int first_row) {
         rename(band);
@@ -205,31 +206,46 @@ Framebuffer draw(SurfaceRenderer& renderer, Figure figure, const FigureRequest& 
   };
   std::vector<SurfaceObject>& objects = figure.molecule.objects;
   const bool opaque = std::ranges::none_of(objects, [](const SurfaceObject& o) { return o.coloring.is_translucent(); });
-  if (request.plain() && opaque && placed_atoms(objects) > kMostMergedAtoms) {
+  // Points of copies that are not in memory have no velocities.
+  if (request.plain() && opaque && !settings.motion && placed_atoms(objects) > kMostMergedAtoms) {
     return renamed([&](const Camera& seen_from,
                        const RenderSettings& own) { return renderer.render_copies(objects, seen_from, own); },
                    [&](Framebuffer& picture) {
                      for (std::uint32_t& atom : picture.atom)
                        if (atom != kNone) atom = merged_atom(objects, atom);
                      name_atoms_as_the_file(figure.molecule.structure, picture);
-                   });
+                   },
+                   [&](std::uint32_t, std::uint32_t atom) { return merged_atom(objects, atom); });
   }
   // Planes along the view cut between the nearest atom of the molecule and its farthest.
   const std::vector<Ball> balls = request.plain() ? std::vector<Ball>{} : placed_balls(objects);
+  std::vector<glm::dvec3> ways;
+  if (settings.motion) ways = placed_ways(objects, motion->atoms);
   const SurfaceObject whole = merged(std::move(objects));
   std::vector<const SurfaceObject*> surfaces;
   return renamed(
-      [&](const Camera& seen_from, const RenderSettings& own) {
+      [&](const Camera& seen_from, RenderSettings own) {
         const std::vector<PictureObject> shown =
             picture_objects(whole.surface, whole.coloring, request, &figure.beside, seen_from, balls);
         surfaces.clear();
         for (const PictureObject& object : shown)
           surfaces.push_back(object.surface == &whole.surface ? &whole : surface_beside(figure.beside, object));
+        std::optional<PointMotion> moving;
+        if (own.motion) {
+          moving.emplace(*motion, seen_from, own.size);
+          for (const SurfaceObject* const surface : surfaces)
+            surface ? moving->add(surface->surface, surface == &whole ? ways : placed_ways({surface, 1}, motion->atoms))
+                    : moving->add_shapes();
+          own.move = [&](const SeenPoint& point) { return moving->at(point); };
+        }
         return renderer.render(shown, seen_from, own);
       },
       [&](Framebuffer& picture) {
         name_atoms(surfaces, picture);
         name_atoms_as_the_file(figure.molecule.structure, picture);
+      },
+      [&](std::uint32_t object, std::uint32_t atom) {
+        return surfaces[object] && atom != kNone ? surfaces[object]->atom[atom] : atom;
       });
 }
 

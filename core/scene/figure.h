@@ -12,6 +12,7 @@
 #include "core/render/picture_object.h"
 #include "core/render/surface_renderer.h"
 #include "core/scene/cut.h"
+#include "core/scene/figure_motion.h"
 #include "core/scene/figure_object.h"
 #include "core/scene/molecule.h"
 #include "core/scene/representations.h"
@@ -97,9 +98,10 @@ using CastSurvey = std::function<Framebuffer(const Camera& camera, glm::ivec2 si
 /// What looks at such pictures first.
 using Survey = std::function<void(const CastSurvey& cast)>;
 
-/// Its picture. atom of the AOVs: place in the file (Atom::index), as in every other answer; of copies the same. Throws
-/// as SurfaceRenderer::render() does.
+/// Its picture. atom of the AOVs: place in the file (Atom::index), as in every other answer; of copies the same.
+/// Framebuffer::seen has places in shown_atoms(). motion: for settings.motion, to the next frame. Throws as
+/// SurfaceRenderer::render() does.
 Framebuffer draw(SurfaceRenderer& renderer, Figure figure, const FigureRequest& request, const Camera& camera,
-                 const RenderSettings& settings, const Survey& survey = {});
+                 const RenderSettings& settings, const Survey& survey = {}, const FigureMotion* motion = nullptr);
 
 }  // namespace meniscus

@@ -164,7 +164,7 @@ bool RunRequest::asked() const {
          interpolate != 1 || !only.empty();
 }
 
-FrameRun::FrameRun(const MoleculeRequest& molecule, const RunRequest& request, bool velocities)
+FrameRun::FrameRun(const MoleculeRequest& molecule, const RunRequest& request, Velocities velocities)
     : copies_(std::max(request.repeat, request.interpolate)),
       interpolates_(request.interpolate > 1),
       velocities_(velocities) {
@@ -393,8 +393,7 @@ void FrameRun::survey(const std::function<void(std::uint64_t, const Structure&)>
   }
 }
 
-/// Half of the difference between the frames before and after it in the run; without one of them, or if it cannot be
-/// read, the difference to the other; zero where there is none. Å per frame of the run.
+/// As Velocities has them, Å per frame of the run; a frame that cannot be read counts as one that is not there.
 void FrameRun::read_velocities(ReadFrame& into) {
   const std::uint64_t place = place_.at(into.number);
   double steps = 0.0;
@@ -409,7 +408,10 @@ void FrameRun::read_velocities(ReadFrame& into) {
     }
   };
   Frame first, last;
-  read_neighbor(place - 1, first);
+  if (velocities_ == Velocities::forward)
+    read(into.number, first);
+  else
+    read_neighbor(place - 1, first);
   read_neighbor(place + 1, last);
   into.velocities.resize(first.positions.size());
   for (std::size_t a = 0; a < into.velocities.size(); ++a)
@@ -422,7 +424,7 @@ std::optional<RunFrame> FrameRun::next() {
     ahead_ = std::make_unique<ReadAhead>(
         [this](ReadFrame& ahead) {
           read(ahead.number, ahead.frame);
-          if (velocities_) read_velocities(ahead);
+          if (velocities_ != Velocities::none) read_velocities(ahead);
         },
         chunk_);
   }
@@ -441,7 +443,7 @@ std::optional<RunFrame> FrameRun::next() {
     frame.together = *together_;
     place(read->frame.positions, frame.together);
   }
-  if (!velocities_) return frame;
+  if (velocities_ == Velocities::none) return frame;
   for (const Atom& atom : shown_atoms(frame.structure)) {
     const bool moves = atom.index < read->velocities.size();  // atoms of added files do not
     const glm::dvec3 velocity = moves ? read->velocities[atom.index] : glm::dvec3(0.0);

@@ -66,12 +66,18 @@ struct RunFrame {
       velocities;  ///< per shown_atoms() of the structure, Å per frame of the run; only if asked for
 };
 
+/// What RunFrame::velocities are.
+enum class Velocities {
+  none,
+  central,  ///< half of the difference between the frames before and after; at an end, the difference to the other
+  forward   ///< the difference to the next frame; 0 at the end
+};
+
 class FrameRun {
  public:
-  /// Opens and chooses the atoms. Selections are as they are: settle_selections comes before. velocities: frames should
-  /// have them. Throws InputError, RequestError for what makes no
-  /// sense together; texts name the options of the program.
-  FrameRun(const MoleculeRequest& molecule, const RunRequest& request, bool velocities = false);
+  /// Opens and chooses the atoms. Selections are as they are: settle_selections comes before. Throws InputError,
+  /// RequestError for what makes no sense together; texts name the options of the program.
+  FrameRun(const MoleculeRequest& molecule, const RunRequest& request, Velocities velocities = Velocities::none);
   ~FrameRun();
 
   /// At the first frame of the run.
@@ -133,7 +139,8 @@ class FrameRun {
   std::size_t taken_ = 0;
   std::uint64_t copies_;  ///< RunRequest::repeat or interpolate, which is larger than 1
   bool interpolates_;
-  bool velocities_, atoms_change_ = false;
+  Velocities velocities_;
+  bool atoms_change_ = false;
 };
 
 /// Of each atom of the structure the root mean square distance from its mean place over the frames of the run, Å; they

@@ -7,6 +7,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/image/color_space.h"
 #include "core/mesh/mesh_objects.h"
 #include "core/render/picture.h"
 
@@ -14,11 +15,13 @@ namespace meniscus {
 
 /// Of a picture, beside its size, which is that of its camera (ViewRequest).
 struct PictureOutput {
-  int samples = 9;                      ///< rays per pixel
-  int motion_blur = 1;                  ///< moments that a picture of a run is the mean of
-  std::optional<glm::vec3> background;  ///< sRGB; nothing: transparent
-  bool aovs = false;                    ///< depth, normals, atoms and the like beside colour
-  std::optional<Extent> extent;         ///< nothing: the complete surface, computed and certified before the picture
+  int samples = 9;                          ///< rays per pixel
+  int motion_blur = 1;                      ///< moments that a picture of a run is the mean of
+  std::optional<glm::vec3> background;      ///< sRGB; nothing: transparent
+  bool aovs = false;                        ///< depth, normals, atoms and the like beside colour
+  bool cryptomatte = false;                 ///< mattes by chain, residue and atom beside colour
+  Primaries primaries = Primaries::rec709;  ///< of the colours of EXR files
+  std::optional<Extent> extent;  ///< nothing: the complete surface, computed and certified before the picture
 };
 
 /// How the pictures of a film are encoded. What is empty or 0 is left to the codec, and the codec to the ending of the

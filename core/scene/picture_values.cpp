@@ -165,6 +165,8 @@ constexpr auto kPictureRows = std::to_array<SceneValue>({
     plain("image.samples", [](auto& s) { return &s.image.samples; }),
     {"image.background", read_background, write_background},
     plain("image.aovs", [](auto& s) { return &s.image.aovs; }),
+    plain("image.cryptomatte", [](auto& s) { return &s.image.cryptomatte; }),
+    worded<Primaries::rec709, Primaries::ap1>("image.color_space", [](auto& s) { return &s.image.primaries; }),
     worded<Extent::visible, Extent::complete, Extent::paper>("image.extent", [](auto& s) { return &s.image.extent; }),
 
     plain("legend.shown", [](auto& s) { return &s.legend.within; }),

@@ -39,6 +39,7 @@ RenderSettings render_settings(const Scene& scene, const PictureLayout& layout) 
   settings.size = layout.size.size();
   settings.samples = scene.image.samples;
   settings.aovs = scene.image.aovs;
+  settings.mattes = scene.image.cryptomatte;
   settings.look = look_of(scene.look, scene.picture.size(), scene.image.background,
                           hues_of(scene.molecule.color, scene.legend.asked(), uses_atoms(scene.figure.cuts)),
                           scene.molecule.patches.has_value());
@@ -58,7 +59,7 @@ Framebuffer finished_picture(Framebuffer molecule, const Annotations& annotation
   const Strips& strips = layout.strips;
   if (strips.top + strips.bottom > 0)
     molecule = with_margin(molecule, molecule.size + glm::ivec2(0, strips.top + strips.bottom), strips.top,
-                           !molecule.z.empty());
+                           layers_of(molecule));
   const bool is_whole = annotate(molecule, annotations, camera, background, strips);
   if (lacks_labels) *lacks_labels = !is_whole;
   return layout.legend ? layout.legend->add_to(molecule, background) : molecule;

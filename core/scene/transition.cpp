@@ -112,7 +112,7 @@ double eased(double time, Pace pace) { return pace == Pace::even ? time : time *
 
 RenderSettings settings_of(const Shot& shot) {
   RenderSettings settings = render_settings(shot.scene, *shot.layout);
-  settings.aovs = false;
+  settings.aovs = settings.mattes = false;
   return settings;
 }
 

@@ -196,7 +196,7 @@ ROWS = {
     "--legend-title": ("Heat", "legend"), "--legend-size": ("7", "legend"), "--legend-place": ("below", "legend"),
     "--panel": ("B", "plain"), "--title": ("One", "plain"), "--scale-bar": ("5", "plain"), "--label": ("resid 9=Here", "plain"),
     "--time-stamp": (None, "frames"), "--curve": ("{curve.csv}", "frames"), "--curve-column": ("volume", "curve"),
-    "--aovs": (None, "plain"), "--provenance": (None, "plain"), "--no-provenance": (None, "plain"),
+    "--aovs": (None, "plain"), "--cryptomatte": (None, "exr"), "--color-space": ("acescg", "exr"), "--provenance": (None, "plain"), "--no-provenance": (None, "plain"),
     "--save-camera": ("saved.json", "plain"), "--scene": ("{scene.json}", "plain"), "--save-scene": ("saved.json", "plain"),
     "--set": ("surface.probe=2", "plain"), "--json": (None, "plain"), "--csv": ("a.csv", "plain"), "--open-sky": (None, "table of atoms"), "--csv-series": ("s.csv", "frames"), "--csv-summary": ("s.csv", "plain"),
     "--csv-cavities": ("c.csv", "frames"), "--csv-residues": ("r.csv", "plain"), "--plot": ("p.svg", "frames"),

@@ -124,8 +124,9 @@ TEST(Copies, NameTheAtomsAndComponentsOfTheMergedSurface) {
   ASSERT_GT(all.surface.components.size(), 90u) << "cavities of copies are components, too";
   RenderSettings settings;
   settings.size = {230, 170};
-  settings.aovs = true;
-  settings.samples = 1;
+  settings.aovs = settings.mattes = true;
+  settings.name_seen = [](std::uint32_t, std::uint32_t atom) { return atom; };
+  settings.samples = 3;
   for (const int block_edge : {RenderSettings{}.block_edge, 64}) {
     settings.block_edge = block_edge;
     const Camera camera = framed(objects, Projection::perspective);
@@ -138,6 +139,8 @@ TEST(Copies, NameTheAtomsAndComponentsOfTheMergedSurface) {
     EXPECT_EQ(found.atom, expected.atom);
     EXPECT_EQ(found.kind, expected.kind);
     EXPECT_EQ(found.component, expected.component);
+    EXPECT_EQ(found.seen, expected.seen);
+    EXPECT_GT(std::ranges::count_if(found.seen, [](std::uint32_t atom) { return atom != kNone; }), 5000);
   }
   for (std::size_t atom = 0; atom < all.atom.size(); ++atom) ASSERT_EQ(merged_atom(objects, atom), all.atom[atom]);
 }

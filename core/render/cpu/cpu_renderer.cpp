@@ -111,10 +111,7 @@ Framebuffer CpuRenderer::render(const Surface& surface, const Coloring& coloring
     cast_shade_map(shade_map_frame(frame_), settings, progress.interruption());
   for (const PictureBlock& inner : blocks) {
     const PictureBlock block = with_neighbors(inner, look_reach(settings.look, settings.size), settings.size);
-    cast({frame_, block, settings, settings.aovs}, progress.interruption());
-    collector.add_colors(inner, block, sums_);
-    if (settings.aovs) collector.add_hits(inner, block, hits_);
-    collector.end_block(inner);
+    cast_into(collector, inner, {frame_, block, settings, settings.aovs}, progress.interruption());
     progress.end_block();
   }
   return collector.take();
@@ -147,9 +144,12 @@ Framebuffer CpuRenderer::render_copies(std::span<const SurfaceObject> objects, c
   assert(!objects.empty());
   const ScenePlacement placement = place_copies(objects, camera, settings);
   VisibleCopies copies(objects, frame_, placement, kernels_, patches_together_);
-  PictureCollector collector(frame_, settings, [&](const ray_cast::Hit& hit, const glm::dvec3& point) {
-    return copies.names_of(hit, scene_.packed.primitives[hit.primitive], point);
-  });
+  PictureCollector collector(
+      frame_, settings,
+      [&](const ray_cast::Hit& hit, const glm::dvec3& point) {
+        return copies.names_of(hit, scene_.packed.primitives[hit.primitive], point);
+      },
+      false, [&](const ray_cast::Hit& hit) { return copies.atom_of(hit); });
   const std::vector<PictureBlock> blocks = collector.blocks(block_edge(settings));
   BlockProgress progress(settings, blocks.size());
   if (needs_shade_map(blocks.front(), settings))
@@ -162,10 +162,7 @@ Framebuffer CpuRenderer::render_copies(std::span<const SurfaceObject> objects, c
       copies.find(block, settings.samples, settings.look, scene_);
       scene_.lanes.light = light();
     }
-    cast({frame_, block, settings, settings.aovs}, progress.interruption());
-    collector.add_colors(inner, block, sums_);
-    if (settings.aovs) collector.add_hits(inner, block, hits_);
-    collector.end_block(inner);
+    cast_into(collector, inner, {frame_, block, settings, settings.aovs}, progress.interruption());
     progress.end_block();
   }
   return collector.take();
@@ -213,10 +210,7 @@ Framebuffer CpuRenderer::render(std::span<const PictureObject> objects, const Ca
     cast_shade_map(shade_map_frame(frame_), finish, progress.interruption(), &*layers);
   for (const PictureBlock& inner : blocks) {
     const PictureBlock block = with_neighbors(inner, look_reach(settings.look, settings.size), settings.size);
-    cast({frame_, block, finish, settings.aovs, &*layers}, progress.interruption());
-    collector.add_colors(inner, block, sums_);
-    if (settings.aovs) collector.add_hits(inner, block, hits_);
-    collector.end_block(inner);
+    cast_into(collector, inner, {frame_, block, finish, settings.aovs, &*layers}, progress.interruption());
     progress.end_block();
   }
   return collector.take();
@@ -357,14 +351,16 @@ void CpuRenderer::cast(const BlockTask& task, Interruption& interruption) {
   const Look& look = task.settings.look;
   sums_.assign(pixel_count, glm::vec4(0.0f));
   if (task.hits) hits_.assign(pixel_count, kNoHit);
-  const int step = look.has_effects() ? 1 : LaneTile::kMostSamples;
+  const int step = look.has_effects() || task.after_sample ? 1 : LaneTile::kMostSamples;
   const bool has_marks = task.layers ? task.layers->has_marks() : !scene_.marks.empty();
   const bool has_front = task.layers && task.layers->shows_through();
   if (look.has_effects()) samples_.resize(pixel_count, has_marks, task.layers != nullptr);
   if (look.has_effects() && has_front) front_.resize(pixel_count, has_marks, false);
   for (int first = 0; first < task.settings.samples && !interruption.came(); first += step) {
     interruption.note(first, task.settings.samples);
+    if (task.after_sample && first > 0) hits_.assign(pixel_count, kNoHit);
     cast_samples(first, std::min(step, task.settings.samples - first), task, interruption);
+    if (task.after_sample) task.after_sample(first);
     if (!look.has_effects()) continue;
     if (look.ambient_occlusion > 0.0f && !look.traces_sky() && first == 0 &&
         holds_shade_map(task.block, task.settings.size)) {
@@ -375,13 +371,29 @@ void CpuRenderer::cast(const BlockTask& task, Interruption& interruption) {
   }
 }
 
+void CpuRenderer::cast_into(PictureCollector& collector, const PictureBlock& inner, BlockTask task,
+                            Interruption& interruption) {
+  const bool aovs = task.settings.aovs, mattes = task.settings.mattes;
+  const PictureBlock block = task.block;
+  task.hits = aovs || mattes;
+  if (mattes)
+    task.after_sample = [&](int sample) {
+      if (aovs && sample == 0) collector.add_hits(inner, block, hits_);
+      collector.add_seen(inner, block, hits_, sample);
+    };
+  cast(task, interruption);
+  collector.add_colors(inner, block, sums_);
+  if (aovs && !mattes) collector.add_hits(inner, block, hits_);
+  collector.end_block(inner);
+}
+
 void CpuRenderer::cast_samples(int first, int count, const BlockTask& task, Interruption& interruption) {
   const auto stage = clock_.stage("ray cast");
   LaneTile samples;
   samples.first_sample = first;
   samples.sample_count = count;
   for (int n = 0; n < count; ++n) samples.offset[n] = sample_offset(first + n);
-  samples.hits = task.hits && first == 0 ? hits_.data() : nullptr;
+  samples.hits = task.hits && (first == 0 || task.after_sample) ? hits_.data() : nullptr;
   if (task.settings.look.has_effects())
     samples.samples = samples_.lanes(task.settings.look.traces_sky());
   else

@@ -25,6 +25,7 @@
 namespace meniscus {
 
 class Interruption;
+class PictureCollector;
 
 /// Makes one picture after another; see make_cpu_renderer().
 class CpuRenderer final : public SurfaceRenderer {
@@ -81,6 +82,8 @@ class CpuRenderer final : public SurfaceRenderer {
     const RenderSettings& settings;
     bool hits;                       ///< wanted too
     LayeredScene* layers = nullptr;  ///< what it shows; nullptr: scene_
+    /// Called behind each sample, whose hits are there then; empty: hits are those of the first.
+    std::function<void(int sample)> after_sample{};
   };
 
   void begin(const Camera& camera, const RenderSettings& settings);
@@ -98,6 +101,8 @@ class CpuRenderer final : public SurfaceRenderer {
   void cast_shade_map(const PictureFrame& map, const RenderSettings& settings, Interruption& interruption,
                       LayeredScene* layers = nullptr);
   void cast(const BlockTask& task, Interruption& interruption);
+  /// Casts a block of a picture for a file, and hands over its inner part.
+  void cast_into(PictureCollector& collector, const PictureBlock& inner, BlockTask task, Interruption& interruption);
   void cast_samples(int first, int count, const BlockTask& task, Interruption& interruption);
   void cast_tile(std::size_t tile, LaneTile task);
   void look_at(int sample, const RenderSettings& settings, bool has_marks, bool has_front, Interruption& interruption);

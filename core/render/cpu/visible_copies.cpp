@@ -264,6 +264,11 @@ void VisibleCopies::find(const PictureBlock& block, int samples, const Look& loo
   scene.connect(look, by_kind, some_hidden_);
 }
 
+std::uint32_t VisibleCopies::atom_of(const ray_cast::Hit& hit) const {
+  const std::size_t n = place_of(places_, hit.atom);
+  return placed_[n]->first_atom + (hit.atom - places_[n].first_atom);
+}
+
 HitNames VisibleCopies::names_of(const ray_cast::Hit& hit, const ray_cast::Primitive& primitive,
                                  const glm::dvec3& point) const {
   const std::size_t n = place_of(places_, hit.atom);
@@ -273,8 +278,7 @@ HitNames VisibleCopies::names_of(const ray_cast::Hit& hit, const ray_cast::Primi
   const glm::dvec3 at_home = glm::transpose(motion.rotation) * (point - motion.translation);
   const std::uint32_t component =
       ComponentLookup(object.surface).at(static_cast<PatchKind>(primitive.kind), primitive.patch_index, at_home);
-  return {copy.first_atom + (hit.atom - places_[n].first_atom),
-          component == kNone ? kNone : copy.first_component + component, primitive.kind};
+  return {atom_of(hit), component == kNone ? kNone : copy.first_component + component, primitive.kind};
 }
 
 /// Casts tiles that list one of the new primitives, and leaves of the scene what rays may show.

@@ -87,9 +87,14 @@ class SurfaceValues(TypedDict, total=False):
     samples: int
     #: COLOR: Background: transparent, or a colour (white, #rrggbb) [transparent]
     background: Text
-    #: Add depth, normals, positions and atoms to an .exr. Channels: Z, N.xyz, P.xyz, atom, kind and component
-    #: at each pixel's centre
+    #: Add depth, normals, positions and atoms to an .exr. Layers: Z, N, P, Nview, Pview, atom, kind and
+    #: component at each pixel's centre; in frames of a run also forward, the motion to the next one
     aovs: bool
+    #: Add mattes of chains, residues and atoms to an .exr (Cryptomatte). Layers: CryptoChain, CryptoResidue and
+    #: CryptoAtom
+    cryptomatte: bool
+    #: WORD: Primaries of the colours of an .exr: rec709, those of sRGB, or acescg [rec709]
+    color_space: Literal["rec709", "acescg"]
     #: WORD: Part of the surface that the GPU computes: visible, complete or paper. visible: what this view
     #: needs, for the same picture; complete: everything, by the same method; paper: as Krone et al. 2010 select
     #: it, where deep clefts may have holes
