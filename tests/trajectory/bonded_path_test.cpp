@@ -296,7 +296,7 @@ TEST(FramesBetween, RunsKeepWholeFramesAndMakeEachFrameByItself) {
   request.frames = "all";
   FrameRun plain(molecule, request);
   request.interpolate = 3;
-  FrameRun run(molecule, request, true);
+  FrameRun run(molecule, request, Velocities::central);
   EXPECT_EQ(run.numbers().size(), 28u);
   EXPECT_EQ(run.source(7), 2u);
   for (const std::uint64_t whole : {0u, 1u, 5u, 9u}) EXPECT_EQ(run.positions(3 * whole), plain.positions(whole));

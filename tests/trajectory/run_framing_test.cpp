@@ -82,7 +82,7 @@ TEST_F(RunFramings, VelocitiesAreThoseBetweenFramesOfTheRun) {
   const auto steps = [&](const std::string& list, std::uint64_t repeat) {
     request_.frames = list;
     request_.repeat = repeat;
-    FrameRun frames(molecule_, request_, true);
+    FrameRun frames(molecule_, request_, Velocities::central);
     std::vector<double> found;
     while (const std::optional<RunFrame> frame = frames.next()) {
       for (const glm::dvec3& velocity : frame->velocities) EXPECT_EQ(velocity, glm::dvec3(frame->velocities[0].x));
