@@ -260,9 +260,11 @@ class ExrLayers(unittest.TestCase):
     def test_single_pictures_have_no_motion(self):
         self.assertNotIn("forward.u", self.render("--aovs").names)
 
-    @unittest.skipUnless(importlib.util.find_spec("OpenEXR"), "OpenEXR of PyPI is not there")
     def test_the_standard_library_reads_the_same(self):
-        import OpenEXR
+        """OpenEXR of PyPI, from 3.3 on; Debian's has no File."""
+        OpenEXR = importlib.import_module("OpenEXR") if importlib.util.find_spec("OpenEXR") else None
+        if not hasattr(OpenEXR, "File"):
+            self.skipTest("OpenEXR of PyPI is not there")
         image = self.render("--aovs", "--cryptomatte", "--color-space", "acescg")
         read = OpenEXR.File(str(self.folder / "a.exr"), separate_channels=True)
         self.assertEqual(set(read.channels()), set(image.names))
