@@ -7,7 +7,6 @@ import json
 import os
 import pathlib
 import pickle
-import re
 import subprocess
 import sys
 import tempfile
@@ -124,7 +123,7 @@ class Program(Files):
             with self.assertRaises(meniscus.InputError) as caught:
                 meniscus.read(self.pdb, **options)
             said = self.told(self.pdb, *words, good=False).strip().removeprefix("meniscus: ").removeprefix("error: ")
-            self.assertEqual(re.sub(r"--(\w+)( (?=\d))?", lambda m: m[1] + ("=" if m[2] else ""), said), str(caught.exception))
+            self.assertEqual(said.replace("--", ""), str(caught.exception))
 
     def test_warns_of_the_same(self):
         rows = atoms(4)

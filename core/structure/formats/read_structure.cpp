@@ -244,7 +244,7 @@ void halt_on_unknown_elements(const Structure& structure, const std::vector<std:
 void require_model(const std::string& path, const ModelChoice& choice, std::size_t models) {
   if (choice.all || static_cast<std::size_t>(choice.number) <= models) return;
   throw InputError(path, 0,
-                   message("has no model {}: it holds {} {}; choose @model 1@{}", choice.number, models,
+                   message("has no model {}: it holds {} {}; choose @model@ 1{}", choice.number, models,
                            models == 1 ? "model" : "models", models == 1 ? "" : fmt::format(" to {}", models)));
 }
 
