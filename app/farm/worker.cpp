@@ -34,7 +34,9 @@ constexpr std::uint64_t kQuickToCheck = std::uint64_t{256} << 20;  // bytes; a t
 constexpr double kStartShare = 1.0 / 20.0;
 // But never more than this part of what is missing, so that workers come to the end together (guided self-scheduling:
 // Polychronopoulos & Kuck, IEEE Trans. Comput. 1987).
-constexpr std::size_t kShareOfRest = 4;
+constexpr std::size_t kShareOfRest = 8;
+// How often a worker goes elsewhere though its next frames are missing: two that began at the same frame part again.
+constexpr double kRestlessness = 0.25;
 
 /// The path of a result in the bundle.
 std::string result_of(const Bundle& bundle, Step step, std::uint64_t frame) {
@@ -74,7 +76,8 @@ class Worker {
   Frames next_batch() {
     if (share_.is_whole_run) open_ = missing_of(share_.steps.back(), open_);
     if (!share_.is_whole_run || open_.empty()) return std::exchange(open_, {});
-    auto first = next_ ? std::ranges::find(open_, *next_) : open_.end();
+    const bool stays = next_ && !std::bernoulli_distribution(kRestlessness)(random_);
+    auto first = stays ? std::ranges::find(open_, *next_) : open_.end();
     if (first == open_.end()) {
       std::uniform_int_distribution<std::ptrdiff_t> any(0, std::ssize(open_) - 1);
       first = open_.begin() + any(random_);
@@ -106,8 +109,10 @@ class Worker {
 
   void make(Step step, const Frames& batch) {
     if (share_.is_whole_run && bundle_.maker(step) == Maker::povray && batch.size() > 1) {
-      // A process makes one frame, so there is time to look before each.
-      for (const std::uint64_t frame : batch) make(step, {frame});
+      // A process makes one frame, so there is time to look before each; workers with the same batch seldom meet.
+      Frames shuffled = batch;
+      std::ranges::shuffle(shuffled, random_);
+      for (const std::uint64_t frame : shuffled) make(step, {frame});
       return;
     }
     Frames frames;
