@@ -423,7 +423,7 @@ class OptionUse(unittest.TestCase):
 TESTED = ["surface", "pockets", "info", "render", "film", "panels", "morph", "preview", "export povray", "export blender", "export mitsuba", "export pbrt",
           "export mvs", "export mesh", "export ply", "export vdb", "export atoms", "export page", "formats", "farm bundle"]
 # What it is for is nothing that the command can do, or not with an output of that name.
-REFUSED = {("pockets", "--instances"), ("export vdb", "--instances"), ("render", "--frames"), ("render", "--trajectory"),
+REFUSED = {("pockets", "--instances"), ("export vdb", "--instances"), ("export atoms", "--instances"), ("render", "--frames"), ("render", "--trajectory"),
            *((f"export {mesh}", option) for mesh in ("mesh", "ply", "vdb") for option in ("--frames", "--trajectory")),
            ("preview", "--color-map-file"), ("preview", "--map-offset"), ("export atoms", "--color-map-file"), ("export atoms", "--map-offset"), ("export pbrt", "--color-map-file"),
            ("export pbrt", "--map-offset"), ("export mitsuba", "--cap-hatching"), ("export mitsuba", "--film-opacity"),
