@@ -13,7 +13,7 @@ FIELDS = {
     "--cavities": "Cavities", "--color-by-file": "Numbers", **{preparation.option_of(row): preparation.label_of(row) for row in preparation.ROWS},
 }
 #: Options as libmeniscus spells them.
-OF_LIBRARY = re.compile(r"\A(?:select|%s)(?=: )|\b(?:keep_water|keep_ions|unknown_element)\b" %
+OF_LIBRARY = re.compile(r"\A(?:select|%s)(?=: )|\b(?:keep_water|keep_ions|unknown_element)\b|(?<=another )color\b" %
                         "|".join(map(preparation.name_of, preparation.OF_MOLECULE)))
 OPTION = re.compile(r"(?<![\w/-])--([a-z][a-z0-9]*(?:-[a-z0-9]+)*)")
 
