@@ -12,6 +12,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include "core/camera/camera_matrices.h"
 #include "core/image/png_file.h"
 #include "core/queries/copies.h"
 #include "core/render/cpu/cpu_renderer.h"
@@ -205,7 +206,13 @@ TEST_F(BandFile, IsThatOfTheWholePictureWithAllThatIsWrittenIntoIt) {
       settings.aovs = holds_aovs(name);
       Framebuffer whole = CpuRenderer().render(subject.objects, subject.camera, settings);
       annotate(whole, annotations, subject.camera, {});
-      write_image(folder_ / name, legend->add_to(whole, {}), {});
+      // The molecule is in the upper left corner of the file, whose header leads to it.
+      const glm::dvec2 molecule(settings.size), share = molecule / glm::dvec2(legend->picture_size());
+      const glm::dmat4 into_file({share.x, 0, 0, 0}, {0, share.y, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1});
+      ImageSettings image;
+      image.exr.view = ViewMatrices{world_to_camera(subject.camera),
+                                    into_file * world_to_picture(subject.camera, molecule.x / molecule.y)};
+      write_image(folder_ / name, legend->add_to(whole, {}), image);
       const std::string expected = bytes_of(folder_ / name);
       settings.block_edge = 48;
       PictureFile file(folder_ / (std::string("b") + name), {annotations, legend}, subject.camera, {}, settings);
