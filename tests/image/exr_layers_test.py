@@ -261,7 +261,7 @@ class ExrLayers(unittest.TestCase):
         self.assertNotIn("forward.u", self.render("--aovs").names)
 
     def test_the_standard_library_reads_the_same(self):
-        """OpenEXR of PyPI, from 3.3 on; Debian's has no File."""
+        # OpenEXR of PyPI, from 3.3 on; Debian's has no File.
         OpenEXR = importlib.import_module("OpenEXR") if importlib.util.find_spec("OpenEXR") else None
         if not hasattr(OpenEXR, "File"):
             self.skipTest("OpenEXR of PyPI is not there")
