@@ -111,15 +111,15 @@ printf '1 0 0 1.7\n3 0 0 1.5\n' >two.xyzr
 expect "its place among the folders" python3 tests/docs/include_graph_test.py
 expect "the file" "$program" export balls two.xyzr -o two.balls -q
 expect "what it holds" test "$(cat two.balls)" = $'1 0 0 1.7\n3 0 0 1.5'
-expect "a file that exists" says "exists already; --force replaces it" "$program" export balls two.xyzr -o two.balls
+expect "a file that exists" says "exists already; use --force to replace it" "$program" export balls two.xyzr -o two.balls
 expect "no output" says "-o" "$program" export balls two.xyzr
-expect "a selection" "$program" export balls two.xyzr -o one.balls -q --select 'index 2'
+expect "a selection" "$program" export balls two.xyzr -o one.balls -q --select 'index 1'
 expect "what was selected" test "$(cat one.balls)" = '3 0 0 1.5'
 expect "the help of export" says "balls .*this test knows" "$program" export --help
 expect "its own help" says "--select EXPR" "$program" export balls --help
 expect "completion" says "balls" "$program" completion bash
 expect "manual pages" "$program" help --man man
 expect "a manual page of it" test -s man/meniscus-export-balls.1
-expect "a scene" bash -c "echo '{\"molecule\": {\"file\": \"two.xyzr\"}}' >a.json; '$program' export balls --scene a.json -o scene.balls -q"
+expect "a scene" bash -c "echo '{\"meniscus_scene\": 1, \"molecule\": {\"file\": \"two.xyzr\"}}' >a.json; '$program' export balls --scene a.json -o scene.balls -q"
 echo "cases $cases failures $failures"
 ((failures == 0))
