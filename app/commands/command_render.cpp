@@ -42,7 +42,7 @@
 namespace meniscus {
 namespace {
 
-/// Of a pixel of an .exr, not compressed.
+/// Returns the bytes that a pixel of an .exr takes before compression.
 double channel_bytes(const Scene& scene) {
   return 16.0 + (scene.image.aovs ? 72.0 : 0.0) + (scene.image.cryptomatte ? 144.0 : 0.0);
 }
@@ -85,7 +85,7 @@ void name_output(const CLI::App& program, RenderCommand& command) {
   say(command, "the picture goes to " + scene.output + "; -o PATH sends it elsewhere");
 }
 
-/// What EXR files alone hold.
+/// Refuses layers and colour spaces that the format of the output cannot hold.
 void check_layers(const Scene& scene) {
   const PictureOutput& image = scene.image;
   const char* const layers = image.aovs ? "--aovs" : image.cryptomatte ? "--cryptomatte" : "";

@@ -27,7 +27,7 @@ struct ExportCommand {
 /// The rows of `meniscus export`, by name.
 std::span<const Command> exporters();
 
-/// Those of the program.
+/// The commands of the program.
 std::span<const Command> commands();
 
 /// When commands declare their options: all at once, as their help and completion need them, or each when the command

@@ -93,8 +93,8 @@ void write_numbered(const MeshFormat& format, const NumberedPath& path, Existing
   for (const std::string& name : names) std::cout << escaped(name) << "\n";
 }
 
-/// Of microfacets whose highlight is as wide as that of the picture's material (B. Walter et al., Proc. EGSR 2007,
-/// 195), and seen straight on as strong (Fresnel).
+/// Returns the microfacet material whose highlight is as wide as that of the picture's Phong material (B. Walter et
+/// al., Proc. EGSR 2007, 195), and as strong at normal incidence (Fresnel).
 FileMaterial material_of(const Scene& scene) {
   constexpr float kMost = 0.95f;
   const Material material = look_of(scene.look, scene.picture.size(), std::nullopt, Hues::free).material;

@@ -70,7 +70,7 @@ class FigureRun {
   FrameRun& frames() { return *frames_; }
   const RunFraming& framing() const { return framing_; }
   const Camera& camera(std::uint64_t place) const { return framing_.cameras[framing_.cameras.size() == 1 ? 0 : place]; }
-  /// That of the place behind it; of the last place the same.
+  /// Returns the camera of the next place; at the last place, that place's own.
   const Camera& next_camera(std::uint64_t place) const {
     return framing_.cameras[std::min<std::size_t>(place + 1, framing_.cameras.size() - 1)];
   }

@@ -27,7 +27,7 @@ struct SinkPicture {
   std::uint64_t source = 0;  ///< in the trajectory
   std::optional<double> time{};
   Camera camera{};
-  /// Of Framebuffer::seen, and whether there is motion to the next frame: for EXR files with them.
+  /// The mattes that Framebuffer::seen indexes, and whether the picture has motion to the next frame. For EXR files.
   std::shared_ptr<const std::vector<Matte>> mattes{};
   bool moves = false;
 };

@@ -74,7 +74,7 @@ struct Bundle {
   std::optional<Film> film;
   Chunking chunking;
 
-  /// In order. The last one makes what the bundle is for.
+  /// Returns the steps in order. The last one makes the results of the bundle.
   std::vector<Step> steps() const;
   Maker maker(Step step) const;
   /// Where the results of a step lie in the bundle, with ##### for the number of the frame. That file is the last of

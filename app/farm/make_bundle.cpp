@@ -99,7 +99,7 @@ std::vector<std::string> bundled_words(const BundledCommand& command, const std:
   Scene scene = command.command.scene;
   if (range) scene.molecule.color.range = range;
   scene.legend.file.clear();
-  // Where it is computed is said apart.
+  // Each worker chooses its device, so the scene names none.
   scene.molecule.surface.cpu = false;
   scene.molecule.surface.gl = {};
   scene.molecule.surface.threads = 0;

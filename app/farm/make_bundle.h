@@ -31,9 +31,9 @@ struct MadeBundle {
   std::vector<std::string> notes;  ///< for people
 };
 
-/// Decides camera and chunks (making one frame to see how long it takes, if chunks are asked for by time), and puts all
-/// of it under its name at once; then writes the legend that all frames have in common, if the command has one as a
-/// picture of its own. Throws UsageError, InputError, OutputError (another bundle is there and `force` is not, or
+/// Chooses the camera and the chunks, and writes the bundle whole or not at all. For chunks by time it makes one frame
+/// and measures how long that takes. Then it writes the legend that all frames have in common, if the command has one
+/// as a picture of its own. Throws UsageError, InputError, OutputError (another bundle is there and `force` is not, or
 /// something that is not a bundle), RunError if the trial frame fails.
 MadeBundle make_bundle(const BundleOptions& options, const BundledCommand& command);
 

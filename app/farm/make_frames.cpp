@@ -34,7 +34,7 @@ using Words = std::vector<std::string>;
 constexpr const char* kOwnFolder = ".work_";
 
 /// A hidden folder in the bundle for the files of one renderer, away with this object and when the program is stopped.
-/// Its name is no other worker's, on whatever machine.
+/// A temporary folder of one worker. Its name is unique on all machines.
 class OwnFolder {
  public:
   explicit OwnFolder(const fs::path& bundle) : path_(bundle / fmt::format("{}XXXXXX", kOwnFolder)) {
@@ -63,7 +63,7 @@ class OwnFolder {
                     std::nullopt};
 };
 
-/// Of what a program says, the first line that speaks of an error, else the last that says anything.
+/// Finds why a program failed: its first line about an error, else its last line with text.
 class Reason {
  public:
   void add(const std::string& line) {
@@ -71,7 +71,7 @@ class Reason {
     if (begin == std::string::npos || names_error_) return;
     names_error_ = line.find("rror") != std::string::npos;
     words_ = line.substr(begin);
-    // It comes after words of this program's own.
+    // The reason is printed after this program's own prefix, which appears once.
     constexpr std::string_view kOurs = "meniscus: error: ";
     if (words_.starts_with(kOurs)) words_.erase(0, kOurs.size());
   }
@@ -82,7 +82,7 @@ class Reason {
   bool names_error_ = false;
 };
 
-/// What the worker was told stands behind what the bundle says, and counts before it.
+/// Returns the device options of the bundle, then those of the worker, which override them.
 Words device_words(const Bundle& bundle, const Workplace& place, bool alone) {
   Words words = bundle.device;
   if (!place.device.empty()) std::erase(words, "--require-gpu");

@@ -19,14 +19,14 @@ struct FrameListener {
   std::function<void(std::uint64_t frame, int exit_code, const std::string& error)> failed;
 };
 
-/// Where and with what a step is made.
+/// The folder and the device on which a step runs.
 struct Workplace {
   std::filesystem::path folder;     ///< the bundle
   std::vector<std::string> device;  ///< options of this program, which count before those of the bundle
   int threads = 0;                  ///< of each process; 0: what the bundle says, else as many as it likes
 };
 
-/// Makes these frames of the step, in this order. A frame that fails is told, and the others are made all the same.
+/// Makes these frames of the step, in this order. It reports a frame that fails, and goes on with the others.
 /// A process that a signal ends is started once more, for one frame after another, so that it is known which frame
 /// ended it. Throws RunError with the process' own exit code where it cannot work at all, InputError if it cannot be
 /// started.

@@ -96,7 +96,7 @@ class Worker {
     return batch;
   }
 
-  /// Of these frames, those without a result of the step. Of the last step the others are done.
+  /// Returns those frames that have no result of the step. At the last step it reports the others as done.
   Frames missing_of(Step step, const Frames& frames) {
     if (share_.force) return frames;
     Frames missing = missing_frames(bundle_, place_.folder, step, frames);
@@ -173,7 +173,7 @@ class Worker {
   std::string first_error_;
 };
 
-/// Whether the files of a scene are as its mark says.
+/// True if the files of a scene have the sizes that its mark lists.
 bool is_whole_scene(const fs::path& folder, const std::string& mark) {
   std::ifstream lines(mark);
   std::uintmax_t bytes = 0;

@@ -20,7 +20,7 @@ struct Share {
   bool is_whole_run = false;          ///< others may be at it, too
 };
 
-/// Of these frames, in order, those without a result of the step.
+/// Returns those frames, in order, that have no result of the step.
 std::vector<std::uint64_t> missing_frames(const Bundle& bundle, const std::filesystem::path& folder, Step step,
                                           const std::vector<std::uint64_t>& frames);
 

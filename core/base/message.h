@@ -13,7 +13,7 @@ namespace meniscus {
 
 /// The text with each "@NAME@" and "@NAME VALUE@" as this door writes an option and its value (option_name() in
 /// text.h):
-/// "@frames all@" is "--frames all" on the command line and "frames=all" in libraries.
+/// "@frames all@" becomes "frames=all" in libraries.
 std::string with_options(std::string_view text);
 
 /// fmt::format() of such a text. Only the text itself names options, not what is put in.

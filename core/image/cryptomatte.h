@@ -19,7 +19,7 @@ std::uint32_t murmur_hash(std::string_view bytes);
 /// the float would be denormal, infinite or not a number. Never 0.
 std::uint32_t matte_id(std::string_view name);
 
-/// Which name each of some things has, by which a compositor picks them.
+/// A layer of mattes: the names by which a compositor picks chains, residues or atoms.
 struct Matte {
   std::string layer;              ///< "CryptoChain": its channels are CryptoChain00.R and so on
   std::vector<std::uint32_t> id;  ///< of each thing: matte_id() of its name

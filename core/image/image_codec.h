@@ -39,7 +39,7 @@ struct ImageToEncode {
   double dots_per_inch = 0.0;                   ///< likewise; 0 for nothing
   std::span<const std::uint8_t> color_profile;  ///< ICC; empty for none
 
-  // Of EXR.
+  // Further attributes of the header of EXR files.
   std::vector<std::pair<std::string, std::string>> header;          ///< names of more attributes, and their texts
   std::vector<std::pair<std::string, std::array<float, 16>>> maps;  ///< of points, row after row, for row vectors
   std::array<float, 8> chromaticities{};  ///< x and y of red, green, blue and white; zeros: not said

@@ -6,7 +6,8 @@
 
 namespace meniscus {
 
-/// That of SOURCE_DATE_EPOCH (reproducible-builds.org), or else 0: the same command gives the same bytes.
+/// Returns the time in SOURCE_DATE_EPOCH (reproducible-builds.org), or 0, so that a command always writes the same
+/// bytes.
 std::time_t source_date();
 
 }  // namespace meniscus

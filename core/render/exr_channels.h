@@ -19,7 +19,7 @@ namespace meniscus {
 
 struct ImageToEncode;
 
-/// From where a picture is seen.
+/// The matrices of the camera of a picture.
 struct ViewMatrices {
   glm::dmat4 to_camera;  ///< world_to_camera()
   glm::dmat4 to_file;    ///< as world_to_picture(), in the file: with what stands around the molecule
@@ -42,7 +42,7 @@ class ExrChannels {
   ExrChannels(const PictureLayers& layers, const std::optional<glm::vec3>& background, ExrContent content);
 
   const std::vector<std::string>& names() const { return names_; }
-  /// Of `count` pixels from `first` on, pixel by pixel.
+  /// Returns the values of `count` pixels from `first` on, pixel by pixel.
   std::vector<float> values(const Framebuffer& picture, std::size_t first, std::size_t count) const;
   /// Fills in what EXR files alone have.
   void describe(ImageToEncode& image) const;

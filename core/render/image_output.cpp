@@ -77,7 +77,7 @@ std::string extension_of(const std::filesystem::path& path) {
   return extension;
 }
 
-/// In UTC; empty where none is given.
+/// Returns the date of SOURCE_DATE_EPOCH in UTC; empty if it is not set.
 std::string date_of_pictures() {
   const std::time_t time = source_date();
   if (time == 0) return {};

@@ -28,19 +28,19 @@ struct Framebuffer {
   std::vector<std::uint32_t> kind;       ///< PatchKind, kShape, kCap, or kNone
   std::vector<std::uint32_t> component;  ///< index into Surface::components, or kNone
   std::vector<std::uint32_t> object;     ///< of several: which one; empty for one
-  /// From where the point is in this picture to where it is in the next frame's, pixels to the right and upwards; 0
+  /// The displacement of the point from this picture to that of the next frame, pixels to the right and upwards; 0
   /// where nothing is hit.
   std::vector<glm::vec2> motion;
 
-  /// What each ray of a pixel meets, ray after ray, as RenderSettings::name_seen has it, or kNone. Empty unless it was
-  /// asked for.
+  /// The value of RenderSettings::name_seen for what each ray of a pixel meets, ray after ray; kNone where it meets
+  /// nothing. Empty unless mattes are requested.
   std::vector<std::uint32_t> seen;
 
   /// Beyond PatchKind: on a shape beside a surface, on a plane that cuts one.
   static constexpr std::uint32_t kShape = 3, kCap = 4;
 };
 
-/// What a picture has beside colour.
+/// The layers of a picture besides colour.
 struct PictureLayers {
   PictureLayers(bool has_aovs = false, bool has_motion = false, int rays_of_seen = 0)
       : aovs(has_aovs), motion(has_motion), rays(rays_of_seen) {}
@@ -49,7 +49,7 @@ struct PictureLayers {
   int rays;  ///< of each pixel in Framebuffer::seen; 0: it is empty
 };
 
-/// Those that it has.
+/// Returns the layers that a picture has.
 inline PictureLayers layers_of(const Framebuffer& picture) {
   return {!picture.z.empty(), !picture.motion.empty(),
           picture.seen.empty() ? 0 : static_cast<int>(picture.seen.size() / picture.color.size())};
@@ -80,9 +80,9 @@ struct RenderSettings {
   /// what render() returns has its size and no pixels. Bands are pictures of their own, of rows from `first_row` on,
   /// and have the same pixels as the whole picture. What it throws ends the picture.
   std::function<void(Framebuffer band, int first_row)> take_band{};
-  /// What Framebuffer::seen has for an atom of an object; on any thread.
+  /// Returns the value of Framebuffer::seen for an atom of an object. Any thread may call it.
   std::function<std::uint32_t(std::uint32_t object, std::uint32_t atom)> name_seen{};
-  /// What Framebuffer::motion has for a point; on any thread.
+  /// Returns the value of Framebuffer::motion for a point. Any thread may call it.
   std::function<glm::vec2(const SeenPoint& point)> move{};
 
   PictureLayers layers() const { return {aovs, aovs && motion, mattes ? samples : 0}; }

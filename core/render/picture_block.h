@@ -108,7 +108,7 @@ class PictureCollector {
   /// sums: of the samples of each of the block's pixels, linear and premultiplied; hits: through their centres.
   void add_colors(const PictureBlock& inner, const PictureBlock& block, std::span<const glm::vec4> sums);
   void add_hits(const PictureBlock& inner, const PictureBlock& block, std::span<const ray_cast::Hit> hits);
-  /// For settings.mattes. hits: of sample `sample` of each of the block's pixels.
+  /// Stores what the rays of one sample of each pixel meet. hits: one for each pixel of the block.
   void add_seen(const PictureBlock& inner, const PictureBlock& block, std::span<const ray_cast::Hit> hits, int sample);
 
   /// Nothing more comes of one of blocks().

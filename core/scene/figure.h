@@ -98,7 +98,7 @@ using CastSurvey = std::function<Framebuffer(const Camera& camera, glm::ivec2 si
 /// What looks at such pictures first.
 using Survey = std::function<void(const CastSurvey& cast)>;
 
-/// Its picture. atom of the AOVs: place in the file (Atom::index), as in every other answer; of copies the same.
+/// Renders the figure. The AOV `atom` is the place in the file (Atom::index), as everywhere; copies share it.
 /// Framebuffer::seen has places in shown_atoms(). motion: for settings.motion, to the next frame. Throws as
 /// SurfaceRenderer::render() does.
 Framebuffer draw(SurfaceRenderer& renderer, Figure figure, const FigureRequest& request, const Camera& camera,

@@ -17,7 +17,7 @@ namespace meniscus {
 
 struct SurfaceObject;
 
-/// From a frame to the next.
+/// The motion of a figure from one frame to the next.
 struct FigureMotion {
   std::vector<glm::dvec3> atoms;  ///< of shown_atoms(): to where each is then, Å
   Camera camera;                  ///< by which that frame is seen
@@ -37,7 +37,7 @@ class PointMotion {
   void add(const Surface& surface, std::span<const glm::dvec3> atoms);
   void add_shapes() { objects_.emplace_back(); }
 
-  /// In pixels, to the right and upwards.
+  /// Returns the motion of a point in pixels, to the right and upwards.
   glm::vec2 at(const SeenPoint& point) const;
 
  private:

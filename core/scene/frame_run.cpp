@@ -393,7 +393,7 @@ void FrameRun::survey(const std::function<void(std::uint64_t, const Structure&)>
   }
 }
 
-/// As Velocities has them, Å per frame of the run; a frame that cannot be read counts as one that is not there.
+/// Takes the differences that Velocities names, Å per frame of the run. A frame that cannot be read counts as missing.
 void FrameRun::read_velocities(ReadFrame& into) {
   const std::uint64_t place = place_.at(into.number);
   double steps = 0.0;

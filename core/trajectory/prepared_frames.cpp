@@ -27,7 +27,7 @@ glm::dvec3 mean_of(const std::vector<glm::dvec3>& positions, const std::vector<s
   return sum / static_cast<double>(atoms.size());
 }
 
-/// Of the frames around a place, in order; from and to are in the middle.
+/// The weights of the frames around a place, in order. The two frames beside the place are in the middle.
 using PathWeights = std::array<double, 2 * kPathReach + 2>;
 
 /// The path between two frames has in both the speed and the acceleration that differences of frames give there. Those

@@ -86,13 +86,13 @@ class PreparedFrames {
   /// made whole, a molecule bonded to its own image.
   void read(std::uint64_t number, Frame& frame);
 
-  /// On a path through all frames, with equal steps between them, whose accelerations are continuous: polynomials of
-  /// the fifth degree. Its speeds and accelerations at frames are such that on the average atoms are as fast there as
-  /// halfway, also where frames are independent of each other. Uniform motion stays uniform, parabolas and cubics are
-  /// kept. Before the first frame and behind the last one it goes on straight; so it does where a frame beyond cannot
-  /// be read, or atoms jump on the way to it. Then it is corrected as by BondedPath. Time goes evenly. Throws
-  /// InputError as read() does, and for an atom of Preparation::followed that jumps across the periodic box from one to
-  /// the other.
+  /// Reads positions on a path through all frames, which have equal steps: polynomials of the fifth degree with
+  /// continuous acceleration. Its speeds and accelerations at frames are such that on the average atoms are as fast
+  /// there as halfway, also where frames are independent of each other. Uniform motion stays uniform, parabolas and
+  /// cubics are kept. Before the first frame and behind the last one it goes on straight; so it does where a frame
+  /// beyond cannot be read, or atoms jump on the way to it. Then it is corrected as by BondedPath. Time goes evenly.
+  /// Throws InputError as read() does, and for an atom of Preparation::followed that jumps across the periodic box from
+  /// one to the other.
   void read_between(const BetweenFrames& place, Frame& frame);
 
  private:

@@ -22,7 +22,8 @@ namespace meniscus::blender {
 
 /// Of a mesh for Blender, Å, unless another is asked for.
 inline constexpr double kTolerance = 0.05;
-/// The same of each frame of a run, in Å: pictures of the whole molecule look alike, and files have half of the size.
+/// The default tolerance of the frames of a run, Å: pictures of the whole molecule look alike, in files of half the
+/// size.
 inline constexpr double kRunTolerance = 0.2;
 
 /// Where the surface came from; kept in the file and in Blender as custom properties.

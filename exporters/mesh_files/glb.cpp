@@ -146,7 +146,7 @@ class Builder {
     return made;
   }
 
-  /// With an alpha also where all is opaque, so that each begins at a multiple of four bytes.
+  /// Adds the colours of the vertices. Opaque ones have an alpha, too, so that each begins at a multiple of four bytes.
   std::size_t colors(const FileObject& object) {
     std::array<std::uint16_t, 256> of_channel{};
     for (std::size_t c = 0; c < of_channel.size(); ++c) of_channel[c] = linear(static_cast<std::uint8_t>(c));

@@ -46,11 +46,11 @@ struct FileObject {
   std::vector<glm::vec3> velocities;     ///< in the unit of the file per frame of the run; empty: unknown
   std::vector<std::uint32_t> component;  ///< per triangle: each closed part of the file has a number of its own
   bool is_cavity = false;                ///< all of it bounds cavities
-  /// Where it is, of points in the unit of the file; at least one. More than one, or one that moves it, only in formats
-  /// that have MeshFormat::places.
+  /// The motions to each place of the object, in the unit of the file; at least one. Only formats with
+  /// MeshFormat::places have several, or one that is not the identity.
   std::vector<RigidMotion> places{RigidMotion{}};
 
-  /// It is not moved, and there is one of it.
+  /// True if the object is in one place and is not moved.
   bool stands_once() const {
     return places.size() == 1 && places[0].rotation == glm::dmat3(1.0) && places[0].translation == glm::dvec3(0.0);
   }

@@ -35,7 +35,7 @@ struct Prim {
   }
 };
 
-/// What a material is made of by one of the variants.
+/// The parameters of the material in one of its variants.
 struct MaterialLook {
   std::string_view name;
   float roughness = 0.5f;
@@ -158,7 +158,7 @@ std::string numbers_text(const std::vector<float>& rows) {
   return array_text(values.size(), [&](std::size_t n, auto out) { fmt::format_to(out, FMT_COMPILE("{}"), values[n]); });
 }
 
-/// Of an object that is translucent in another frame there may be none.
+/// Writes the opacity of each vertex. An object that is translucent only in other frames is opaque here.
 std::string opacities_text(const FileObject& object) {
   return array_text(object.positions.size(), [&](std::size_t v, auto out) {
     fmt::format_to(out, FMT_COMPILE("{:.4g}"), object.opacities.empty() ? 1.0f : object.opacities[v]);
@@ -214,7 +214,7 @@ class UsdWriter {
   }
 
  private:
-  /// Of what is in several places; no program shows them where they are.
+  /// Writes the meshes that several places share, below a prim that no program draws.
   void write_prototypes(const std::vector<Prim>& prims) {
     if (std::ranges::all_of(prims, &Prim::stands_once)) return;
     sink_("    class Scope \"prototypes\"\n    {\n");

@@ -57,7 +57,7 @@ class VisibleCopies {
   /// What a hit in the scene that the last find() made stands for, in the tables of merged(). point: Å.
   HitNames names_of(const ray_cast::Hit& hit, const ray_cast::Primitive& primitive, const glm::dvec3& point) const;
 
-  /// Its atom alone.
+  /// Returns the atom of a hit.
   std::uint32_t atom_of(const ray_cast::Hit& hit) const;
 
   /// The copies in that scene, in its order.

@@ -15,7 +15,7 @@
 namespace meniscus::c_api {
 namespace {
 
-/// In messages: as callers spell a value of scenes and an option of meniscus_read(), "keep_water" and "frames=all".
+/// Spells an option in messages as callers of meniscus_scene_set() and meniscus_read() do: "keep_water", "frames=all".
 std::string spelled(std::string_view option) {
   const std::size_t end = std::min(option.find(' '), option.size());
   const std::string name = "--" + std::string(option.substr(0, end));
