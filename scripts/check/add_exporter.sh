@@ -2,11 +2,7 @@
 # Adds an exporter to a copy of the tree, as a folder of exporters and one command, and uses it: help, completion, manual,
 # scenes, selections and runs follow from its row. Ends with `cases N failures M`.
 set -euo pipefail
-cd "$(dirname "$0")/../.."
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-git ls-files -z --cached --others --exclude-standard | xargs -0 cp --parents -t "$work" 2>/dev/null || true
-cd "$work"
+source "$(dirname "$0")/copied_tree.sh"
 git init -q . && git add -A
 
 mkdir exporters/balls
@@ -87,25 +83,7 @@ const ExportCommand kBalls("balls", "Write balls that only this test knows", dec
 COMMAND
 git add -A
 
-cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DMENISCUS_UNITY=ON >/dev/null
-cmake --build build --target meniscus >/dev/null
-program=$work/build/meniscus
-cases=0 failures=0
-# expect WHAT COMMAND...: the command succeeds.
-expect() {
-  local what=$1
-  shift
-  cases=$((cases + 1))
-  if "$@" >"$work/said" 2>&1; then return; fi
-  failures=$((failures + 1))
-  echo "failed: $what: $(tail -n 1 "$work/said")"
-}
-# says WORDS COMMAND...: the command, which may fail, says so.
-says() {
-  local said
-  said=$("${@:2}" 2>&1 || true)
-  grep -q -e "$1" <<<"$said"
-}
+build meniscus
 
 printf '1 0 0 1.7\n3 0 0 1.5\n' >two.xyzr
 expect "its place among the folders" python3 tests/docs/include_graph_test.py
@@ -121,5 +99,4 @@ expect "completion" says "balls" "$program" completion bash
 expect "manual pages" "$program" help --man man
 expect "a manual page of it" test -s man/meniscus-export-balls.1
 expect "a scene" bash -c "echo '{\"meniscus_scene\": 1, \"molecule\": {\"file\": \"two.xyzr\"}}' >a.json; '$program' export balls --scene a.json -o scene.balls -q"
-echo "cases $cases failures $failures"
-((failures == 0))
+finish

@@ -2,11 +2,7 @@
 # Adds an option to a copy of the tree, in three files, and uses it through every door: the command line and its help,
 # shell completion, scene files and their schema, the preview, bundles, and the library. Ends with `cases N failures M`.
 set -euo pipefail
-cd "$(dirname "$0")/../.."
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-git ls-files -z --cached --others --exclude-standard | xargs -0 cp --parents -t "$work" 2>/dev/null || true
-cd "$work"
+source "$(dirname "$0")/copied_tree.sh"
 
 # A row of the table, a member of the look, and the line that binds them.
 row='number("look.sparkle", "--sparkle", "F", "Strength of a light that only this test knows").from(0, 5)'
@@ -16,25 +12,7 @@ sed -i 's/^  bool linear_alpha = false;/  std::optional<float> sparkle{};\n&/' c
 binding='plain("look.sparkle", [](auto\& s) { return \&s.look.sparkle; }),'
 sed -i "0,/coded<direction_of, direction_text>(\"look.light\"/s//$binding\n&/" core/scene/picture_values.cpp
 
-cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DMENISCUS_UNITY=ON >/dev/null
-cmake --build build --target meniscus meniscus_c >/dev/null
-program=$work/build/meniscus
-cases=0 failures=0
-# expect WHAT COMMAND...: the command succeeds.
-expect() {
-  local what=$1
-  shift
-  cases=$((cases + 1))
-  if "$@" >"$work/said" 2>&1; then return; fi
-  failures=$((failures + 1))
-  echo "failed: $what: $(tail -n 1 "$work/said")"
-}
-# says WORDS COMMAND...: the command, which may fail, says so.
-says() {
-  local said
-  said=$("${@:2}" 2>&1 || true)
-  grep -q -e "$1" <<<"$said"
-}
+build meniscus meniscus_c
 
 printf '1 0 0 1.7\n3 0 0 1.7\n' >two.xyzr
 small=(--size 64x48 --samples 1 -q)
@@ -59,5 +37,4 @@ printf '{"command":"render_command"}\n{"command":"quit"}\n' >commands.jsonl
 expect "the preview" says '"--sparkle"' "$program" preview two.xyzr --sparkle 4 --device cpu --serve --commands commands.jsonl
 expect "the library" says 'sparkle: .9. is not a number from 0 to 5' env MENISCUS_LIBRARY=build/exporters/bindings/c/libmeniscus.so \
   PYTHONPATH=exporters/bindings/python /usr/bin/python3 -c 'import meniscus; print(meniscus.Scene(sparkle=3).sparkle); meniscus.Scene(sparkle=9)'
-echo "cases $cases failures $failures"
-((failures == 0))
+finish

@@ -50,7 +50,7 @@ PANEL_TYPES = {lib.VALUE_FLAG: "flag", lib.VALUE_COUNT: "count", lib.VALUE_WORD:
 
 
 def refusal(atoms, scheme):
-    """What the library says of a colour scheme that it does not give."""
+    """Returns the message of the library about a colour scheme that it does not compute, else an empty text."""
     try:
         atoms.colors(scheme)
     except meniscus.Error as error:

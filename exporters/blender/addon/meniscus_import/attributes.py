@@ -67,7 +67,7 @@ def keep(mesh, ours, older=()):
 
 
 def keep_through(mesh, ours, source):
-    """The same of a mesh that shows one frame after the other of `source`: also the attributes of atoms that it does not show now."""
+    """Returns what keep() does for a mesh that shows the frames of `source` in turn, with attributes of atoms that are hidden now."""
     of, older = _of_user.get(compat.identity(mesh), (None, ()))
     kept = keep(mesh, ours, older if of == source else ())
     _of_user[compat.identity(mesh)] = source, kept

@@ -78,7 +78,7 @@ class Followed:
 
 
 def kind_of(item):
-    """How the mesh of an object follows the timeline; None: it does not, or is not this file's own."""
+    """Returns the class of how the mesh of an object follows the timeline; None if it does not, or belongs to a library."""
     if item is None or item.type != "MESH" or item.library is not None or item.override_library is not None:
         return None
     if item.get("meniscus_stream"):
@@ -91,7 +91,7 @@ def kind_of(item):
 
 
 def frame_bytes(mesh):
-    """How much memory a mesh takes, to a fifth; a file that is not compressed takes as much."""
+    """Estimates the bytes of a mesh to within a fifth, in memory and in a file that is not compressed."""
     parts = zip(ELEMENT_BYTES, (mesh.vertices, mesh.edges, mesh.loops, mesh.polygons))
     own = [each for each in mesh.attributes if each.name not in IN_ELEMENTS and not each.name.startswith(".")]
     return sum(size * len(part) for size, part in parts) + sum(VALUE_BYTES.get(each.data_type, 4) * len(each.data) for each in own)
@@ -175,7 +175,7 @@ class OBJECT_OT_meniscus_bake(bpy.types.Operator):
         return kind_of(context.active_object) is not None and context.active_object.mode == "OBJECT"
 
     def invoke(self, context, _event):
-        """In steps, while the window shows how far it is. No other event gets through: an undo would take away what is being made."""
+        """Bakes in steps while the window shows the progress. It holds back all other events: an undo would remove what is being made."""
         self.steps = bake(context.active_object, context.scene)
         self.timer = context.window_manager.event_timer_add(0.01, window=context.window)
         context.window_manager.modal_handler_add(self)

@@ -254,7 +254,7 @@ def keeps_realized_normals():
 
 
 def exports_by_mesh_name():
-    """Whether Alembic and USD make another mesh where the name of what an object shows changes."""
+    """Returns True where Alembic and USD export a new mesh whenever the name of the shown mesh changes."""
     return bpy.app.version >= (5, 2, 0)
 
 

@@ -118,5 +118,5 @@ def _colors(values):
 
 
 def _is_beside(name):
-    """Whether a file lies in the scene's folder or below it."""
+    """Returns True if a file is in the scene's folder or below it."""
     return isinstance(name, str) and not os.path.isabs(name) and "\\" not in name and ".." not in name.split("/")

@@ -41,7 +41,7 @@ class Request:
         return [part.strip() for part in self.color.split(";") if part.strip()] or ["element"]
 
     def needs_program(self):
-        """Whether the library does not give these colours: those of more than single atoms, or several."""
+        """Returns True for colours that the program alone computes: schemes of more than single atoms, and several rules."""
         (first, *more) = self.colors()
         return bool(more) or "=" in first or first != "kind" and dict(preparation_table.SCHEMES).get(first, False)
 
