@@ -5,7 +5,7 @@
 // `GEOMETRY` (inline in C++, nothing in GLSL). Only + - * / and sqrt decide anything, for GLSL bounds their errors, and
 // not those of trigonometric functions. What they yield differs between devices all the same: a*b + c may be fused,
 // a quotient is good to 2.5 units in the last place and sqrt, by way of inversesqrt, to 4.5. half_plane_noise() covers
-// all that; CONTRIBUTING.md derives it.
+// all that; docs/explanation/theory.md derives it.
 //
 // All positions are relative to the centre of the circle's first ball. A ball is a centre and a weight (squared radius).
 #ifndef MENISCUS_GEOMETRY_CIRCLE_GLSL
