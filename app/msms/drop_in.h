@@ -14,7 +14,7 @@
 namespace meniscus::msms {
 
 struct Spheres {
-  std::vector<Ball> balls;  ///< spheres that the probe touches: those of radius 0 are left out
+  std::vector<Ball> balls;  ///< spheres that the probe touches: spheres of radius 0 are left out
   MsmsSpheres rows;
   double smallest_radius = 0.0, largest_radius = 0.0;
 };

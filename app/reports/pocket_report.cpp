@@ -282,7 +282,7 @@ std::string pocket_figure(const PocketReport& report, const std::string& scene, 
   Json figure = Json::parse(scene);
   const std::vector<Pocket>& pockets = report.pockets.found.pockets;
   Json colors = Json::array({kOfOthers});
-  // Of several rules for an atom the last one counts.
+  // The last of several rules for an atom counts.
   for (std::size_t n = pockets.size(); n-- > 0;) colors.push_back(rule_of(report.structure, pockets[n], n));
   Json& molecule = figure["molecule"];
   const bool some_left_out = report.pockets.atom_count < report.structure.atoms.size();

@@ -136,7 +136,7 @@ ViewBasis broad_side(std::span<const Ball> balls) {
   glm::dmat3 covariance(0.0);
   for (const Ball& ball : balls) covariance += glm::outerProduct(ball.center - mean, ball.center - mean);
   const glm::dmat3 axes = principal_axes(covariance);
-  // Of the four turns that show the same side, this is the one nearest to the usual view along -z with y up.
+  // Four turns show the same side; this is the one nearest to the usual view along -z with y up.
   const glm::dvec3 forward = axes[2].z > 0.0 ? -axes[2] : axes[2];
   const glm::dvec3 up = axes[1].y < 0.0 ? -axes[1] : axes[1];
   return {glm::cross(forward, up), up, forward};

@@ -165,7 +165,7 @@ std::optional<glm::dvec3> symmetry_axis(std::span<const RigidMotion> motions) {
     }
   }
   if (axes.empty()) return {};
-  // Of equal axes, the one nearest to z, then y, then -x. Coordinates are compared as rounded, because motions of a
+  // Among equal axes, the one nearest to z, then y, then -x. Coordinates are compared as rounded, because motions of a
   // file and of its copies differ in their last digits.
   const auto rank = [](const AxisCount& axis) {
     const auto rounded = [](double x) { return std::lround(x * 1e4); };

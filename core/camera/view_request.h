@@ -83,8 +83,8 @@ struct ViewedBalls {
 
 /// Returns the axes of the picture from that side. The up direction is: for file axes y, but z for ±y so that +x stays
 /// right of y; for inertia 1 the second axis, for 2 the axis that is turned away from the default view, for 3 the
-/// second; beside the symmetry axis that axis; for the open side and a channel the direction from open_side() and
-/// channel_end(). Throws RequestError if there is no channel to look through.
+/// second; at a right angle to the symmetry axis that axis; for the open side and a channel the direction from
+/// open_side() and channel_end(). Throws RequestError if there is no channel to look through.
 ViewBasis view_basis(const ViewDirection& direction, const ViewedBalls& balls);
 
 /// Reads the requested camera file, if any. Call it before anything is computed. Throws InputError.

@@ -143,8 +143,8 @@ std::vector<std::string> rules_without_atoms(const Structure& structure, const C
 /// SelectionError.
 OpacityRule parse_opacity_rule(std::string_view text);
 
-/// Returns the index of each chain among those of the file, which decides its colour; chains that the file does not
-/// list follow, as in a structure without a file.
+/// Returns the index of each chain among the chains of the file, which decides its colour; chains that the file does
+/// not list follow, as in a structure without a file.
 std::map<std::string, std::size_t> places_of_chains(const Structure& structure);
 
 /// Parses "lo:hi" with lo < hi and a finite difference; nothing for any other text.

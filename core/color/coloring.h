@@ -22,8 +22,8 @@ struct VolumePaint;
 struct Coloring {
   std::vector<glm::vec3> atom{};  ///< one per Surface::atoms
   std::optional<std::array<glm::vec3, 3>>
-      kind{};  ///< if set, colours by PatchKind (convex, toroidal, concave) replace those of atoms
-  /// If set, points take their colours from this map, except those of atoms with own_color.
+      kind{};  ///< if set, colours by PatchKind (convex, toroidal, concave) replace colours by atom
+  /// If set, points take their colours from this map, except points of atoms with own_color.
   std::shared_ptr<const VolumePaint> volume{};
   std::vector<bool> own_color{};  ///< empty: none; else one per Surface::atoms
 

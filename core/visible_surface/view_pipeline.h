@@ -55,8 +55,8 @@ class ViewPipeline final : public Drawable {
   /// Sets the surface of the next pictures; probe_radius in Å, >= 0. The default is 1.4 Å and visible.
   void set_surface(double probe_radius, Extent extent);
 
-  /// Sets whether prepare() reads buffer sizes back between its stages, or assumes those of the last view. The default
-  /// is the faster choice for the device.
+  /// Sets whether prepare() reads buffer sizes back between its stages, or assumes the sizes of the last view. The
+  /// default is the faster choice for the device.
   void set_counting(Counting counting) { counting_ = counting; }
 
   std::span<const Ball> atoms() const override { return atoms_; }

@@ -20,7 +20,7 @@ class CircleSweep {
     one_arc
   };
 
-  /// Finds the remainder. meetings: those of these blockers with the circle.
+  /// Finds the remainder. meetings: the meetings of these blockers with the circle.
   Outcome find(const CircleMeetings& meetings, const Blockers& blockers);
 
   /// Returns the remaining arc after Outcome::one_arc, between the same pseudo-angles as by one ball after another.

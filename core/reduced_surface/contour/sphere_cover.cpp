@@ -68,7 +68,7 @@ struct WatchedDirections {
     }
   }
 
-  // Orders directions so that those of a block are neighbours, and covered by the same few balls.
+  // Orders directions so that the directions of a block are neighbours, and covered by the same few balls.
   static void cluster(std::vector<glm::dvec3>& points) {
     for (std::size_t first = 0; first < points.size(); first += kBlock) {
       const auto begin = points.begin() + static_cast<std::ptrdiff_t>(first);

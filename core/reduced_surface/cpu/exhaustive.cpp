@@ -29,7 +29,7 @@ constexpr std::uint32_t kCrowd = 192;
 // The intermediate results of the atoms of one group.
 struct Group {
   std::vector<std::uint32_t>
-      neighbors;  // neighbours of atom after atom, those of open circles first; none for buried atoms
+      neighbors;  // neighbours of atom after atom, neighbours with open circles first; none for buried atoms
   std::vector<std::uint32_t> first;  // per atom, into neighbors; one past the last closes the list
   std::vector<std::uint32_t> open;   // per atom: the number of its open circles
   std::vector<std::uint8_t>
