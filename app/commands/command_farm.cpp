@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `meniscus farm`: bundles a command on frames for any engine, verifies what was made, and makes the film.
+// `meniscus farm`: bundles a command on frames for any engine, verifies the frames, and makes the film.
 #include <algorithm>
 #include <iostream>
 #include <memory>

@@ -30,7 +30,7 @@
 namespace meniscus {
 namespace {
 
-/// Where the pictures go: into a film, or into numbered files.
+/// The destination of the pictures: a film, or numbered files.
 class FilmPictures {
  public:
   explicit FilmPictures(Storyboard& storyboard) : command_(storyboard.command()) {
@@ -126,7 +126,7 @@ class PictureFilm : public FilmMaker {
   PictureDevice device_;
   FilmPictures pictures_;
   Progress progress_;
-  std::optional<MotionBlur> blur_;  ///< of the scene that is shown
+  std::optional<MotionBlur> blur_;  ///< of the current scene
 };
 
 void run(const DeclaredFilm& declared) {

@@ -49,11 +49,11 @@ CommonAtoms read_common(const MorphCommand& command) {
   return common;
 }
 
-/// How good a path is.
+/// Measures of the quality of a path.
 struct PathFaults {
-  double bonds = 0.0;    ///< most by which a bond is longer or shorter than between both ends, Å
-  double step = 0.0;     ///< longest way of an atom from a model to the next, Å
-  double overlap = 0.0;  ///< Morph::overlap() of any model
+  double bonds = 0.0;    ///< largest deviation of a bond's length from the range between both ends, Å
+  double step = 0.0;     ///< longest step of an atom from a model to the next, Å
+  double overlap = 0.0;  ///< largest Morph::overlap() of a model
 
   void look(const Morph& morph, std::size_t stop, double share, const std::vector<glm::dvec3>& before,
             const std::vector<glm::dvec3>& now) {

@@ -35,7 +35,7 @@ struct PanelsCommand : SceneCommand {
 };
 using DeclaredPanels = DeclaredCommand<PanelsCommand>;
 
-/// What of the page's command line holds for each panel.
+/// Returns the words of the page's command line that apply to each panel.
 std::vector<std::string> words_of_panels(const DeclaredPanels& page) {
   constexpr std::array<std::string_view, 5> kOfPage{"output.file", "image.size", "image.width", "image.height",
                                                     "molecule.superpose_on"};
@@ -67,7 +67,7 @@ Structure read_structure(const SceneCommand& command, const std::string& path) {
   return run.at(run.numbers().front());
 }
 
-/// Moves the structures of all panels but the first.
+/// Superposes the structures of all panels but the first on the first.
 void superpose(const PanelsCommand& page, std::span<const SceneCommand> panels, std::vector<Structure>& structures) {
   const std::optional<Selection>& chosen = page.scene.molecule.reading.superpose_on;
   if (!chosen) return;
@@ -115,7 +115,7 @@ std::vector<Panel> read_panels(const PanelsCommand& page, std::span<SceneCommand
   return made;
 }
 
-/// Lengths of the page in pixels, which its resolution says.
+/// Converts lengths of the page to pixels, by its resolution.
 PanelArrangement arrangement_of(const DeclaredPanels& declared, const Scene& first) {
   const Scene& scene = declared.state.scene;
   PanelArrangement arrangement = declared.state.arrangement;

@@ -28,7 +28,7 @@ void check_mesh_path(const std::string& path) {
         in_quotes(path), mesh_format_words()));
 }
 
-// Of a run each frame has one.
+// Throws unless the path of a run has a place for the number of the frame.
 void check_numbered(const char* option, const std::string& path) {
   if (path.empty() || NumberedPath::parse(path)) return;
   throw UsageError(fmt::format("{} {}: each frame needs a file of its own; put # where its number goes, as in {}",
@@ -63,7 +63,7 @@ void check_request(const PocketsCommand& command) {
     check_run(command);
   else
     paths.insert(paths.end(), {command.mesh, command.figure});
-  // Whether the outputs can be written is known before the work begins; these vanish again.
+  // Files are opened before the work begins, so that errors come early, and removed again.
   for (const std::string& path : paths)
     if (!path.empty() && path != "-") check_output(path, command.existing());
 }

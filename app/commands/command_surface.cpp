@@ -30,7 +30,7 @@ std::vector<std::string> tables_of(const SurfaceCommand& command) {
 
 bool SurfaceCommand::prints_csv() const { return std::ranges::any_of(tables_of(*this), is_stdout); }
 
-// Whether the outputs can be written is known before the work begins; these vanish again.
+// Opens the outputs before the work begins, so that errors come early, and removes them again.
 void check_outputs(const SurfaceCommand& command) {
   if (command.plot == "-" || (!command.plot.empty() && !command.plot.ends_with(".svg")))
     throw UsageError(
@@ -96,7 +96,7 @@ void add_surface(CLI::App& command) {
       "next.");
   auto declared = std::make_shared<DeclaredCommand<SurfaceCommand>>(command, for_surface);
   SurfaceCommand& state = declared->state;
-  state.scene.molecule.surface.timing = StageTiming::exact;  // each is printed
+  state.scene.molecule.surface.timing = StageTiming::exact;  // each time is printed
   PropertyOptions options(command);
   options.add("report.json", state.json);
   options.add("report.csv_atoms", state.atom_csv);
@@ -112,7 +112,7 @@ void add_surface(CLI::App& command) {
   options.add("report.resume", state.resumes);
   command.callback([declared] {
     declared->options.take();
-    // Parts of surfaces are cut out by planes, and rays meet patches within theirs.
+    // Parts of surfaces are cut out by planes, and rays meet patches within them.
     const Division& division = declared->state.scene.molecule.division;
     SurfaceCommand& asked = declared->state;
     MoleculeRequest& molecule = asked.scene.molecule;

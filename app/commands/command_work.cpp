@@ -36,7 +36,7 @@ struct Chunk {
   std::uint64_t number = 0, count = 0;
 };
 
-/// K/N, 1 <= K <= N.
+/// Parses K/N, 1 <= K <= N.
 Chunk parse_chunk(const std::string& text) {
   std::uint64_t k = 0, n = 0;
   const char* const end = text.data() + text.size();
@@ -48,7 +48,7 @@ Chunk parse_chunk(const std::string& text) {
   return {k, n};
 }
 
-/// Of the run those that the list has: of every tenth frame, 0-30 means four.
+/// Returns the frames of the run that are in the list: in a run of every tenth frame, 0-30 means four frames.
 std::vector<std::uint64_t> listed_frames(const farm::Bundle& bundle, const std::string& text) {
   const std::uint64_t largest = *std::ranges::max_element(bundle.frames);
   const std::vector<std::uint64_t> list = parse_frame_list("--frames", text, largest + 1);
@@ -70,7 +70,7 @@ farm::Share share_of(const WorkCommand& command, const farm::Bundle& bundle) {
   if (share.steps.empty())
     throw UsageError(fmt::format("--step {} is not a step of this bundle", in_quotes(command.step)));
   const std::optional<Chunk> chunk = command.chunk.empty() ? std::nullopt : std::optional(parse_chunk(command.chunk));
-  // Workers of neighbouring shares on a machine of several GPUs take one each.
+  // Workers of neighbouring chunks on a machine of several GPUs take one each.
   if (chunk) ::setenv(kWorkerVariable, std::to_string(chunk->number - 1).c_str(), 0);
   share.frames = chunk                     ? farm::chunk_of(bundle, chunk->number, chunk->count)
                  : !command.frames.empty() ? listed_frames(bundle, command.frames)
@@ -91,7 +91,7 @@ void run(const WorkCommand& command) {
   const farm::Bundle bundle = farm::read_bundle(command.folder);
   const farm::Share share = share_of(command, bundle);
   const farm::Workplace place = workplace_of(command);
-  // Software GL takes as many threads as the machine has cores unless set.
+  // Software GL takes as many threads as the machine has cores unless this is set.
   if (command.threads > 0) ::setenv("LP_NUM_THREADS", std::to_string(command.threads).c_str(), 0);
   const StopHandler handler([] { stop_children(); }, kExitStopped);
   farm::work(bundle, place, share, command.progress);

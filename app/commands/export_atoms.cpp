@@ -19,7 +19,7 @@
 namespace meniscus {
 namespace {
 
-// Where the atoms of merged() objects are, with the positions of another frame.
+// Returns the positions of the atoms of merged() objects in another frame.
 std::vector<glm::dvec3> placed_atoms(std::span<const SurfaceObject> objects, const Structure& structure) {
   std::vector<glm::dvec3> positions;
   for (const SurfaceObject& object : objects)
@@ -28,7 +28,7 @@ std::vector<glm::dvec3> placed_atoms(std::span<const SurfaceObject> objects, con
   return positions;
 }
 
-// Radii and colours are those of the first frame of the run.
+// Returns the molecule of the first frame, which has the radii and colours of the run.
 Molecule first_molecule(const SceneCommand& command, const FrameRun* run) {
   if (!run) return load_molecule(command);
   tell_run(command, *run);

@@ -25,7 +25,7 @@
 namespace meniscus {
 namespace {
 
-// What the band takes of a frame, about: its voxels and their file.
+// The approximate memory of a frame: the voxels of the band and their file.
 constexpr std::uint64_t kBandBytesPerAtom = 50'000;
 
 struct VdbCommand : SceneCommand {

@@ -26,7 +26,7 @@ const std::set<std::string, std::less<>> kDecidedByBundle{"-o",     "--output", 
 constexpr const char* kDeviceOptions[] = {"--device", "--threads", "--require-gpu", "--jobs"};
 constexpr const char* kProvenance[] = {"--provenance", "--no-provenance"};
 
-/// What follows the command's name, and the renderer's options.
+/// The words after the command's name, and the renderer's options.
 struct Parts {
   Words command, arguments, renderer;
 };
@@ -51,8 +51,8 @@ Parts parts_of(const Words& words) {
   return parts;
 }
 
-/// Of the options that a bundle does not have: those that it decides by itself, and those that write files. A legend is
-/// written when the bundle is made.
+/// Refuses options that a bundle does not have: options that it decides by itself, and options that write files. A
+/// legend is written when the bundle is made.
 void refuse_options(const Words& arguments) {
   for (const std::string& word : arguments) {
     const std::string_view name = std::string_view(word).substr(0, word.find('='));
@@ -78,7 +78,7 @@ CommandBit bit_of(const Words& command) {
   return bits.at(command.back());
 }
 
-/// Those that were typed, with their values.
+/// Returns the typed options with their values.
 Words typed(const CLI::App& command, std::span<const char* const> options) {
   Words words;
   for (const char* const name : options) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Takes from scenes and figures what is written for POV-Ray.
+// Converts scenes and figures to data for POV-Ray.
 #include "app/commands/povray_figures.h"
 
 #include <fmt/format.h>
@@ -59,7 +59,7 @@ std::vector<std::string> comment_names(const Scene& scene, const Structure& stru
   std::vector<std::string> names;
   if (!scene.renderer.comments) return names;
   for (const Atom& atom : shown_atoms(structure)) {
-    if (atom.residue_name.empty()) {  // as --csv and selections number it
+    if (atom.residue_name.empty()) {  // numbered like --csv and selections
       names.push_back(fmt::format("{} index {}", atom.name, atom.index));
       names.back().erase(0, names.back().find_first_not_of(' '));
       continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Turns options that scenes share into words, and has each scene parse them.
+// Turns the options that scenes share into words, and lets each scene parse them.
 #include "app/commands/scene_files.h"
 
 #include <algorithm>
@@ -38,11 +38,11 @@ SceneCommand read_scene_file(const std::string& path, std::vector<std::string> w
   CLI::App app("", "render");
   DeclaredCommand<RenderCommand> read(app, for_render);
   read.state.reporting.quiet = true;
-  // What the scene's own output was is not written, so it may be there, and may be read.
+  // The scene's own output is not written, so it may exist, and may be read.
   words.insert(words.begin(), {"--scene", path, "-o", "-"});
   std::ranges::reverse(words);
   app.parse(words);
-  read.state.reporting.quiet = true;  // an option that does nothing in one scene may do something in another
+  read.state.reporting.quiet = true;  // an option without effect in one scene may have one in another
   read.options.take();
   SceneCommand command = std::move(static_cast<SceneCommand&>(read.state));
   const PictureOutput& image = command.scene.image;
@@ -57,7 +57,7 @@ SceneCommand read_scene_file(const std::string& path, std::vector<std::string> w
 
 void make_draft(Scene& scene) {
   ViewRequest& picture = scene.picture;
-  // Even, as films need it.
+  // Returns half the size, an even number, as films require.
   const auto half = [](int pixels) { return std::max(2, (pixels / 2 + 1) / 2 * 2); };
   picture.width = half(picture.width);
   picture.height = half(picture.height);
