@@ -131,7 +131,7 @@ void add_farm_bundle(CLI::App& command) {
 
 namespace {
 
-/// What can be done about frames that are not good.
+/// Returns advice on frames that are missing or damaged.
 std::string advice(const std::vector<farm::FrameFault>& faults, const std::string& folder) {
   std::vector<std::uint64_t> damaged;
   for (const farm::FrameFault& fault : faults)

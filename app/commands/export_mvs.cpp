@@ -25,7 +25,7 @@ namespace {
 
 constexpr double kLargeArchive = 50e6;
 
-/// What such a view cannot have is refused before anything is computed.
+/// Refuses settings that such a view cannot have, before anything is computed.
 void check(const SceneCommand& command) {
   const Scene& scene = command.scene;
   const auto refuse = [](const char* option, const char* why) {

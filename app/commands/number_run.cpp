@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Passes one structure, or those of all frames, to the code that computes their numbers.
+// Passes one structure, or the structures of all frames, to the code that computes their numbers.
 #include "app/commands/number_run.h"
 
 #include <utility>

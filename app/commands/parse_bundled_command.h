@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the words after `farm bundle ... --` to a command.
+// Parses the words after `farm bundle ... --` to a command.
 #pragma once
 
 #include <string>
@@ -9,8 +9,9 @@
 
 namespace meniscus::farm {
 
-/// Checks the words by the program's own options. Throws UsageError: no framed command, wrong options, options that a
-/// bundle decides by itself; RequestError: options that a bundle does not have; what taking options throws.
+/// Checks the words against the program's own options. Throws UsageError for a command without frames, wrong options,
+/// and options that a bundle decides by itself; RequestError for options that a bundle does not have; and the errors of
+/// taking options.
 BundledCommand parse_bundled_command(const std::vector<std::string>& words);
 
 }  // namespace meniscus::farm

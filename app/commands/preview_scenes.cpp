@@ -142,7 +142,7 @@ bool SceneOpener::is_of_this_molecule(const Scene& scene) const {
   return std::ranges::all_of(properties(), [&](const Property* property) {
     if (!property->has(in_scene) || (models_ && property->key == "molecule.model")) return true;
     const bool reads = property->section() == "molecule" || property->section() == "frames";
-    // Of the properties of surfaces, these are the files of colours.
+    // These properties of surfaces are the files of colours.
     const bool colors =
         property->section() == "surface" && (property->type == ValueType::file || property->name() == "color_column");
     if (!reads && !colors) return true;
