@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Constants that everything shares: the index that means none, and the units of other programs' files.
+// Constants that all modules share: the index that means none, and ångströms per nanometre.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds modules beside the program or where the build put them, and loads them.
+// Finds modules next to the program or in the build folder, and loads them.
 #include "core/base/module_file.h"
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parses whole numbers and decimal numbers that fill their field, and says what is wrong with others.
+// Parses numbers that fill their field, and says what is wrong with others.
 #include "core/base/parse_number.h"
 
 #include <charconv>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counts progress at a limited rate, and shows it as a bar or as plain lines.
+// Counts progress at a limited rate of reports, and shows it as a bar or as plain lines.
 #include "core/base/progress.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ void Progress::advance(std::uint64_t units) {
   if (last) {
     lock.lock();
   } else if (!lock.try_lock()) {
-    return;  // another thread is reporting: this report would come too soon after it
+    return;  // another thread is reporting now, so that this report would follow too soon
   }
   const auto now = std::chrono::steady_clock::now();
   if (!last && now - last_report_ < kReportInterval) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long each named stage of some work takes by the clock on the wall.
+// A clock that measures the elapsed time of each named stage of a computation.
 #pragma once
 
 #include <algorithm>
@@ -12,22 +12,22 @@
 
 namespace meniscus {
 
-/// Name and duration of one stage.
+/// The name of a stage and its duration.
 struct StageTime {
   std::string name;
   double milliseconds = 0.0;
 };
 
-/// Which stage counts the time of work that another device does in parallel.
+/// How stages account for work that another device does in parallel.
 enum class StageTiming {
-  rough,  ///< no waiting: work of one stage may count for a later one that needs it; sums are right
-  exact   ///< that device is idle at both ends of each stage, which costs a round trip each
+  rough,  ///< does not wait: work of one stage may count for a later stage that needs it; sums are right
+  exact   ///< waits until the device is idle at both ends of each stage, which costs a round trip each
 };
 
-/// Adds up the times of stages by name, in the order in which they first ended.
+/// Adds up the times of stages by name. times() has them in the order in which they first ended.
 class StageClock {
  public:
-  /// A stage lasts as long as the returned object.
+  /// A running stage. It ends when this object is destroyed.
   class Stage {
    public:
     Stage(StageClock& clock, std::string name)
@@ -54,7 +54,7 @@ class StageClock {
     return Stage(*this, name);
   }
 
-  /// look: called before each stage; what it throws ends the work.
+  /// Sets a function that is called before each stage. An exception that it throws ends the work.
   void before_stages(std::function<void()> look) { look_ = std::move(look); }
 
   void add(std::string name, double milliseconds) {
@@ -67,7 +67,7 @@ class StageClock {
   const std::vector<StageTime>& times() const { return times_; }
 
  private:
-  /// Also without memory a stage comes to its end, so the place of its time is there when it begins.
+  /// Reserves room for the time of a stage when it begins, so that the stage can end without allocating memory.
   void keep_room() {
     times_.reserve(times_.size() + open_ + 1);
     ++open_;

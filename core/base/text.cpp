@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Escapes, shortens and wraps texts, spells options, finds the known word nearest to a wrong one, and fills templates.
+// Escapes, shortens and wraps texts, spells options, finds the nearest known word, and fills templates.
 #include "core/base/text.h"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ std::string escaped(std::string_view text) {
 
 std::string shortened(std::string_view text, std::size_t bytes) {
   if (text.size() <= bytes) return escaped(text);
-  while (bytes > 0 && (text[bytes] & 0xc0) == 0x80) --bytes;  // no character is parted
+  while (bytes > 0 && (text[bytes] & 0xc0) == 0x80) --bytes;  // never splits a character
   return escaped(text.substr(0, bytes)) + "...";
 }
 
@@ -118,8 +118,9 @@ std::string base64(std::string_view bytes) {
 
 std::string pointed_at(std::string_view text, std::size_t position) {
   constexpr std::size_t kBefore = 50, kAfter = 30;
-  const auto continues = [&](std::size_t n) { return n < text.size() && (text[n] & 0xc0) == 0x80; };  // inside UTF-8
-  while (position > 0 && continues(position)) --position;  // a character is shown before the caret or above it
+  // True inside a UTF-8 character.
+  const auto continues = [&](std::size_t n) { return n < text.size() && (text[n] & 0xc0) == 0x80; };
+  while (position > 0 && continues(position)) --position;  // the caret is under a whole character
   std::size_t first = position > kBefore ? position - kBefore : 0;
   std::size_t last = std::min(text.size(), position + kAfter);
   while (first < position && continues(first)) ++first;
@@ -137,7 +138,7 @@ std::string on_command_line(std::string_view name) { return "--" + std::string(n
 
 OptionSpelling spelling_of_door = on_command_line;
 
-/// Letters (bytes) to change, insert or drop to get from one word to the other (Levenshtein 1966).
+/// Returns the edit distance of two words: the number of bytes to change, insert or drop (V. I. Levenshtein 1966).
 std::size_t letters_apart(std::string_view from, std::string_view to) {
   std::vector<std::size_t> row(to.size() + 1);
   for (std::size_t j = 0; j <= to.size(); ++j) row[j] = j;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Quadruple precision in integers, for processors whose compilers have none: macOS, for one.
+// Quadruple precision by integer arithmetic, for processors whose compilers have no such type, for example on macOS.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 namespace meniscus {
 
 /// A number of IEEE 754 binary128. Sums, differences, products and quotients are rounded to nearest, ties to even, so
-/// each has the bits that __float128 gives (tests/unit/math/binary128_test.cpp). Only the range is wider: exponents
-/// have 32 bits, so that nothing overflows or is subnormal.
+/// that they have the same bits as with __float128 (tests/unit/math/binary128_test.cpp). Only the range is wider:
+/// exponents have 32 bits, so that nothing overflows and nothing is subnormal.
 class Binary128 {
  public:
   Binary128() = default;
@@ -33,7 +33,7 @@ class Binary128 {
     if (is_nan()) return std::numeric_limits<double>::quiet_NaN();
     if (fraction_ == 0) return negative_ ? -0.0 : 0.0;
     if (is_infinite()) return negative_ ? -HUGE_VAL : HUGE_VAL;
-    // Doubles that are subnormal keep fewer bits.
+    // A subnormal double has fewer bits.
     const int kept = std::min(53, exponent_ + kBits - 1 + 1075);
     if (kept < 0) return negative_ ? -0.0 : 0.0;
     const Rounded r = round_to(fraction_, exponent_, kept, false);
@@ -55,8 +55,8 @@ class Binary128 {
     if (b.fraction_ == 0) return a.fraction_ == 0 && !b.negative_ ? b : a;
     if (a.fraction_ == 0) return b;
     if (a.exponent_ < b.exponent_) std::swap(a, b);
-    // Both numbers by 14 bits to the left: with what falls off at the right noted in `more`, that decides all
-    // roundings.
+    // Both fractions are shifted to the left by 14 bits. Together with `more`, which notes bits lost at the right, that
+    // suffices for every rounding.
     constexpr int kGuard = 14;
     const Wide large = a.fraction_ << kGuard;
     Wide small = b.fraction_ << kGuard;
@@ -79,9 +79,9 @@ class Binary128 {
     const Wide low_mask = ~std::uint64_t{0};
     const Wide a0 = a.fraction_ & low_mask, a1 = a.fraction_ >> 64, b0 = b.fraction_ & low_mask, b1 = b.fraction_ >> 64;
     const Wide low = a0 * b0, middle = a1 * b0 + (low >> 64), other = a0 * b1 + (middle & low_mask);
-    const Wide high = a1 * b1 + (middle >> 64) + (other >> 64);  // times 2^128, at most 98 bits
+    const Wide high = a1 * b1 + (middle >> 64) + (other >> 64);  // in units of 2^128; it has at most 98 bits
     const Wide rest = other << 64 | (low & low_mask);
-    constexpr int kUp = 29;  // of the 128 bits there are 127 used then
+    constexpr int kUp = 29;  // after the shift 127 of the 128 bits are used
     return rounded(negative, high << kUp | rest >> (128 - kUp), a.exponent_ + b.exponent_ + 128 - kUp,
                    rest << kUp != 0);
   }
@@ -129,8 +129,8 @@ class Binary128 {
  private:
   __extension__ typedef unsigned __int128 Wide;
 
-  static constexpr int kBits = 113;                                                            // of a fraction
-  static constexpr int kInfinite = std::numeric_limits<int>::max() - 1, kNan = kInfinite + 1;  // as exponents
+  static constexpr int kBits = 113;                                                            // bits of a fraction
+  static constexpr int kInfinite = std::numeric_limits<int>::max() - 1, kNan = kInfinite + 1;  // exponents
 
   struct Rounded {
     Wide fraction;
@@ -142,7 +142,8 @@ class Binary128 {
     return high != 0 ? 128 - std::countl_zero(high) : 64 - std::countl_zero(static_cast<std::uint64_t>(a));
   }
 
-  // fraction * 2^exponent, and something less than one unit more if `more`, with so many bits.
+  // Rounds fraction * 2^exponent to so many bits. With `more` the number is larger than that by less than one unit of
+  // the fraction.
   static constexpr Rounded round_to(Wide fraction, int exponent, int bits, bool more) {
     const int drop = width(fraction) - bits;
     if (drop <= 0) return {fraction << -drop, exponent + drop};
@@ -162,7 +163,7 @@ class Binary128 {
     return number;
   }
 
-  // An infinity is the largest number of all, so that comparing needs no rule for it.
+  // Makes an infinity, or NaN. An infinity is the largest of all numbers, so that comparisons need no special case.
   static constexpr Binary128 with_exponent(int exponent, bool negative) {
     Binary128 number;
     number.fraction_ = Wide{1} << (kBits - 1);
@@ -175,7 +176,7 @@ class Binary128 {
   bool is_infinite() const { return exponent_ == kInfinite; }
   bool is_nan() const { return exponent_ == kNan; }
 
-  Wide fraction_ = 0;  // 2^112 or more, or zero
+  Wide fraction_ = 0;  // zero, or at least 2^112
   int exponent_ = 0;   // the number is fraction_ * 2^exponent_
   bool negative_ = false;
 };

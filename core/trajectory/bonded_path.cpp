@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Turns groups of bonded atoms, and corrects one distance after another until the bonds have their lengths.
+// Rotates groups of bonded atoms, and corrects one distance after another until the bonds have their lengths.
 #include "core/trajectory/bonded_path.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ std::vector<Distance> distances_between(std::span<const Bond> pairs, std::span<c
   return distances;
 }
 
-/// Moves both atoms by a part of what is missing; returns by how much the distance was wrong.
+/// Moves both atoms by this part of the error of their distance. Returns the absolute error before the move, Å.
 double correct_one(const Distance& distance, double part, std::vector<glm::dvec3>& positions) {
   const glm::dvec3 line = positions[distance.b] - positions[distance.a];
   const double length = glm::length(line), error = length - distance.wanted;
@@ -43,13 +43,14 @@ double correct_all(std::span<const Distance> distances, double part, std::vector
   return most;
 }
 
-/// Six times the volume between three bonds of an atom, Å³; its sign tells the hand.
+/// Returns six times the volume between three bonds of an atom, Å³. Its sign is the handedness.
 double volume_of(const BondNetwork::Corner& corner, std::span<const glm::dvec3> x) {
   const glm::dvec3& from = x[corner[0]];
   return glm::dot(x[corner[1]] - from, glm::cross(x[corner[2]] - from, x[corner[3]] - from));
 }
 
-/// Moves the atoms of a corner along the gradients of its volume, as SHAKE does along lines.
+/// Moves the atoms of a corner along the gradients of its volume, as SHAKE does along bonds. Returns the length of the
+/// move, Å.
 double correct_corner(const BondNetwork::Corner& corner, double wanted, std::vector<glm::dvec3>& x) {
   const glm::dvec3 one = x[corner[1]] - x[corner[0]], two = x[corner[2]] - x[corner[0]],
                    three = x[corner[3]] - x[corner[0]];
@@ -67,7 +68,7 @@ double correct_corner(const BondNetwork::Corner& corner, double wanted, std::vec
   return std::abs(error) / std::sqrt(square);
 }
 
-/// A share of a turn, which may be longer than half a circle.
+/// Returns a fraction of a rotation, which may be by more than 180°.
 glm::dquat part_of(const glm::dquat& turn, double share) {
   const glm::dvec3 axis(turn.x, turn.y, turn.z);
   const double sine = glm::length(axis), half = std::atan2(sine, turn.w);
@@ -75,7 +76,7 @@ glm::dquat part_of(const glm::dquat& turn, double share) {
   return {std::cos(share * half), std::sin(share * half) / sine * axis};
 }
 
-/// Whether an atom and its neighbours lie in one line, so that no turn about it can be told from another.
+/// True if an atom and its neighbours lie on one line, so that a rotation about it cannot be determined.
 bool is_line(std::uint32_t atom, std::span<const std::uint32_t> around, std::span<const glm::dvec3> x) {
   constexpr double kSine = 1e-3;
   const glm::dvec3 first = x[around.front()] - x[atom];
@@ -85,7 +86,8 @@ bool is_line(std::uint32_t atom, std::span<const std::uint32_t> around, std::spa
   });
 }
 
-/// Of an atom and its neighbours; of a line the least that brings one direction to the other.
+/// Returns the rotation of an atom and its neighbours. For atoms on one line it is the smallest rotation from one
+/// direction to the other.
 glm::dquat turn_of(std::uint32_t atom, std::span<const std::uint32_t> around, std::span<const glm::dvec3> from,
                    std::span<const glm::dvec3> to) {
   if (!is_line(atom, around, from) && !is_line(atom, around, to)) {
@@ -144,17 +146,17 @@ BondedPath::BondedPath(const BondNetwork& network, std::vector<glm::dvec3> from,
     : network_(network), from_(std::move(from)), to_(std::move(to)), turns_(network.atoms(), glm::dquat(1, 0, 0, 0)) {
   for (std::uint32_t a = 0; a < turns_.size(); ++a)
     if (network.neighbors(a).size() > 1) turns_[a] = turn_of(a, network.neighbors(a), from_, to_);
-  // An atom at the end of a chain turns with the one that it hangs on.
+  // An atom at the end of a chain rotates with its only neighbour.
   for (std::uint32_t a = 0; a < turns_.size(); ++a)
     if (network.neighbors(a).size() == 1) turns_[a] = turns_[network.neighbors(a).front()];
   turn_alike();
 }
 
-/// A turn by 170° and one by 190° about the same axis are alike, and must not go opposite ways because half a circle is
-/// between them. Turns of up to 120° go the shorter way; then each other atom turns as the most similar of those
-/// neighbours that have been decided.
+/// Chooses the direction of each rotation. Rotations by 170° and by 190° about the same axis are similar, and must not
+/// go opposite ways just because 180° is between them. Rotations of up to 120° go the shorter way. Then each other atom
+/// rotates like the most similar neighbour that has been decided.
 void BondedPath::turn_alike() {
-  constexpr double kShort = 0.5;  // cosine of half a turn by 120°
+  constexpr double kShort = 0.5;  // cosine of half a rotation by 120°
   std::vector<std::uint32_t> by_turn(turns_.size());
   std::iota(by_turn.begin(), by_turn.end(), 0u);
   std::ranges::stable_sort(by_turn, std::greater{}, [this](std::uint32_t a) { return std::abs(turns_[a].w); });
@@ -205,7 +207,7 @@ void BondedPath::turn_groups(double share, const std::vector<glm::dvec3>& instea
     there[a] = glm::mat3_cast(turn);
     back[a] = glm::mat3_cast(turn * glm::conjugate(turns_[a]));
   }
-  // By how much the vector from b to a is to change.
+  // Returns the change of the vector from b to a.
   const auto bend = [&](std::uint32_t b, std::uint32_t a) {
     const glm::dvec3 first = 0.5 * (1.0 - share) * (from_[a] - from_[b]), last = 0.5 * share * (to_[a] - to_[b]);
     return (there[a] + there[b]) * first + (back[a] + back[b]) * last - (instead_of[a] - instead_of[b]);

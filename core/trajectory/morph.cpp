@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the atoms that structures have in common, and bends them from one to the next.
+// Finds the atoms that structures have in common, and deforms one structure into the next.
 #include "core/trajectory/morph.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ std::vector<std::uint32_t> all_of(const std::vector<Atom>& atoms) {
   return all;
 }
 
-/// Pairs that one, two or three bonds join.
+/// Returns the pairs of atoms that one, two or three bonds connect, each once and in ascending order.
 std::vector<Bond> pairs_along_bonds(const BondNetwork& network) {
   std::vector<Bond> pairs;
   for (std::uint32_t a = 0; a < network.atoms(); ++a)
@@ -49,7 +49,8 @@ std::vector<Bond> pairs_along_bonds(const BondNetwork& network) {
 CommonAtoms common_atoms(std::span<const Structure> structures, std::span<const std::vector<bool>> superposed) {
   const std::vector<Atom>& first = structures.front().atoms;
   const std::vector<bool> all_first(first.size(), true);
-  std::vector<std::vector<std::uint32_t>> partners;  // of each structure but the first, per atom of the first
+  // For each structure but the first, and each atom of the first, the corresponding atom.
+  std::vector<std::vector<std::uint32_t>> partners;
   std::vector<bool> is_common(first.size(), true), is_fitted = superposed.front();
   CommonAtoms common;
   for (std::size_t n = 1; n < structures.size(); ++n) {
@@ -90,7 +91,7 @@ Morph::Morph(CommonAtoms common)
     : common_(std::move(common)),
       bonds_(common_.atoms.size(), molecule_bonds(common_.atoms, {}), all_of(common_.atoms)),
       related_(pairs_along_bonds(bonds_)) {
-  networks_.reserve(stops());  // paths refer to them
+  networks_.reserve(stops());  // the paths refer to the networks, which must not move
   for (std::size_t stop = 0; stop + 1 < stops(); ++stop) {
     networks_.emplace_back(common_.atoms.size(), near_pairs(stop));
     body_.emplace_back(networks_.back(), at(stop), at(stop + 1));
@@ -111,7 +112,8 @@ std::vector<Bond> Morph::near_pairs(std::size_t stop) const {
 }
 
 std::vector<Distance> Morph::too_near(std::size_t stop, const std::vector<glm::dvec3>& positions) const {
-  constexpr double kShare = 0.8, kMargin = 0.3;  // of radii; Å, what may come nearer while others are moved
+  // Share of the radii; Å, margin for pairs that come nearer while other atoms are moved.
+  constexpr double kShare = 0.8, kMargin = 0.3;
   const std::vector<glm::dvec3>&from = at(stop), &to = at(stop + 1);
   double largest = 0.0;
   for (const Atom& atom : common_.atoms) largest = std::max(largest, atom.radius);
@@ -141,7 +143,7 @@ std::vector<glm::dvec3> Morph::between(std::size_t stop, double share) const {
   std::vector<glm::dvec3> positions = straight;
   body_[stop].turn_groups(share, straight, kBodyStays, kBodyRounds, positions);
   path_[stop].turn_groups(share, std::vector<glm::dvec3>(positions), kGroupsStay, kGroupRounds, positions);
-  // Nothing but its neighbours says where a body is: it stays where the ends are superposed.
+  // Only its neighbours determine the position of a body. It is moved back to where both stops are superposed.
   const RigidMotion back = superposition(straight, positions, common_.fitted);
   for (glm::dvec3& x : positions) x = back(x);
   return positions;
@@ -170,7 +172,7 @@ std::vector<std::vector<glm::dvec3>> Morph::way(std::size_t stop, std::size_t st
   for (int sweep = 0; sweep < kSweeps; ++sweep)
     for (std::size_t n = 1; n < steps; ++n) {
       const std::vector<glm::dvec3>&before = models[n - 1], &behind = after(models, n);
-      // What the smooth way bends by itself is not drawn straight.
+      // The bending of the smooth path itself is not straightened.
       for (std::size_t a = 0; a < models[n].size(); ++a) {
         const glm::dvec3 bend = 0.5 * (smooth[n - 1][a] + after(smooth, n)[a]) - smooth[n][a];
         models[n][a] += kDraw * (0.5 * (before[a] + behind[a]) - models[n][a] - bend);

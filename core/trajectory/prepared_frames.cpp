@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes molecules whole, centres, superposes and smooths the frames of a trajectory; reads some ahead into a queue.
+// Makes molecules whole, centres, superposes and smooths the frames of a trajectory, and reads some ahead into a queue.
 #include "core/trajectory/prepared_frames.h"
 
 #include <algorithm>
@@ -27,13 +27,14 @@ glm::dvec3 mean_of(const std::vector<glm::dvec3>& positions, const std::vector<s
   return sum / static_cast<double>(atoms.size());
 }
 
-/// The weights of the frames around a place, in order. The two frames beside the place are in the middle.
+/// The weights of the frames around a place, in order. The two frames next to the place are in the middle.
 using PathWeights = std::array<double, 2 * kPathReach + 2>;
 
-/// The path between two frames has in both the speed and the acceleration that differences of frames give there. Those
-/// of the fourth order would make it slow at frames, for where these are noise it turns there. The share kMore of the
-/// next difference, and the second differences over two and three frames, are those by which it pulses least, at most
-/// by 2.5 %, where frames are independent of each other and where their steps are; cubics are kept.
+/// Returns the weights of the frames for the path at t in (0, 1) between two frames. At both frames its speed and its
+/// acceleration are finite differences of the frames. Differences of fourth order would make it slow at frames, because
+/// the path turns at frames that are noise. The share kMore of the next difference, and the second differences over two
+/// and three frames (kTwo, kThree), are those with which the speed varies least. It varies by at most 2.5 %, both for
+/// frames that are independent of each other and for frames whose steps are independent. Cubics are reproduced.
 PathWeights path_weights(double t) {
   constexpr double kMore = 0.076, kTwo = -0.42, kThree = -0.0485;
   constexpr std::array kSpeed{2.0 / 3.0 + 5.0 * kMore, -1.0 / 12.0 - 4.0 * kMore, kMore};
@@ -56,7 +57,8 @@ PathWeights path_weights(double t) {
   return weights;
 }
 
-/// Without frames beyond the first and the last one: there all goes on straight, as fast as over the two steps before.
+/// Returns weights that use no frames before `first` or after `last`. Beyond them the path goes on straight, with the
+/// speed of the last two steps.
 PathWeights within(PathWeights weights, std::size_t first, std::size_t last) {
   const std::size_t steps = std::min<std::size_t>(2, last - first);
   const auto fold = [&](std::size_t beyond, std::size_t end, std::size_t other, std::size_t far) {
@@ -76,7 +78,7 @@ PreparedFrames::PreparedFrames(Trajectory& trajectory, Preparation preparation)
     : trajectory_(trajectory), preparation_(std::move(preparation)) {
   if (preparation_.superposed.empty() && preparation_.centered.empty()) return;
   Frame frame;
-  read_placed(preparation_.reference, frame);  // moves nothing yet, as there is no reference
+  read_placed(preparation_.reference, frame);  // does not move anything yet, because there is no reference
   reference_ = std::move(frame.positions);
 }
 
@@ -102,7 +104,7 @@ void PreparedFrames::read_placed(std::uint64_t number, Frame& frame) {
 const Frame& PreparedFrames::placed(std::uint64_t number) {
   for (const Kept& kept : kept_)
     if (kept.number == number) return kept.frame;
-  // One window of smoothing, or those of a path, and one neighbour on each side for velocities.
+  // Room for one window of smoothing or of a path, and one neighbour on each side for velocities.
   const std::size_t around = preparation_.bonds ? 2 * kPathReach + 1 : 0;
   if (kept_.size() > 2 * preparation_.smooth_half + around + 2) kept_.pop_front();
   Kept fresh{number, {}};
@@ -111,7 +113,8 @@ const Frame& PreparedFrames::placed(std::uint64_t number) {
 }
 
 void PreparedFrames::read(std::uint64_t number, Frame& frame) {
-  if (number >= trajectory_.frame_count()) return trajectory_.read(number, frame);  // says what is wrong
+  // Throws an error that describes the fault.
+  if (number >= trajectory_.frame_count()) return trajectory_.read(number, frame);
   const auto last = static_cast<std::int64_t>(trajectory_.frame_count()) - 1;
   const std::int64_t half = std::min(static_cast<std::int64_t>(preparation_.smooth_half), last);
   if (half == 0) {
@@ -144,7 +147,7 @@ void PreparedFrames::read_between(const BetweenFrames& place, Frame& frame) {
   read(place.from, frames[first]);
   read(place.to, frames[last]);
   refuse_jumps(place.from, from, place.to, to);
-  // Where a frame cannot be read, or atoms jump, the path ends as the run does.
+  // The path ends as a run does where a frame cannot be read or atoms jump.
   const auto read_on = [&](const std::vector<std::uint64_t>& numbers, std::uint64_t near, bool is_behind) {
     std::size_t& end = is_behind ? last : first;
     for (const std::uint64_t number : numbers) {
@@ -179,7 +182,8 @@ const BondedPath& PreparedFrames::path(const BetweenFrames& place, const Frame& 
   return *path_;
 }
 
-/// Between two frames of a run nothing moves by half of the box; what does has come in at its other side.
+/// Throws InputError for an atom that moves by more than half of the box between two frames. Such an atom has left the
+/// box and come in at its other side.
 void PreparedFrames::refuse_jumps(std::uint64_t number, const Frame& from, std::uint64_t next, const Frame& to) const {
   if (!from.cell || !to.cell) return;
   const std::optional<PeriodicCell> cell = PeriodicCell::of(*to.cell);
@@ -198,7 +202,7 @@ namespace {
 
 constexpr std::uint32_t kUnseen = 0xffffffffu;
 
-/// Neighbours of each atom, one list behind the other.
+/// The neighbours of each atom, as one list after another.
 struct Neighbors {
   std::vector<std::size_t> begin;
   std::vector<std::uint32_t> atom;
@@ -218,7 +222,7 @@ struct Neighbors {
   }
 };
 
-/// A residue in several pieces: nobody could say where they belong.
+/// Throws InputError for a residue in several pieces, whose relative positions are unknown.
 void refuse_pieces(std::span<const Atom> atoms, std::span<const std::uint32_t> molecule,
                    const std::vector<bool>& is_taken, const std::string& file) {
   for (std::size_t n = 1; n < atoms.size(); ++n) {
@@ -253,7 +257,7 @@ WholeMolecules::WholeMolecules(std::span<const Atom> atoms, std::span<const Bond
     std::vector<Step>& steps = molecules.emplace_back();
     molecule[first] = number;
     steps.push_back({first, first});
-    for (std::size_t n = 0; n < steps.size(); ++n) {  // breadth first
+    for (std::size_t n = 0; n < steps.size(); ++n) {  // breadth-first search
       const std::uint32_t from = steps[n].atom;
       for (const std::uint32_t next : neighbors.of(from)) {
         if (molecule[next] != kUnseen) continue;
@@ -285,10 +289,10 @@ void WholeMolecules::apply(const glm::dmat3& vectors, std::vector<glm::dvec3>& p
   if (!cell) throw InputError(where, 0, message("has a periodic box without volume; leave @whole@ out"));
   for (const auto& [atom, from] : steps_)
     if (atom != from) positions[atom] = positions[from] + cell->shortest(positions[atom] - positions[from]);
-  // A bond that no step went along closes a ring; through the box it would join the molecule with its own image.
+  // A bond that is not in steps_ closes a ring. If it crosses the box, it joins the molecule with its own image.
   for (const auto& [a, b] : bonds_) {
     const glm::dvec3 bond = positions[b] - positions[a];
-    // Equal but for rounding, or a vector of the lattice apart, which is longer than any bond.
+    // The two vectors are equal except for rounding, or they differ by a lattice vector, which is longer than any bond.
     if (glm::length(bond - cell->shortest(bond)) > 1e-3) {
       throw InputError(where, 0,
                        message("atoms {} and {} are bonded across the periodic box to an image of their own molecule, "

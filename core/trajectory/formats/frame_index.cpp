@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the frames of a file one after another, and stores their places with a checksum.
+// Finds the frames of a file one after another, and stores their offsets with a checksum.
 #include "core/trajectory/formats/frame_index.h"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kMagic = "meniscus frame index 1\n";
 
-/// FNV-1a of Fowler, Noll and Vo, 64 bits.
+/// Returns the checksum FNV-1a of G. Fowler, L. C. Noll and K.-P. Vo, 64 bits.
 std::uint64_t checksum(std::string_view bytes) {
   std::uint64_t sum = 0xcbf29ce484222325;
   for (const char byte : bytes) sum = (sum ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
@@ -45,7 +45,7 @@ void put(std::string& bytes, std::string_view text) {
   bytes += text;
 }
 
-/// What an index must begin with to be that of this file as it is now.
+/// Returns the bytes with which the index of this file in its current state begins.
 std::string identity(const BinaryFile& file) {
   std::string bytes(kMagic);
   put(bytes, text_of_path(fs::absolute(path_of_text(file.path()))));
@@ -89,7 +89,8 @@ std::optional<FrameIndex> kept_index(const BinaryFile& file, const std::string& 
   return index;
 }
 
-/// A file that was changed a moment ago may change again without getting another time; its index is not kept.
+/// True if the file was changed in the last two seconds. It may change again without getting another time, so that its
+/// index must not be stored.
 bool changed_just_now(const BinaryFile& file) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count() - file.modified() < 2'000'000'000;
@@ -108,7 +109,7 @@ void keep_index(const BinaryFile& file, const std::string& folder, const FrameIn
     output.write(bytes);
     output.commit();
   } catch (const OutputError&) {
-    // The next time walks again, which costs time and nothing else.
+    // Without a stored index the file is walked through again, which only costs time.
   }
 }
 
