@@ -16,9 +16,9 @@ namespace meniscus {
 enum class Existing { refuse, replace };
 
 /// An output file. Its bytes go to a temporary file in the folder of the target, and commit() renames that to the
-/// target. A file that is never committed is deleted. A symbolic link at the target is replaced, never
-/// followed.\nThrows OutputError if the target exists (Existing::refuse), is an input (protect_input) or is no regular
-/// file, if its folder is missing or not writable, and if the disk is full.
+/// target. A file that is never committed is deleted. A symbolic link at the target is replaced, never followed.
+/// Throws OutputError if the target exists (Existing::refuse), is an input (protect_input) or is no regular file, if
+/// its folder is missing or not writable, and if the disk is full.
 class OutputFile {
  public:
   OutputFile(std::filesystem::path target, Existing existing);

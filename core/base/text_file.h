@@ -16,10 +16,10 @@ struct TextFile {
 };
 
 /// Reads a regular file, or standard input for "-". gzip data, also with several members, is recognized by its first
-/// bytes and unpacked. Bytes that are appended to the file meanwhile are not read.\nThrows InputError if the file is
-/// missing, unreadable, a folder, a named pipe or device, empty, binary, UTF-16 or damaged gzip, or if it was changed
-/// while it was read, other than by appending. Throws CapacityError for more than `largest` bytes after unpacking, or a
-/// line above 1 MiB.
+/// bytes and unpacked. Bytes that are appended to the file meanwhile are not read.
+/// Throws InputError if the file is missing, unreadable, a folder, a named pipe or device, empty, binary, UTF-16 or
+/// damaged gzip, or if it was changed while it was read, other than by appending. Throws CapacityError for more than
+/// `largest` bytes after unpacking, or a line above 1 MiB.
 TextFile read_text_file(const std::string& path, std::size_t largest = std::size_t{2} << 30);
 
 /// Returns the text of bytes in memory, with the checks of read_text_file. path: the name of the file, for messages.

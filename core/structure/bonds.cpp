@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Collects the bonds of a molecule from its file, from templates of residues, and from distances.
+// Collects the bonds of a molecule from its file, from templates of residues, and by distance.
 #include "core/structure/bonds.h"
 
 #include <algorithm>
@@ -28,7 +28,8 @@ namespace {
 constexpr std::string_view kBackboneBonds = "N-CA-C-O C-OXT";
 constexpr std::string_view kSugarBonds = "OP1-P-OP2 P-OP3 P-O5'-C5'-C4'-C3'-C2'-C1'-O4'-C4' C3'-O3' C2'-O2'";
 
-/// Heavy atoms of a residue beyond its backbone or sugar: paths of bonded atoms, names of wwPDB's components.
+/// The heavy atoms of residues without their backbone or sugar, as paths of bonded atoms. Names are those of the
+/// wwPDB's components.
 constexpr std::pair<std::string_view, std::string_view> kSideChainBonds[] = {
     {"ALA", "CA-CB"},
     {"ARG", "CA-CB-CG-CD-NE-CZ-NH1 CZ-NH2"},
@@ -129,7 +130,7 @@ class BondFinder {
     return reach * reach;
   }
 
-  /// Every two neighbours of "A-B-C D-E" that are both there.
+  /// Bonds every two neighbours of the paths "A-B-C D-E" that are both among the names.
   void join_path(const Names& names, std::string_view paths) {
     const std::uint32_t* last = nullptr;
     while (!paths.empty()) {
@@ -145,7 +146,7 @@ class BondFinder {
   void join_hydrogens(std::size_t r) {
     constexpr double kLongestToHydrogen = 1.6;
     for (std::uint32_t h = begins_[r]; h < begins_[r + 1]; ++h) {
-      if (atoms_[h].element > 1) continue;  // and sites without an element, such as the fourth of water models
+      if (atoms_[h].element > 1) continue;  // also for sites without an element, such as the fourth of water models
       std::uint32_t nearest = h;
       double least = kLongestToHydrogen * kLongestToHydrogen;
       for (std::uint32_t n = begins_[r]; n < begins_[r + 1]; ++n) {
@@ -167,7 +168,7 @@ class BondFinder {
   std::span<const Atom> atoms_;
   std::span<const glm::dvec3> positions_;
   const std::optional<PeriodicCell>& cell_;
-  std::vector<std::uint32_t> begins_;  ///< of the residues, and the end
+  std::vector<std::uint32_t> begins_;  ///< first atom of each residue; the last entry is the number of atoms
   Names last_names_;
   std::vector<Bond> bonds_;
 };
@@ -186,7 +187,7 @@ std::vector<Bond> guessed_bonds(std::span<const Atom> atoms, std::span<const glm
 
 namespace {
 
-constexpr double kShortestFound = 0.5;  // that of hydrogen to hydrogen, the shortest there is, is 0.74 Å long
+constexpr double kShortestFound = 0.5;  // Å; the shortest bond of all, between two hydrogens, is 0.74 Å long
 constexpr double kSlack = 0.4, kSlackBetweenStandardResidues = 0.2;
 
 class MoleculeBonds {
@@ -194,7 +195,8 @@ class MoleculeBonds {
   MoleculeBonds(std::span<const Atom> atoms, std::span<const std::int32_t> fully_bonded)
       : atoms_(atoms), fully_bonded_(fully_bonded.begin(), fully_bonded.end()), standard_(atoms.size()) {
     positions_.reserve(atoms.size());
-    std::map<std::pair<std::uint32_t, std::string_view>, char> letters;  // of each atom of a residue by its name
+    // First alternate location of each atom of a residue.
+    std::map<std::pair<std::uint32_t, std::string_view>, char> letters;
     for (const Atom& atom : atoms) {
       positions_.push_back(atom.position);
       if (atom.altloc == ' ') continue;
@@ -204,7 +206,7 @@ class MoleculeBonds {
   }
 
   void add_templates() {
-    // Formats without residues have one of all atoms.
+    // Formats without residues put all atoms into one residue without a name.
     if (std::ranges::all_of(atoms_, [](const Atom& atom) { return atom.residue_name.empty(); })) return;
     for (const Bond& bond : template_bonds(atoms_, positions_, std::nullopt))
       if (may_have_more(atoms_[bond[0]]) && add(bond[0], bond[1])) standard_[bond[0]] = standard_[bond[1]] = true;
@@ -285,8 +287,8 @@ class MoleculeBonds {
   std::span<const Atom> atoms_;
   std::set<std::int32_t> fully_bonded_;
   std::vector<glm::dvec3> positions_;
-  std::vector<bool> standard_;          ///< in a bond of a template
-  std::set<std::uint32_t> of_several_;  ///< residues that have an atom in several alternate locations
+  std::vector<bool> standard_;          ///< true for atoms with a bond from a template
+  std::set<std::uint32_t> of_several_;  ///< residues with an atom in several alternate locations
   std::vector<Bond> bonds_;
 };
 

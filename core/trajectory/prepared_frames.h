@@ -94,8 +94,9 @@ class PreparedFrames {
   /// as fast there as halfway, even if frames are independent of each other. Uniform motion stays uniform; parabolas
   /// and cubics are reproduced. Before the first frame and after the last one the path is continued on a straight line.
   /// The same holds where the next frame cannot be read or atoms jump on the way to it. The positions are then
-  /// corrected by BondedPath. Time is interpolated linearly.\nThrows InputError as read() does, and for an atom of
-  /// Preparation::followed that jumps across the periodic box between the two frames.
+  /// corrected by BondedPath. Time is interpolated linearly.
+  /// Throws InputError as read() does, and for an atom of Preparation::followed that jumps across the periodic box
+  /// between the two frames.
   void read_between(const BetweenFrames& place, Frame& frame);
 
  private:

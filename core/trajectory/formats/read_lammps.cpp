@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads text dumps of LAMMPS (dump atom, dump custom), whose atoms come in any order and go by their numbers.
+// Reads text dumps of LAMMPS (dump atom, dump custom). Their atoms come in any order and are identified by their
+// numbers.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,7 +26,7 @@
 namespace meniscus {
 namespace {
 
-/// What one unit of length is in Å and one of time in ps ("units" in the manual); 0: nobody knows.
+/// The units of LAMMPS by the name of a style: length in Å and time in ps ("units" in the manual).
 struct UnitStyle {
   std::string_view name;
   double length, time;
@@ -38,7 +39,8 @@ constexpr std::array<UnitStyle, 7> kUnitStyles{{{"real", 1.0, 1e-3},
                                                 {"micro", 1e4, 1e6},
                                                 {"nano", 10.0, 1e3}}};
 
-/// Columns of positions, the best kind first: those that go on where they leave the box keep molecules whole.
+/// The columns of positions, the preferred kind first. Unwrapped positions (xu) keep molecules whole at the sides of
+/// the box.
 struct PositionColumns {
   std::array<std::string_view, 3> names;
   bool scaled;
@@ -46,24 +48,24 @@ struct PositionColumns {
 constexpr std::array<PositionColumns, 4> kPositionColumns{
     {{{"xu", "yu", "zu"}, false}, {{"xsu", "ysu", "zsu"}, true}, {{"x", "y", "z"}, false}, {{"xs", "ys", "zs"}, true}}};
 
-/// What is above the atoms of a frame.
+/// The header of a frame.
 struct DumpHeader {
   std::optional<std::int64_t> step;
   std::optional<double> time;
-  std::string units;  ///< LAMMPS names them once, in the first frame
+  std::string units;  ///< LAMMPS writes them only once, in the first frame
   std::int64_t atoms = -1;
-  glm::dvec3 low{0.0};  ///< the corner of the box, in the file's unit
-  glm::dmat3 box{0.0};  ///< its vectors, in the columns
+  glm::dvec3 low{0.0};  ///< corner of the box, in the unit of the file
+  glm::dmat3 box{0.0};  ///< vectors of the box in the columns, in the unit of the file
   bool has_box = false, periodic = false;
   std::string columns;
 };
 
-/// Reads a header line by line; what is wrong with it is a fault.
+/// Reads a header line by line. It throws a Fault if the header is wrong.
 class HeaderReader {
  public:
   explicit HeaderReader(FileLines& lines) : lines_(lines) {}
 
-  /// Up to the line of columns. False: the file ends before it. Throws the words of a fault.
+  /// Reads up to the line with the names of columns. False if the file ends before it. Throws Fault.
   bool read(DumpHeader& header) {
     for (std::string_view line; next(line);) {
       if (trimmed(line).empty()) continue;
@@ -78,7 +80,7 @@ class HeaderReader {
     return false;
   }
 
-  bool only_blanks() const { return only_blanks_; }  ///< nothing but blanks was read
+  bool only_blanks() const { return only_blanks_; }  ///< true if only blank lines were read
 
   struct Fault {
     std::string words;
@@ -89,7 +91,7 @@ class HeaderReader {
     if (!lines_.next(line)) return false;
     line = without_return(line);
     only_blanks_ = only_blanks_ && trimmed(line).empty();
-    return lines_.ended_by_newline();  // else the end of the file cuts it
+    return lines_.ended_by_newline();  // without a line feed the line may be cut by the end of the file
   }
 
   static Fault fault(fmt::format_string<std::string> words, std::string_view text) {
@@ -118,8 +120,9 @@ class HeaderReader {
     return true;
   }
 
-  /// Three lines: low, high, and of an inclined box xy, xz, yz; bounds are then those of the box around it (manual,
-  /// "Triclinic simulation boxes"). Boundaries: "pp" is periodic.
+  /// Reads three lines with low and high bounds, and xy, xz or yz of a triclinic box. In that case the bounds are those
+  /// of the box around it (manual, "Triclinic simulation boxes"). Boundaries "pp" mean that the box is periodic. False
+  /// if the file ends before the third line.
   bool take_box(std::string_view words, DumpHeader& header) {
     const std::vector<std::string_view> fields = fields_of(words);
     if (!fields.empty() && fields.front() == "abc")
@@ -170,7 +173,7 @@ class LammpsDump final : public Trajectory {
   }
 
  private:
-  /// Goes through the lines of a frame without reading its atoms.
+  /// Finds the extent of a frame without parsing its atoms.
   FrameExtent extent_at(std::uint64_t offset) {
     constexpr std::uint64_t kEndless = std::uint64_t{1} << 62;
     DumpHeader header;
@@ -185,7 +188,7 @@ class LammpsDump final : public Trajectory {
     std::string_view line;
     for (std::int64_t n = 0; n < header.atoms; ++n)
       if (!lines_.next(line)) return {kEndless, true, {}};
-    // LAMMPS ends every line, but other programs do not.
+    // LAMMPS ends every line, but other programs do not end the last one.
     constexpr std::size_t kMost = 1000;
     const bool whole = lines_.ended_by_newline() ||
                        fields_of(without_return(line), kMost).size() >= fields_of(header.columns, kMost).size();
@@ -223,9 +226,9 @@ class LammpsDump final : public Trajectory {
                      fmt::format("frame {} at byte {} {}", number, with_thousands(index_.offsets[number]), what));
   }
 
-  /// Where the columns of an atom are that are read: its number, and three of its position.
+  /// The columns that are read: the number of an atom and its three coordinates.
   struct Columns {
-    std::array<std::size_t, 4> place;  ///< the first is beyond all columns where there are no numbers
+    std::array<std::size_t, 4> place;  ///< the first is beyond all columns if atoms have no numbers
     std::size_t last;
     bool scaled;
   };
@@ -292,7 +295,7 @@ class LammpsDump final : public Trajectory {
     placed_.push_back(columns.scaled ? header.low + header.box * p : p);
   }
 
-  /// By their numbers, which must be those of the first frame.
+  /// Sorts the atoms by their numbers, which must be those of the first frame.
   void sort_atoms(std::uint64_t number) {
     if (!std::ranges::is_sorted(found_)) {
       std::vector<std::size_t> order(found_.size());
@@ -309,7 +312,8 @@ class LammpsDump final : public Trajectory {
     }
     const auto twice = std::ranges::adjacent_find(found_);
     if (twice != found_.end()) refuse(number, fmt::format("has the atom {} twice", *twice));
-    if (numbers_.empty() || found_.size() != numbers_.size()) return;  // the first, or of another number of atoms
+    // This is the first frame, or the caller refuses it for its number of atoms.
+    if (numbers_.empty() || found_.size() != numbers_.size()) return;
     const auto other = std::ranges::mismatch(found_, numbers_);
     if (other.in1 != found_.end())
       refuse(number,
@@ -322,9 +326,9 @@ class LammpsDump final : public Trajectory {
   FrameIndex index_;
   bool trusts_order_ = false;
   double length_ = 1.0, time_ = 0.0;
-  std::vector<std::int64_t> numbers_;  ///< of the atoms, ascending
-  std::vector<std::int64_t> found_;    ///< those of the frame that is read
-  std::vector<glm::dvec3> placed_;     ///< their positions in the file's unit
+  std::vector<std::int64_t> numbers_;  ///< of all atoms, ascending
+  std::vector<std::int64_t> found_;    ///< numbers of the atoms of the current frame
+  std::vector<glm::dvec3> placed_;     ///< positions of the atoms of the current frame, in the unit of the file
 };
 
 bool recognizes(std::string_view start) {
