@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads PDB: its columns strictly where a surface needs them, leniently elsewhere. No library does both and keeps the
+// Reads PDB: strictly in the columns that a surface needs, leniently elsewhere. No library does both and keeps the
 // order of the file and residues whose numbers wrap.
 #include "core/structure/formats/read_pdb.h"
 
@@ -30,13 +30,14 @@
 namespace meniscus {
 namespace {
 
-constexpr std::size_t kCoordinatesEnd = 54, kBehind = 66;  // the columns end
+constexpr std::size_t kCoordinatesEnd = 54, kBehind = 66;  // ends of columns
 
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
-/// What the place of the name in its columns 13 to 16 suggests: elements of one letter begin in column 14 (gemmi skips
-/// the blank), but hydrogens of long names (HG11, 1HB) in 13. A small letter ("Cl1") is the second of the symbol.
+/// Returns the element by the position of the name in columns 13 to 16. Elements of one letter begin in column 14
+/// (gemmi ignores the blank), but hydrogens with long names (HG11, 1HB) in column 13. A lower-case letter ("Cl1") is
+/// the second letter of the symbol.
 gemmi::Element element_by_place(std::string_view name) {
   const char letters[3] = {name[0], name[1], '\0'};
   const char first[2] = {name[0], '\0'};
@@ -105,14 +106,15 @@ class PdbReader {
     }
   }
 
-  /// From column 11 on; a predicted model is none.
+  /// Reads the experimental method from column 11 on. Predicted models have none.
   void take_experiment(std::string_view line) {
     if (line.size() <= 10 || line.find("MODEL") != std::string_view::npos || !contents_.experiment.empty()) return;
     contents_.experiment = std::string(trimmed(line.substr(10)));
   }
 
-  /// chain, number and insertion code of the first residue and of the last are in columns from these on, but for a
-  /// blank between chain and number in HELIX. Records that cannot be read are passed over: they colour nothing.
+  /// Reads a helix or strand. Chain, number and insertion code of the first and last residue begin at these columns. In
+  /// HELIX a blank separates chain and number. Records that cannot be read are ignored, because nothing but colours
+  /// depends on them.
   void take_range(std::string_view line, SecondaryStructure kind, std::size_t first, std::size_t last) {
     const std::size_t gap = kind == SecondaryStructure::helix ? 2 : 1;
     if (line.size() < last + gap + 4) return;
@@ -126,7 +128,7 @@ class PdbReader {
     if (residue(first, range.first) && residue(last, range.last)) secondary_.push_back(std::move(range));
   }
 
-  /// Atoms after END belong to a further model, as molecular dynamics programs write them.
+  /// Begins a model if none is open. Atoms after END belong to a new model, as molecular dynamics programs write them.
   void open_model() {
     if (open_ && ended_ && !in_model_record_) {
       ++unmarked_models_;
@@ -179,7 +181,8 @@ class PdbReader {
     if (contents_.atoms.front().model == model()) bonds_.add_atom(line);
   }
 
-  /// Behind a number of more digits than its columns the points of all coordinates are further to the right.
+  /// Throws InputError if the decimal points of all coordinates are too far to the right, as after a number with more
+  /// digits than columns.
   void refuse_shifted(std::string_view line, std::size_t number) const {
     for (const std::size_t shift : {1, 2, 3})
       if (line.size() > 50 + shift && line[34 + shift] == '.' && line[42 + shift] == '.' && line[50 + shift] == '.')
@@ -198,8 +201,9 @@ class PdbReader {
     return std::numeric_limits<float>::quiet_NaN();
   }
 
-  /// TER marks what precedes it as polymer, yet some programs write one TER at the very end; so only HETATM behind a
-  /// TER of its chain is a statement, and where chains have no names, a TER may have ended another.
+  /// Takes the element. TER marks the residues before it as polymer, but some programs write a single TER at the very
+  /// end. Therefore only HETATM after a TER of the same chain is a statement. If chains have no names, that TER may
+  /// belong to another chain.
   void take_element(std::string_view line, std::size_t number, Atom& atom) {
     AtomHints& hints = hints_.emplace_back();
     hints.heteroatom = is_pdb_record(line, "HETATM");
@@ -224,7 +228,7 @@ class PdbReader {
     }
   }
 
-  /// Counts names that begin in column 14, and short ones of elements of one letter that do not (C1, OAB, CAB), for
+  /// Counts names that begin in column 14, and short names of one-letter elements that do not (C1, OAB, CAB), because
   /// some programs begin all names in column 13.
   void count_place(std::string_view name) {
     if (name[0] == ' ' && is_letter(name[1])) ++right_;
@@ -233,7 +237,7 @@ class PdbReader {
     if (of_one || (name.starts_with("CA") && name[2] != ' ')) ++left_;
   }
 
-  /// Two serial numbers: a bond that turns in docking.
+  /// Reads two serial numbers, which are the atoms of a rotatable bond in docking.
   void take_branch(std::string_view line) {
     const std::vector<std::string_view> fields = fields_of(line, 3);
     const bool of_first = contents_.atoms.empty() || contents_.atoms.front().model == model();

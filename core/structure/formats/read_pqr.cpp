@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads PQR files: PDB records whose fields are separated by blanks, with charge and radius.
+// Reads PQR files: records of PDB with charge and radius, whose fields are separated by blanks.
 #include "core/structure/formats/read_pqr.h"
 
 #include <algorithm>
@@ -22,15 +22,15 @@
 namespace meniscus {
 namespace {
 
-constexpr std::size_t kNumbersStart = 30, kChargeStart = 54;  // PDB's columns 31 and 55
+constexpr std::size_t kNumbersStart = 30, kChargeStart = 54;  // columns 31 and 55 of PDB
 
 bool is_number(std::string_view field) {
   double ignored = 0.0;
   return parse_number(field, ignored);
 }
 
-/// Blank-separated: serial, name, residue, chain if there is one, number, insertion code if it is alone; then five
-/// numbers.
+/// Splits a record at blanks. It has serial number, name, residue, an optional chain, number, an optional separate
+/// insertion code, and five numbers.
 std::optional<PqrRecord> by_blanks(std::string_view line) {
   std::vector<std::string_view> fields = fields_of(line.substr(line[0] == 'A' || line[0] == 'a' ? 4 : 6), 13);
   if (fields.size() < 9 || fields.size() > 11) return std::nullopt;
@@ -51,7 +51,8 @@ std::optional<PqrRecord> by_blanks(std::string_view line) {
   return record;
 }
 
-/// In PDB's columns up to the coordinates, so that fields may touch; charge and radius follow.
+/// Splits a record at the columns of PDB up to the coordinates, where fields may touch. Charge and radius follow,
+/// separated by blanks.
 std::optional<PqrRecord> by_columns(std::string_view line) {
   if (line.size() <= kChargeStart) return std::nullopt;
   const std::vector<std::string_view> behind = fields_of(line.substr(kChargeStart), 3);
@@ -80,7 +81,8 @@ bool has_pdb_coordinates(std::string_view line) {
          is_number(line.substr(kNumbersStart + 8, 8)) && is_number(line.substr(kNumbersStart + 16, 8));
 }
 
-/// Occupancy and B-factor fill six columns each; PQR's numbers have more decimals and cross the border.
+/// True if occupancy and B-factor fill six columns each. The numbers of PQR have more decimals and extend over the
+/// border.
 bool has_occupancy_and_b_factor(std::string_view line) {
   return has_pdb_coordinates(line) && line.size() > 60 && is_number(line.substr(54, 6)) &&
          is_number(line.substr(60, 6)) && (line.size() <= 66 || line[66] == ' ');
@@ -180,7 +182,8 @@ class PqrReader {
     contents_.atoms.push_back(std::move(atom));
   }
 
-  /// Occupancies and B-factors of a PDB file look like charges and radii, but not like good ones.
+  /// Warns of radii that are not plausible, as when the occupancies and B-factors of a PDB file are read as charges and
+  /// radii.
   void warn_of_doubtful_radii() {
     const std::vector<Atom>& atoms = contents_.atoms;
     const auto all = [&](auto&& is) { return !atoms.empty() && std::all_of(atoms.begin(), atoms.end(), is); };

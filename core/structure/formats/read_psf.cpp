@@ -42,12 +42,13 @@ class PsfReader {
   }
 
  private:
-  /// Goes to the line "N !NAME..."; the N. Nothing where there is none, as in files without a topology.
+  /// Goes to the line "N !NAME..." and returns N. Nothing if there is no such line, as in files without a topology.
   std::optional<std::size_t> find_section(std::string_view name) {
     for (std::string_view line; lines_.next(line);) {
       const std::size_t at = line.find(name);
       std::int64_t count = 0;
-      if (at == std::string_view::npos || !parse_whole_number(line.substr(0, at), count)) continue;  // a title, perhaps
+      // The line may be a title.
+      if (at == std::string_view::npos || !parse_whole_number(line.substr(0, at), count)) continue;
       if (count < 0) throw InputError(file_.path, lines_.number(), fmt::format("{} says {}", name, count));
       if (static_cast<std::uint64_t>(count) > lines_.bytes_left() / 2) {
         throw InputError(
@@ -75,11 +76,12 @@ class PsfReader {
     return parse_residue_number(field, ignored.residue_number, ignored.insertion_code);
   }
 
-  /// Number, segment, residue, its name, atom name, type, charge, mass, and what follows.
+  /// Returns segment, residue number, residue name, atom name, type, charge and mass of a line.
   std::array<std::string_view, 7> columns_of(std::string_view line) const {
     std::vector<std::string_view> fields = fields_of(line, 12);
     if (fields.size() == 8) {
-      // A blank segment, or, where the residue's number is behind one, a blank type, as ProDy writes.
+      // Either the segment is blank or, if the second field is no number but the third is, the type, as ProDy writes
+      // it.
       const bool has_segment = !is_residue_number(fields[1]) && is_residue_number(fields[2]);
       fields.insert(fields.begin() + (has_segment ? 5 : 1), std::string_view());
     }
@@ -94,7 +96,7 @@ class PsfReader {
     return {fields[1], fields[2], fields[3], fields[4], fields[5], fields[6], fields[7]};
   }
 
-  /// Where several columns are blank: as CHARMM has them, of four letters or of eight.
+  /// Splits a line in which several fields are blank at the columns of CHARMM, which have four or eight letters.
   std::vector<std::string_view> fixed_columns_of(std::string_view line) const {
     const std::size_t number = extended_ ? 10 : 8, width = extended_ ? 8 : 4;
     std::vector<std::string_view> fields{line.substr(0, number)};
@@ -132,7 +134,7 @@ class PsfReader {
     std::vector<std::uint32_t> ends;
     ends.reserve(2 * count);
     for (std::string_view line; ends.size() < 2 * count && lines_.next(line);) {
-      if (line.find('!') != std::string_view::npos) break;  // the next section
+      if (line.find('!') != std::string_view::npos) break;  // the next section begins
       take_bond_ends(line, 2 * count, ends);
     }
     if (ends.size() < 2 * count) {
@@ -143,7 +145,8 @@ class PsfReader {
     for (std::size_t n = 0; n < count; ++n) contents_.bonds.push_back({ends[2 * n], ends[2 * n + 1]});
   }
 
-  /// Numbers fill their columns in the largest systems, so that no blank is left between them.
+  /// Appends the atoms of a line of bonds. In the largest systems numbers fill their columns, so that no blanks
+  /// separate them.
   void take_bond_ends(std::string_view line, std::size_t most, std::vector<std::uint32_t>& ends) const {
     const std::size_t width = extended_ ? 10 : 8;
     const bool touching =
