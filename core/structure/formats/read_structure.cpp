@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chooses the reader, decides for each atom whether it is used, and counts the decisions.
+// Chooses the reader of a file, decides for each atom whether it is used, and counts the decisions.
 #include "core/structure/formats/read_structure.h"
 
 #include <algorithm>
@@ -24,8 +24,8 @@
 namespace meniscus {
 namespace {
 
-/// Lone pairs (LP and what follows), the mass-less sites of water models (EP, M, MW, with digits) and of AutoDock (G in
-/// opened rings, TZ at zinc), and the dummy atoms with which the OPM database draws membranes.
+/// True for lone pairs (names beginning with LP), for massless sites of water models (EP, M, MW, with digits) and of
+/// AutoDock (G in opened rings, TZ at zinc), and for the dummy atoms by which the OPM database draws membranes.
 bool is_virtual_site(const Atom& atom) {
   if (atom.residue_name == "DUM") return true;
   if (atom.element != 0) return false;
@@ -38,15 +38,15 @@ bool is_virtual_site(const Atom& atom) {
 
 bool is_hydrogen(const Atom& atom) { return atom.element == 1; }
 
-/// Whether a potential of the file's charges has this atom's, too, and a surface of the whole file its ball. Atoms of
-/// other alternate locations are where one is used.
+/// True if an atom that is left out has a charge in the file's potential and a ball in a surface of the whole file. An
+/// atom of another alternate location has none, because it is at the place of an atom that is used.
 bool has_charge_and_room(const Atom& atom, std::string_view reason) {
   return atom.charge != 0.0f && !std::isnan(atom.charge) && reason != kExcludedAltloc && reason != kExcludedVirtual &&
          reason != kExcludedRadius;
 }
 
-/// Moves the atoms without a reason to be left out to the front of `atoms`, counts the reasons of the others, and moves
-/// those of them that are shown to `beside`.
+/// Moves the atoms without a reason for leaving them out to the front of `atoms`. The reasons of the others are
+/// counted, and those of them that are shown are moved to `beside`.
 template <typename Reason>
 void leave_out(std::vector<Atom>& atoms, std::vector<Atom>& beside, ReadReport& report, Reason&& reason_of) {
   std::size_t kept = 0;
@@ -63,8 +63,8 @@ void leave_out(std::vector<Atom>& atoms, std::vector<Atom>& beside, ReadReport& 
   atoms.resize(kept);
 }
 
-/// What selections mean: what they select of atoms where these are, or all that they may select somewhere. In a frame
-/// of a run nothing may be drawn beside the surface.
+/// How selections are evaluated: for the current positions of atoms, for those in a frame of a trajectory, where
+/// nothing may be selected, or for all positions that atoms may have.
 enum class Meaning { here, in_a_frame, anywhere };
 
 std::vector<bool> selected_of(const Selection& selection, const std::vector<Atom>& atoms, Meaning meaning) {
@@ -91,13 +91,13 @@ bool keeps_hydrogens(const std::vector<Atom>& atoms, const ReadOptions& options,
   return !radii.united(std::any_of(atoms.begin(), atoms.end(), [](const Atom& atom) { return is_hydrogen(atom); }));
 }
 
-/// Why the atoms of a file that are of the right model and alternate location are not taken.
+/// Decides for atoms of the right model and alternate location whether they are used.
 class Choice {
  public:
   Choice(const std::vector<Atom>& atoms, const ReadOptions& options, const RadiiChoice& radii)
       : options_(options), from_file_(radii.from_molecule_file()), hydrogens_(keeps_hydrogens(atoms, options, radii)) {}
 
-  /// Null: it is. named: does the selection speak of it?
+  /// Returns the reason for leaving an atom out; null if it is used. named: true if the selection names the atom.
   const char* reason(const Atom& atom, bool selected, bool named) const {
     if (!selected) return kExcludedSelection;
     if (from_file_) {
@@ -116,7 +116,7 @@ class Choice {
   bool from_file_, hydrogens_;
 };
 
-/// Sets Atom::shown.
+/// Sets Atom::shown. Throws InputError if a selection shows no atoms, except in a frame.
 void mark_shown(std::vector<Atom>& atoms, std::span<const ShownAtoms> shown, const Choice& choice,
                 const RadiiChoice& radii, const std::string& path, Meaning meaning) {
   if (shown.size() > kMostShown)
@@ -143,7 +143,7 @@ void mark_shown(std::vector<Atom>& atoms, std::span<const ShownAtoms> shown, con
   }
 }
 
-/// What each atom is left out for, in the order of the reasons in structure.h.
+/// Leaves out atoms for the reasons in structure.h, in their order.
 void choose_atoms(std::vector<Atom>& atoms, const std::vector<bool>& sites, std::vector<Atom>& beside,
                   const ReadOptions& options, const RadiiChoice& radii, ReadReport& report, const std::string& path,
                   Meaning meaning) {
@@ -165,7 +165,7 @@ void choose_atoms(std::vector<Atom>& atoms, const std::vector<bool>& sites, std:
   leave_out(atoms, beside, report, [&](std::size_t n) { return choice.reason(atoms[n], selected[n], named[n]); });
 }
 
-/// Gives radii to the atoms beside the surface; returns the labels of those whose element nobody knows.
+/// Assigns radii to the atoms in `beside`. Returns the labels of those whose element is unknown.
 std::vector<std::string> assign_beside(Structure& structure, const RadiiChoice& radii) {
   if (structure.beside.empty()) return {};
   Structure beside;
@@ -175,7 +175,7 @@ std::vector<std::string> assign_beside(Structure& structure, const RadiiChoice& 
   return unknown;
 }
 
-/// Copies the atoms beside the surface as those of the surface are.
+/// Makes the copies of the assembly for the atoms in `beside`.
 void assemble_beside(Structure& structure, const Assembly& assembly) {
   std::erase_if(structure.beside, [&](const Atom& atom) { return !names_chain_of(assembly, atom); });
   if (structure.beside.empty()) return;
@@ -186,7 +186,7 @@ void assemble_beside(Structure& structure, const Assembly& assembly) {
   structure.beside = std::move(beside.atoms);
 }
 
-/// The bonds of all shown atoms, which are in atoms and, after them, in beside.
+/// Returns the bonds of all shown atoms, as places in `atoms` followed by `beside`.
 std::vector<Bond> bonds_of_shown(const Structure& structure, const FileContents& contents) {
   const std::size_t own = structure.atoms.size();
   const auto atom = [&](std::uint32_t n) -> const Atom& {
@@ -195,7 +195,7 @@ std::vector<Bond> bonds_of_shown(const Structure& structure, const FileContents&
   std::vector<std::uint32_t> places;
   for (std::uint32_t n = 0; n < own + structure.beside.size(); ++n)
     if (atom(n).shown != 0) places.push_back(n);
-  // Residues come as the file has them.
+  // Residues must be in the order of the file.
   std::stable_sort(places.begin(), places.end(), [&](std::uint32_t a, std::uint32_t b) {
     return std::pair(atom(a).copy, atom(a).index) < std::pair(atom(b).copy, atom(b).index);
   });
@@ -216,7 +216,7 @@ void refuse_no_atoms(const Structure& structure) {
                            structure.report.sentence()));
 }
 
-/// why: FileContents::unknown_elements.
+/// Throws InputError if elements are unknown. why: FileContents::unknown_elements.
 void halt_on_unknown_elements(const Structure& structure, const std::vector<std::string>& unknown,
                               const std::string& why) {
   if (unknown.empty()) return;
@@ -255,7 +255,7 @@ void warn_of_missing_altloc(Structure& structure, const std::vector<Atom>& atoms
       fmt::format("no atom has the alternate location {}; the best one of each residue is used", choice.letter));
 }
 
-/// Leaves what a trajectory has of the atoms and bonds, counted again.
+/// Removes the atoms and bonds that a trajectory does not have. The places of the others are counted again.
 void keep_trajectory_atoms(FileContents& contents, const Selection& selection, const TextFile& file,
                            ReadReport& report) {
   const auto refuse = [&](const std::string& what) {
@@ -285,7 +285,7 @@ void keep_trajectory_atoms(FileContents& contents, const Selection& selection, c
     for (std::uint32_t& end : bond) end = place[end];
 }
 
-/// The atoms of a topology are where the options say.
+/// Sets the positions of a topology to those of the options.
 void place_atoms(FileContents& contents, const ReadOptions& options, const TextFile& file) {
   if (!contents.without_positions) return;
   if (options.positions.empty())
@@ -300,7 +300,7 @@ void place_atoms(FileContents& contents, const ReadOptions& options, const TextF
   for (std::size_t n = 0; n < contents.atoms.size(); ++n) contents.atoms[n].position = options.positions[n];
 }
 
-/// Lists all assemblies; broken records of them are a warning.
+/// Lists all assemblies. If their records are broken, a warning is added.
 void list_assemblies(Structure& structure, const TextFile& file, const Reader& reader) {
   try {
     if (reader.assemblies) structure.assemblies = reader.assemblies(file);
@@ -309,7 +309,7 @@ void list_assemblies(Structure& structure, const TextFile& file, const Reader& r
   }
 }
 
-/// The assembly that is to be built, if there is one.
+/// Returns the requested assembly, or nothing.
 std::optional<Assembly> asked_assembly(const TextFile& file, const Reader& reader, const ReadOptions& options) {
   if (options.assembly.empty()) return {};
   if (!reader.assemblies) {
@@ -319,7 +319,7 @@ std::optional<Assembly> asked_assembly(const TextFile& file, const Reader& reade
   return find_assembly(reader.assemblies(file), options.assembly, file.path);
 }
 
-/// Whether atoms are chosen by the copy that they are in, so that copies have to be made before.
+/// True if a selection distinguishes copies, so that copies must be made before atoms are selected.
 bool names_copies(const ReadOptions& options) {
   const auto of_some = [](const auto& each) { return each.atoms.names_copies(); };
   return options.copy_mode == CopyMode::atoms &&
@@ -327,7 +327,7 @@ bool names_copies(const ReadOptions& options) {
           std::ranges::any_of(options.radii.overrides, of_some));
 }
 
-/// Makes the copies of all atoms, which then count as read.
+/// Makes the copies of all atoms. They count as atoms that were read.
 void copy_atoms(std::vector<Atom>& atoms, const Assembly& assembly, Structure& structure) {
   const std::size_t of_file = atoms.size();
   structure.atoms = std::move(atoms);
@@ -337,7 +337,8 @@ void copy_atoms(std::vector<Atom>& atoms, const Assembly& assembly, Structure& s
   std::erase_if(structure.report.excluded, [](const auto& reason) { return reason.second == 0; });
 }
 
-/// Of atoms shown together, places in Structure::atoms and, after them, in beside, by Atom::index.
+/// Converts bonds from Atom::index to places in Structure::atoms followed by `beside`. Only bonds between shown atoms
+/// are returned.
 std::vector<Bond> places_of(const Structure& structure, const std::vector<Bond>& by_index) {
   std::unordered_map<std::uint32_t, std::uint32_t> places;
   std::uint32_t next = 0;
@@ -353,7 +354,7 @@ std::vector<Bond> places_of(const Structure& structure, const std::vector<Bond>&
 
 }  // namespace
 
-/// What is read once.
+/// The contents of a file, which is read once.
 struct StructureFile::Parts {
   Parts(const std::string& path, const ReadOptions& asked)
       : options(asked),
@@ -407,7 +408,8 @@ struct StructureFile::Parts {
     added.emplace(file.path, options.added, options.model, options.superpose_on, contents);
   }
 
-  /// atoms: those of the contents, wherever the first file has them. Without bonds of what is shown.
+  /// Makes a structure of atoms, which are those of the contents at any positions. Structure::shown_bonds is not filled
+  /// in.
   Structure choose(std::vector<Atom> atoms, Meaning meaning) const {
     Structure structure;
     structure.file = file.path;
@@ -450,8 +452,8 @@ struct StructureFile::Parts {
   ReadReport report;
   std::shared_ptr<const Topology> topology;
   std::optional<RadiiChoice> radii;
-  std::vector<std::string> chains;   ///< Structure::chains
-  std::vector<Bond> bonds_by_index;  ///< of all that may be shown
+  std::vector<std::string> chains;   ///< becomes Structure::chains
+  std::vector<Bond> bonds_by_index;  ///< bonds of all atoms that may be shown, by Atom::index
 };
 
 StructureFile::StructureFile(const std::string& path, const ReadOptions& options)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads XYZ: frames of a count, a comment and a line for each atom.
+// Reads XYZ: frames with a count, a comment and one line for each atom.
 #include <algorithm>
 #include <array>
 #include <bitset>
@@ -19,14 +19,15 @@
 namespace meniscus {
 namespace {
 
-/// Which fields of a line hold what, counted from 0.
+/// The places of the fields in a line, counted from 0.
 struct Columns {
   std::size_t element = 0;
-  std::size_t position = 1;  ///< and the two behind it
+  std::size_t position = 1;  ///< place of x, which y and z follow
   std::size_t count() const { return std::max(element + 1, position + 3); }
 };
 
-/// Extended XYZ says Properties=species:S:1:pos:R:3:... in its comment: name, kind, number of columns.
+/// Returns the columns of a frame. In extended XYZ the comment has Properties=species:S:1:pos:R:3:..., where each
+/// property has a name, a kind and a number of columns.
 Columns columns_of(std::string_view comment) {
   Columns columns;
   constexpr std::string_view kKey = "Properties=";
@@ -55,7 +56,7 @@ Columns columns_of(std::string_view comment) {
   return {species ? *species : *number, *position};
 }
 
-/// Fortran writes exponents with D.
+/// Parses a number. Fortran writes exponents with D.
 bool parse_fortran_number(std::string_view field, double& number) {
   if (parse_number(field, number)) return true;
   std::string text(field);
@@ -64,7 +65,8 @@ bool parse_fortran_number(std::string_view field, double& number) {
   return parse_number(text, number);
 }
 
-/// A symbol of any case, digits behind it aside ("C", "CL", "H12"), or an atomic number; 0 if it is neither.
+/// Returns the element of a symbol in upper or lower case, which digits may follow ("C", "CL", "H12"), or of an atomic
+/// number. 0 if the word is neither.
 std::uint8_t element_of(std::string_view word) {
   std::int64_t number = 0;
   if (parse_whole_number(word, number)) return static_cast<std::uint8_t>(number > 0 && number <= 118 ? number : 0);
@@ -96,7 +98,7 @@ class XyzReader {
   }
 
  private:
-  /// The shortest line of an atom is "H 0 0 0", but for its end.
+  /// Returns the number of atoms of a frame. The shortest line of an atom is "H 0 0 0", without its line end.
   std::size_t count_of(std::string_view line) const {
     constexpr std::size_t kShortestLine = 8;
     std::int64_t count = 0;
@@ -120,7 +122,7 @@ class XyzReader {
     ++contents_.models;
     std::string_view line;
     const Columns columns = lines_.next(line) ? columns_of(line) : Columns{};
-    of_lammps_ = line.starts_with("Atoms. Timestep:") || trimmed(line) == "Atoms";  // the latter of old
+    of_lammps_ = line.starts_with("Atoms. Timestep:") || trimmed(line) == "Atoms";  // the latter in old versions
     const bool wanted = choice_.takes(static_cast<std::int32_t>(contents_.models));
     for (std::size_t n = 0; n < count; ++n) {
       if (!lines_.next(line)) refuse_short_frame(file_, count_line, count, n);
@@ -162,7 +164,7 @@ class XyzReader {
     contents_.atoms.push_back(std::move(atom));
   }
 
-  /// Types count from 1, but few molecules hold helium.
+  /// Warns if the numbers of elements may be types of atoms. Types count from 1, while few molecules contain helium.
   void tell_types() {
     if (types_)
       contents_.unknown_elements =
@@ -180,7 +182,7 @@ class XyzReader {
   const ModelChoice& choice_;
   LineReader lines_;
   FileContents contents_;
-  std::bitset<128> numbers_;  ///< elements that are given as such
+  std::bitset<128> numbers_;  ///< elements that are written as numbers
   bool symbols_ = false, types_ = false, of_lammps_ = false;
 };
 
@@ -193,7 +195,8 @@ bool recognizes(std::string_view text) {
   return lines.next(line) && is_atom_line(line, columns);
 }
 
-/// Rows of Tinker begin with the number of the atom and its name; the box may be before them.
+/// True for XYZ of Tinker, whose rows begin with the number and the name of the atom. A line with the box may precede
+/// them.
 bool is_of_tinker(std::string_view text) {
   LineReader lines(text);
   std::string_view line;

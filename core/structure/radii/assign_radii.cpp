@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gives each atom its radius; atoms of equal names and element are looked up once.
+// Assigns radii. Atoms with the same names and element are looked up once.
 #include "core/structure/radii/assign_radii.h"
 
 #include <algorithm>
@@ -80,7 +80,8 @@ RadiiChoice::RadiiChoice(const RadiiOptions& options, const std::string& molecul
   refuse_covering_none(molecule_file, atoms);
 }
 
-/// Radii given one by one may be all that is wanted.
+/// Throws InputError if no atom has a radius of the chosen set or files. There is no error with overrides, because they
+/// may be all that the user wants.
 void RadiiChoice::refuse_covering_none(const std::string& molecule_file, std::span<const Atom> atoms) const {
   const auto is_covered = [this](const Atom& atom) { return radius_for(atom, true).covered; };
   if (atoms.empty() || options_.may_cover_none || !options_.overrides.empty() || std::ranges::any_of(atoms, is_covered))
@@ -114,7 +115,7 @@ std::vector<RadiiChoice::Given> RadiiChoice::radii_for(const Structure& structur
   std::unordered_map<std::string, Given> known;
   std::string key;
   for (const Atom& atom : structure.atoms) {
-    if (from_file_) {  // every atom has a radius of its own
+    if (from_file_) {  // each atom has its own radius
       given.push_back(radius_for(atom, hydrogens_used));
       continue;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Evaluates parsed selections: each step for all atoms at once, with sets on a stack.
+// Evaluates parsed selections step by step, each step for all atoms, with a stack of sets.
 #include "core/structure/selection/selection.h"
 
 #include <algorithm>
@@ -65,7 +65,8 @@ double number_of(AtomField field, const Atom& atom) {
   }
 }
 
-/// Atoms keep some values in single precision: 20.1 in the file must equal 20.1 in the expression.
+/// Rounds a value as atoms store it. Some values have single precision, so that 20.1 in the file must equal 20.1 in the
+/// expression.
 double as_kept(AtomField field, double value) {
   const bool single = field == AtomField::b_factor || field == AtomField::occupancy || field == AtomField::charge;
   return single ? static_cast<float>(value) : value;
@@ -102,7 +103,8 @@ bool has_copies(std::span<const Atom> atoms) {
   return std::ranges::any_of(atoms, [](const Atom& atom) { return atom.copy > 0; });
 }
 
-/// Whether the values name the atom. A copied chain has two names: that of its file, and one with the copy's number.
+/// True if one of the values matches the atom. A chain of a copy has two names: the one in the file, and the one with
+/// the number of the copy.
 bool names(const TextTest& test, const Atom& atom, bool copied) {
   const auto is_one = [&](const std::string& text) {
     return std::ranges::any_of(test.values, [&](const TextPattern& pattern) { return matches(pattern, text); });
@@ -112,7 +114,7 @@ bool names(const TextTest& test, const Atom& atom, bool copied) {
   return is_one(atom.copy > 0 ? chain_of_file(atom) : atom.chain + "-1");
 }
 
-/// Carries out one step after another; each overload is a kind of step.
+/// Evaluates one step after another. Each overload evaluates one kind of step.
 class Evaluation {
  public:
   explicit Evaluation(std::span<const Atom> atoms) : atoms_(atoms), copied_(has_copies(atoms)) {}
@@ -222,7 +224,7 @@ bool is_of_coordinates(const SelectionStep& step) {
   return (numbers && is_one(numbers->field)) || (comparison && is_one(comparison->field));
 }
 
-/// Do the step's values, wildcards aside, say what this atom is?
+/// True if the values of a step, other than wildcards, name this water or ion.
 bool names_by(const SelectionStep& step, const Atom& atom, const std::set<std::string>& names_of_others) {
   if (const auto* test = std::get_if<FlagTest>(&step)) {
     return (test->flag == AtomFlag::water && atom.kind == AtomClass::water) ||
@@ -327,7 +329,8 @@ bool Selection::uses_positions() const {
   });
 }
 
-// What is surely selected and what may be, side by side.
+// Two evaluations run in parallel: one of the atoms that are always selected, and one of the atoms that may be
+// selected.
 Selection::Reach Selection::reach(std::span<const Atom> atoms) const {
   Evaluation surely(atoms), perhaps(atoms);
   Reach reach{{}, Set(atoms.size(), false)};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Classifies atoms residue by residue where the answer depends on the other atoms, else atom by atom.
+// Classifies atoms residue by residue if the class depends on other atoms, and otherwise atom by atom.
 #include "core/structure/selection/selection_classes.h"
 
 #include <algorithm>
@@ -22,19 +22,20 @@ bool among(std::string_view names, const std::string& name) {
   return names.find(' ' + name + ' ') != std::string_view::npos;
 }
 
-// After IUPAC-IUB 1970 and 1983, with the older names of phosphate oxygens (O1P) and sugars (C5*).
+// Names by IUPAC-IUB 1970 and 1983, with the older names of phosphate oxygens (O1P) and sugars (C5*).
 constexpr std::string_view kProteinBackbone = " N CA C O ";
 constexpr std::string_view kProteinMainChain =
     " N CA C O OXT OT OT1 OT2 H H1 H2 H3 HN HT1 HT2 HT3 1H 2H 3H HA HA1 HA2 HA3 1HA 2HA HXT D D1 D2 D3 DA ";
 constexpr std::string_view kNucleicBackbone = " P OP1 OP2 OP3 O1P O2P O3P O5' C5' C4' C3' O3' O5* C5* C4* C3* O3* ";
 constexpr std::string_view kPhosphateHydrogens = " HOP2 HOP3 HO5 HO3 H5T H3T ";
 
-// What the wwPDB writes as ATOM where it is part of a chain.
+// Residues that the wwPDB writes as ATOM if they are part of a chain.
 constexpr std::string_view kStandardResidues =
     " ALA ARG ASN ASP CYS GLN GLU GLY HIS ILE LEU LYS MET PHE PRO SER THR TRP TYR VAL ASX GLX UNK SEC PYL"
     " A C G I N U DA DC DG DI DN DT DU ";
 
-/// Names of nucleotide atoms carry a prime (or an asterisk) in the sugar, and begin with P or say P in the phosphate.
+/// True for an atom of a base. Other names of nucleotides have a prime or an asterisk in the sugar, and a P in the
+/// phosphate.
 bool is_base_atom(const std::string& name) {
   return name.find_first_of("'*P") == std::string::npos && !among(kPhosphateHydrogens, name);
 }
@@ -67,7 +68,7 @@ bool answers(AtomFlag flag, Chemistry chemistry, const Atom& atom) {
   }
 }
 
-/// Of residues that are distinguished by all their atoms.
+/// Returns whether a residue belongs to a class that depends on all its atoms.
 bool answers(AtomFlag flag, std::span<const Atom> residue) {
   if (flag == AtomFlag::glycan) return sugar_of(residue) != nullptr;
   if (flag == AtomFlag::lipid) return is_lipid(residue);

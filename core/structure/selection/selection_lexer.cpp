@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Splits a selection into tokens, and reads the patterns, elements, numbers and ranges among them.
+// Splits a selection into tokens, and parses patterns, elements, numbers and ranges.
 #include "core/structure/selection/selection_lexer.h"
 
 #include <cctype>
@@ -82,7 +82,7 @@ std::vector<Token> tokens_of(std::string_view text) {
 
 namespace {
 
-/// Both ends of a range as written, the second empty if it is a single value.
+/// Both ends of a range as written. A single value has no second end.
 struct Ends {
   SelectionValue low;
   std::optional<SelectionValue> high;
@@ -92,7 +92,8 @@ SelectionValue part(const SelectionValue& value, std::size_t first, std::size_t 
   return {value.text.substr(first, length), value.position + first, value.quoted};
 }
 
-/// A minus sign parts a range only behind a digit or an insertion code, so that -5--1 is -5 to -1 and 1e-3 one number.
+/// Returns the place of the sign that separates a range, or npos. A minus sign does so only after a digit or an
+/// insertion code: -5--1 is -5 to -1, and 1e-3 is one number.
 std::size_t range_sign(const std::string& text, bool with_letters) {
   for (std::size_t n = 1; n < text.size(); ++n) {
     if (text[n] == ':') return n;
@@ -102,7 +103,7 @@ std::size_t range_sign(const std::string& text, bool with_letters) {
   return std::string::npos;
 }
 
-/// Values and ranges: A, A-B, A:B, and A to B, which comes as three values.
+/// Parses values and ranges: A, A-B, A:B, and "A to B", which is given as three values.
 std::vector<Ends> ends_of(std::string_view text, const std::vector<SelectionValue>& values, bool with_letters) {
   std::vector<Ends> all;
   for (std::size_t n = 0; n < values.size(); ++n) {
