@@ -7,6 +7,7 @@
 
 namespace meniscus {
 
+/// The index that means that there is none.
 inline constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 inline constexpr double kAngstromPerNanometre = 10.0;

@@ -19,6 +19,7 @@ namespace meniscus {
 /// than `largest` bytes.
 std::string unpack_gzip(const std::string& path, const std::string& packed, std::size_t largest);
 
+/// Throws CapacityError for a file of more than `largest` bytes.
 [[noreturn]] inline void refuse_too_large(const std::string& path, std::size_t largest) {
   throw CapacityError(
       fmt::format("{}: holds more than {} bytes, more than this program reads", path, with_thousands(largest)));

@@ -39,6 +39,7 @@ class OrderedJobs {
   OrderedJobs(const OrderedJobs&) = delete;
   OrderedJobs& operator=(const OrderedJobs&) = delete;
 
+  /// Adds a job, which the next free worker does.
   void begin(Input input) {
     std::packaged_task<Result(const Worker&)> task(
         [input = std::move(input)](const Worker& worker) mutable { return worker(std::move(input)); });

@@ -27,7 +27,9 @@ using ProgressSink = std::function<void(const ProgressReport&)>;
 /// most about 20 times a second, and always at the end.
 class Progress {
  public:
+  /// Reports the beginning of the task.
   Progress(ProgressSink sink, std::string task, std::uint64_t total);
+  /// Counts finished units, and reports if the last report is old enough.
   void advance(std::uint64_t units = 1);
 
  private:

@@ -49,6 +49,7 @@ class StageClock {
 
   explicit StageClock(StageTiming timing = StageTiming::rough) : exact_(timing == StageTiming::exact) {}
 
+  /// Begins a stage.
   [[nodiscard]] Stage stage(const std::string& name) {
     if (look_) look_();
     return Stage(*this, name);
@@ -57,11 +58,13 @@ class StageClock {
   /// Sets a function that is called before each stage. An exception that it throws ends the work.
   void before_stages(std::function<void()> look) { look_ = std::move(look); }
 
+  /// Adds time that was measured elsewhere.
   void add(std::string name, double milliseconds) {
     keep_room();
     end({std::move(name), milliseconds});
   }
 
+  /// Forgets all times.
   void restart() { times_.clear(); }
   bool is_exact() const { return exact_; }
   const std::vector<StageTime>& times() const { return times_; }

@@ -27,11 +27,11 @@ struct State {
   std::pair<std::uint64_t, std::uint64_t> identity;  ///< the same for all names of one file
 };
 
-/// Returns the state of the file at a path. A link is followed. Nothing if that fails.
+/// Returns the state of the file at a path. A link is followed. Returns nothing if that fails.
 std::optional<State> state_of(const std::filesystem::path& path);
-/// Returns the state of the file or link at a path. A link is not followed. Nothing if that fails.
+/// Returns the state of the file or link at a path. A link is not followed. Returns nothing if that fails.
 std::optional<State> state_of_entry(const std::filesystem::path& path);
-/// Returns the state of an open file. Nothing if that fails.
+/// Returns the state of an open file. Returns nothing if that fails.
 std::optional<State> state_of(int file);
 
 /// Opens a file for reading and returns its descriptor, or -1. No child process inherits it.

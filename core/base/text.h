@@ -53,7 +53,7 @@ using OptionSpelling = std::string (*)(std::string_view name);
 void spell_options(OptionSpelling spelling);
 
 /// Returns the first of the nearest known words. At most two letters may differ, and at most half of the letters of a
-/// short word. Known words of one or two letters are ignored. Empty if there is no such word.
+/// short word. Known words of one or two letters are ignored. The result is empty if there is no such word.
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> known);
 
 /// A file that the build has compiled into the program.

@@ -12,15 +12,18 @@
 
 namespace meniscus {
 
+/// Disjoint sets of the indices from 0 to count - 1. At first each index is a set of its own.
 class UnionFind {
  public:
   explicit UnionFind(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
 
+  /// Returns the representative of the set that contains n.
   std::uint32_t find(std::uint32_t n) {
     while (parent_[n] != n) n = parent_[n] = parent_[parent_[n]];
     return n;
   }
 
+  /// Unites the sets that contain a and b.
   void unite(std::uint32_t a, std::uint32_t b) {
     a = find(a);
     b = find(b);

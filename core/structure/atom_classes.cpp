@@ -99,7 +99,7 @@ std::string capitals(std::string_view text) {
 }
 
 /// Returns the element of a lone atom that has the same name as its residue or is in a residue "ION": "CL", "Na+",
-/// "ZN2", and CHARMM's own names. X if it is no ion.
+/// "ZN2", and CHARMM's own names. Returns X if it is no ion.
 gemmi::Element lone_ion_element(const Atom& atom) {
   static const std::map<std::string, gemmi::El> kCharmmIons{
       {"SOD", gemmi::El::Na}, {"CLA", gemmi::El::Cl}, {"POT", gemmi::El::K},  {"CAL", gemmi::El::Ca},
@@ -115,7 +115,7 @@ gemmi::Element lone_ion_element(const Atom& atom) {
 }
 
 /// Returns the element of two letters that a name means in nearly all of the wwPDB's chemical components except the
-/// standard ones. X if there is none.
+/// standard ones. Returns X if there is none.
 gemmi::Element element_of_two_letters(const Atom& atom, bool of_polymer) {
   constexpr std::string_view kHalogens = " CL BR ",
                              kOthers = " FE ZN MG MN SI SE CU PT IR RU RH RE AU AS AL TE ";  // not in polymers

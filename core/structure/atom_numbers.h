@@ -43,7 +43,7 @@ struct NumberFile {
   /// if there are none.
   const NumberFile& of_frame(const std::optional<std::uint64_t>& frame) const;
   /// Returns the least and the greatest number of all frames, so that a colour has the same meaning in each of them.
-  /// Nothing if numbers are not by frame or all are missing.
+  /// Returns nothing if numbers are not by frame or all are missing.
   std::optional<std::array<double, 2>> range_of_frames() const;
 };
 

@@ -34,18 +34,18 @@ const char* source_name(RadiusSource source);
 /// Returns the symbol of an element, such as "C" or "Zn"; "X" for 0 or above 118.
 const char* element_symbol(std::uint8_t element);
 
-/// Returns the atomic number of a symbol such as "C", "zn" or "CL" in any case. D and T are hydrogen. 0 if no element
-/// has this symbol.
+/// Returns the atomic number of a symbol such as "C", "zn" or "CL" in any case. D and T are hydrogen. Returns 0 if no
+/// element has this symbol.
 std::uint8_t element_of_symbol(std::string_view symbol);
 
 /// Returns the hydropathy of an amino acid, from -4.5 (arginine) to 4.5 (isoleucine): J. Kyte and R. F. Doolittle, J.
 /// Mol. Biol. 157, 105 (1982), table 2. Force-field names of charge states have the value of the amino acid, and so has
-/// selenomethionine. NaN for all other names.
+/// selenomethionine. Returns NaN for all other names.
 double hydropathy(std::string_view residue_name);
 
 /// Returns the greatest solvent-accessible area (Å²) of a residue X in Gly-X-Gly in any conformation: M. Z. Tien et
-/// al., PLoS ONE 8, e80635 (2013), table 1, column "Theoretical". Names are those of hydropathy(). NaN for all other
-/// names.
+/// al., PLoS ONE 8, e80635 (2013), table 1, column "Theoretical". Names are those of hydropathy(). Returns NaN for all
+/// other names.
 double greatest_accessible_area(std::string_view residue_name);
 
 /// The radius of the probe for these areas, in Å.

@@ -12,8 +12,8 @@ namespace meniscus {
 /// A periodic box.
 class PeriodicCell {
  public:
-  /// Makes the box of vectors a, b, c in the columns, in Å. Nothing for a box without volume, which files have where
-  /// there is no box, and for edges that are not 1e-6 to 1e9 Å long.
+  /// Makes the box of vectors a, b, c in the columns, in Å. Returns nothing for a box without volume, which files have
+  /// where there is no box, and for edges that are not 1e-6 to 1e9 Å long.
   static std::optional<PeriodicCell> of(const glm::dmat3& vectors);
 
   /// Returns the shortest of all vectors d + n_a a + n_b b + n_c c with integers n. It is exact for every shape of box.

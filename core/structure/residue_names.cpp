@@ -139,7 +139,7 @@ std::map<std::string, Atoms, std::less<>> all_residues() {
   return residues;
 }
 
-/// Returns the atoms of a residue by its canonical name. Empty if it is not known.
+/// Returns the atoms of a residue by its canonical name. The result is empty if it is not known.
 const Atoms& atoms_of(const std::string& canonical) {
   static const std::map<std::string, Atoms, std::less<>> kTables = all_residues();
   static const Atoms kNone;

@@ -33,10 +33,10 @@ std::string canonical_atom(std::string_view residue, const std::string& atom_nam
 /// Returns the class of an atom of an amino acid, nucleotide or water in the notation of J. Tsai et al., J. Mol. Biol.
 /// 290, 253 (1999): element, number of bonded atoms, number of hydrogens among them. "C4H2" is a tetrahedral carbon
 /// with two hydrogens. Charge states are those of the wwPDB's chemical components, where acids are protonated. Other
-/// names of the same residues and atoms are understood. Empty if the atom is not known.
+/// names of the same residues and atoms are understood. The result is empty if the atom is not known.
 std::string_view bonding_class(const std::string& residue_name, const std::string& atom_name);
 
-/// Returns how many atoms of the residue have a class, including OXT. 0 if the residue is not known.
+/// Returns how many atoms of the residue have a class, including OXT. Returns 0 if the residue is not known.
 std::size_t heavy_atoms_of(const std::string& residue_name);
 
 }  // namespace meniscus

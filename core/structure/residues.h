@@ -58,7 +58,7 @@ struct AltlocChoice {
   char letter = ' ';
 };
 
-/// Parses "best", "first", "all" or a single letter or digit. Nothing for any other text.
+/// Parses "best", "first", "all" or a single letter or digit. Returns nothing for any other text.
 std::optional<AltlocChoice> parse_altloc_choice(std::string_view text);
 
 /// Returns for each atom whether it is kept. Residues (Atom::residue) are completed: atoms with names that the kept
@@ -76,8 +76,8 @@ std::vector<bool> kept_alternates(const std::vector<Atom>& atoms, const AltlocCh
 std::vector<bool> linked_residues(std::span<const Atom> atoms, std::span<const Bond> bonds);
 
 /// Returns for each atom the accessible area of its residue divided by greatest_accessible_area(). areas: accessible
-/// area of each atom in Å², by a probe of kAccessibilityProbe. NaN if no greatest area is known, or if a heavy atom of
-/// the residue is missing, because the area would be that of a part.
+/// area of each atom in Å², by a probe of kAccessibilityProbe. Returns NaN if no greatest area is known, or if a heavy
+/// atom of the residue is missing, because the area would be that of a part.
 std::vector<double> relative_accessibility(const Structure& structure, std::span<const double> areas);
 
 }  // namespace meniscus

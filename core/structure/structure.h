@@ -187,7 +187,7 @@ enum class Grouping : std::uint8_t {
 
 /// A group of atoms and its name.
 struct AtomGroup {
-  /// May contain text of the file, which must never be inserted into the source code of another program.
+  /// The name may contain text of the file, which must never be inserted into the source code of another program.
   std::string name;
   std::vector<std::uint32_t> atoms;  ///< indices into Structure::atoms, ascending
 };

@@ -81,7 +81,7 @@ bool is_listed(std::string_view names, std::string_view name) {
   return false;
 }
 
-/// Returns the sugar of a name such as "4YB", "0fA" or "VMB". Null for any other name.
+/// Returns the sugar of a name such as "4YB", "0fA" or "VMB". Returns null for any other name.
 const Sugar* sugar_of_glycam(std::string_view name) {
   if (name.size() != 3 || std::string_view("ABUD").find(name[2]) == std::string_view::npos) return nullptr;
   if (std::string_view("0123456789ZYXWVUTSRQP").find(name[0]) == std::string_view::npos) return nullptr;

@@ -35,8 +35,8 @@ struct Sugar {
 };
 
 /// Returns the sugar of a residue by its name in the wwPDB or in CHARMM. A name of GLYCAM (a digit or letter for the
-/// links, a letter for the sugar, one for the anomer) counts only if the residue has the ring of a sugar. Null if the
-/// residue is no sugar.
+/// links, a letter for the sugar, one for the anomer) counts only if the residue has the ring of a sugar. Returns null
+/// if the residue is no sugar.
 const Sugar* sugar_of(std::span<const Atom> residue);
 
 /// The ring of a sugar, in order from the anomeric carbon to the oxygen, as places in `residue`.

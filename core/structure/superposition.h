@@ -36,7 +36,8 @@ Superposition superposition(std::span<const Atom> reference, std::span<const Ato
 /// that is nearest after superposition. There may be several first pairs of nearly the best score, as with copies of
 /// one chain. In that case the result with the most atoms, and then with the least RMSD, is returned.
 /// In aligned residues, atoms with the same name correspond. of_reference, of_moved: true for each atom that takes
-/// part. Empty if there are fewer than three pairs. Time is O(residues of one times residues of the other).
+/// part. The result is empty if there are fewer than three pairs. Time is O(residues of one times residues of the
+/// other).
 std::vector<AtomPair> corresponding_atoms(std::span<const Atom> reference, const std::vector<bool>& of_reference,
                                           std::span<const Atom> moved, const std::vector<bool>& of_moved);
 

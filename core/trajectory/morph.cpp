@@ -49,7 +49,7 @@ std::vector<Bond> pairs_along_bonds(const BondNetwork& network) {
 CommonAtoms common_atoms(std::span<const Structure> structures, std::span<const std::vector<bool>> superposed) {
   const std::vector<Atom>& first = structures.front().atoms;
   const std::vector<bool> all_first(first.size(), true);
-  // For each structure but the first, and each atom of the first, the corresponding atom.
+  // The atom of each structure but the first that corresponds to each atom of the first.
   std::vector<std::vector<std::uint32_t>> partners;
   std::vector<bool> is_common(first.size(), true), is_fitted = superposed.front();
   CommonAtoms common;

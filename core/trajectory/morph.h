@@ -46,8 +46,8 @@ class Morph {
   /// Returns the positions (Å) of `steps` models from a stop to before the next one. The first is the stop itself.
   std::vector<std::vector<glm::dvec3>> way(std::size_t stop, std::size_t steps) const;
 
-  /// Returns the greatest overlap of two atoms of a model, Å: by how much they are nearer than they may be. 0 if none
-  /// overlap. stop: where the path of the model begins.
+  /// Returns the greatest overlap of two atoms of a model, Å: by how much they are nearer than they may be. Returns 0
+  /// if none overlap. stop: where the path of the model begins.
   double overlap(std::size_t stop, const std::vector<glm::dvec3>& positions) const;
 
   /// The bonds whose lengths are constrained.

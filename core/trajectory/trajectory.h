@@ -18,14 +18,14 @@
 namespace meniscus {
 
 /// Returns the box with edges a, b, c (Å) and cosines of alpha, beta, gamma. Vector a lies along x and b in the xy
-/// plane, as usual in crystallography. Nothing if an edge is not positive or the angles do not fit together.
+/// plane, as usual in crystallography. Returns nothing if an edge is not positive or the angles do not fit together.
 std::optional<glm::dmat3> cell_of_cosines(const glm::dvec3& edges, const glm::dvec3& cosines);
 
 /// Returns the box with edges a, b, c (Å) and angles in degrees. Right angles give exactly rectangular boxes.
 std::optional<glm::dmat3> cell_of_angles(const glm::dvec3& edges, const glm::dvec3& degrees);
 
-/// Returns the box with these vectors in the columns, unchanged. Nothing if they span no volume or are not finite.
-/// Left-handed boxes are allowed.
+/// Returns the box with these vectors in the columns, unchanged. Returns nothing if they span no volume or are not
+/// finite. Left-handed boxes are allowed.
 std::optional<glm::dmat3> cell_of_vectors(const glm::dmat3& vectors);
 
 /// One frame of a trajectory.

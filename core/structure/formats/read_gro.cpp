@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kNamesEnd = 20;  // five columns each: residue number and name, atom name and number
 
 /// Returns the number of columns of a coordinate. It is the distance between the first two decimal points, whatever the
-/// number of decimals. 0 if the line has no coordinates.
+/// number of decimals. Returns 0 if the line has no coordinates.
 std::size_t coordinate_width(std::string_view line) {
   const std::size_t first = line.find('.', std::min(line.size(), kNamesEnd));
   const std::size_t second = first == std::string_view::npos ? first : line.find('.', first + 1);

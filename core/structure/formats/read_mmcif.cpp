@@ -200,7 +200,7 @@ std::vector<SecondaryRange> secondary_ranges(cif::Document& document) {
 /// A residue of _ma_qa_metric_local by model, label_asym_id and label_seq_id.
 using LabelledResidue = std::array<std::string, 3>;
 
-/// Returns pLDDT from 0 to 100 of ModelCIF, from the first metric of that type. Empty if there is none.
+/// Returns pLDDT from 0 to 100 of ModelCIF, from the first metric of that type. The result is empty if there is none.
 std::map<LabelledResidue, float> confidences_of(cif::Document& document) {
   std::map<LabelledResidue, float> confidences;
   for (cif::Block& block : document.blocks) {
@@ -222,7 +222,7 @@ std::map<LabelledResidue, float> confidences_of(cif::Document& document) {
   return confidences;
 }
 
-/// Returns the experimental method of _exptl. Empty for a predicted model.
+/// Returns the experimental method of _exptl. The result is empty for a predicted model.
 std::string experiment_of(cif::Document& document) {
   for (cif::Block& block : document.blocks)
     for (const auto row : block.find("_exptl.", {"method"}))

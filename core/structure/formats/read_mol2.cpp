@@ -45,9 +45,9 @@ bool is_in(std::string_view types, std::string_view type) {
   return types.find(fmt::format(" {} ", type)) != std::string_view::npos;
 }
 
-/// Returns the element of a type. SYBYL's types are the symbol or begin with it: C.ar, N.am, Cl, Zn, Co.oh. 0 for
-/// dummies (Du, LP, Any, Hal, Het, Hev) and for types of other force fields (CT, HW, CA, opls_135), which do not give
-/// the element. glycam: true if the molecule has types of GLYCAM.
+/// Returns the element of a type. SYBYL's types are the symbol or begin with it: C.ar, N.am, Cl, Zn, Co.oh. Returns 0
+/// for dummies (Du, LP, Any, Hal, Het, Hev) and for types of other force fields (CT, HW, CA, opls_135), which do not
+/// give the element. glycam: true if the molecule has types of GLYCAM.
 std::uint8_t element_of_type(std::string_view type, bool glycam) {
   if (type == "cl" || type == "br") return element_of_symbol(type);
   if (is_in(kSmallTypes, type) || (glycam && (is_in(kGlycamTypes, type) || type == kGlycamCarbon)))
@@ -282,7 +282,7 @@ class Mol2Reader {
   LineReader lines_;
   FileContents contents_;
   ResidueCounter residues_{contents_.atoms};
-  std::string line_;  ///< line of which next() returned the fields
+  std::string line_;  ///< the line whose fields next() returned
   bool wanted_ = false, no_charges_ = false;
   /// First atom of this molecule in the contents, number of its atoms, its line.
   std::size_t first_ = 0, seen_ = 0, molecule_line_ = 0;

@@ -18,8 +18,8 @@ struct PqrRecord {
   std::array<std::string_view, 5> numbers;  ///< x y z charge radius
 };
 
-/// Splits a record at blanks or, if fields touch, at the columns of PDB. Nothing if neither gives all fields. If both
-/// give the same coordinates and there is no chain between blanks, the columns are used.
+/// Splits a record at blanks or, if fields touch, at the columns of PDB. Returns nothing if neither gives all fields.
+/// If both give the same coordinates and there is no chain between blanks, the columns are used.
 std::optional<PqrRecord> parse_pqr_record(std::string_view line);
 
 /// The formats that the atom records of a text may have, by the first hundred of them.

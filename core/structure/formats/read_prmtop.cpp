@@ -65,8 +65,8 @@ class PrmtopSections {
   std::map<std::string, Section, std::less<>> sections_;
 };
 
-/// Removes the digits at the beginning of a text and returns their number. 0 if there are none, or if the number is
-/// above 1,000 and so more than a line has columns.
+/// Removes the digits at the beginning of a text and returns their number. Returns 0 if there are none, or if the
+/// number is above 1,000 and so more than a line has columns.
 std::size_t take_count(std::string_view& text) {
   std::size_t count = 0;
   while (!text.empty() && std::isdigit(static_cast<unsigned char>(text.front()))) {

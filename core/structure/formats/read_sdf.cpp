@@ -359,7 +359,7 @@ class SdfReader {
   std::uint32_t molecules_ = 0;  ///< number of molecules used before it
   std::string_view name_;
   std::map<std::string, int> numbers_of_symbols_;
-  /// By the number of an atom in V3000 its place in the molecule.
+  /// The place of an atom in the molecule, by its number in V3000.
   std::unordered_map<std::int64_t, std::uint32_t> places_;
 };
 

@@ -66,7 +66,7 @@ bool parse_fortran_number(std::string_view field, double& number) {
 }
 
 /// Returns the element of a symbol in upper or lower case, which digits may follow ("C", "CL", "H12"), or of an atomic
-/// number. 0 if the word is neither.
+/// number. Returns 0 if the word is neither.
 std::uint8_t element_of(std::string_view word) {
   std::int64_t number = 0;
   if (parse_whole_number(word, number)) return static_cast<std::uint8_t>(number > 0 && number <= 118 ? number : 0);

@@ -76,8 +76,8 @@ extern const Reader kPsfReader;
 extern const Reader kPrmtopReader;
 extern const Reader kCharmmCrdReader;
 
-/// Returns the three or nine numbers of the box line of GRO, in nm. Empty if it is no such line. Numbers that fill
-/// their columns touch each other. They are separated by their decimals, which are equally many in each.
+/// Returns the three or nine numbers of the box line of GRO, in nm. The result is empty if it is no such line. Numbers
+/// that fill their columns touch each other. They are separated by their decimals, which are equally many in each.
 std::vector<double> gro_box(std::string_view line);
 
 /// Returns all formats in the order in which they are listed for users.

@@ -24,6 +24,7 @@ class PdbModels {
   /// Adds a model with these positions (Å), in the order of the atoms. Throws RequestError for coordinates beyond
   /// -999.999 and 9999.999 Å.
   void add(std::span<const glm::dvec3> positions);
+  /// Completes the file and gives it its name. Throws OutputError.
   void commit();
 
  private:

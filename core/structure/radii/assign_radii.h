@@ -44,6 +44,7 @@ class RadiiChoice {
   RadiiChoice(const RadiiOptions& options, const std::string& molecule_file, FileRadii file_radii,
               std::span<const Atom> atoms = {});
 
+  /// True if the radii of the molecule file are used.
   bool from_molecule_file() const { return from_file_; }
   /// True if the radii include hydrogens, so that hydrogens are left out unless the user keeps them. any_hydrogens:
   /// true if the molecule has hydrogens.

@@ -7,8 +7,8 @@
 
 namespace meniscus {
 
-/// Returns the message "'/a//A/10' is written in PyMOL's way; write 'chain A and resid 10'". Empty if the word does not
-/// look like a selection of either program.
+/// Returns the message "'/a//A/10' is written in PyMOL's way; write 'chain A and resid 10'". The result is empty if the
+/// word does not look like a selection of either program.
 std::string advice_on_foreign_selection(std::string_view word);
 
 }  // namespace meniscus

@@ -67,6 +67,7 @@ Selection parse_selection(std::string_view text);
 /// Returns the expression "(a) or (b)".
 Selection either(const Selection& a, const Selection& b);
 
+/// The greatest number of bytes, and of levels of nesting, in an expression.
 inline constexpr std::size_t kLongestSelection = 65'536;
 inline constexpr int kDeepestSelection = 200;
 

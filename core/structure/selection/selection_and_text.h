@@ -16,7 +16,7 @@ struct SelectionAndText {
 };
 
 /// Splits the text at the first "=" with a complete selection before it. "resid 17=K17=A" has the text "K17=A", and
-/// "bfactor>=50=red" has the text "red". Nothing if there is no such sign.
+/// "bfactor>=50=red" has the text "red". Returns nothing if there is no such sign.
 std::optional<SelectionAndText> selection_and_text(std::string_view text);
 
 }  // namespace meniscus

@@ -100,7 +100,8 @@ bool is_single(const Table& table) {
   return H5Tget_class(type) == H5T_FLOAT && H5Tget_size(type) <= sizeof(float);
 }
 
-/// Opens the table at a path. Empty if there is none, or if it does not contain numbers that are stored in this file.
+/// Opens the table at a path. The result is empty if there is none, or if it does not contain numbers that are stored
+/// in this file.
 Table table(hid_t place, const std::string& path) {
   Table result;
   if (!has(place, path)) return result;

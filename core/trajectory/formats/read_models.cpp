@@ -152,7 +152,7 @@ std::optional<double> number_behind(std::string_view text, std::string_view word
 
 std::string_view first_line(std::string_view text) { return text.substr(0, text.find('\n')); }
 
-/// Returns all numbers of a line. Empty if the line has anything else.
+/// Returns all numbers of a line. The result is empty if the line has anything else.
 std::vector<double> numbers_of(std::string_view line) {
   std::vector<double> numbers;
   for (const std::string_view field : fields_of(line)) {

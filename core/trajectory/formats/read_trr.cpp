@@ -32,7 +32,7 @@ struct TrrHeader {
   std::size_t atoms = 0;
   std::int32_t step = 0;
   std::uint64_t title_bytes = 0, header_bytes = 0;
-  // Of the box, the data between box and positions, the positions.
+  // The sizes of the box, of the data between box and positions, and of the positions.
   std::uint64_t box_bytes = 0, between_bytes = 0, position_bytes = 0;
   std::uint64_t rest_bytes = 0;  // of velocities and forces
 
@@ -41,8 +41,8 @@ struct TrrHeader {
   std::uint64_t frame_bytes() const { return position_offset() + position_bytes + rest_bytes; }
 };
 
-/// Returns the bytes of one number, which follow from the sizes of the parts of a frame. 0 if the sizes fit neither
-/// precision.
+/// Returns the bytes of one number, which follow from the sizes of the parts of a frame. Returns 0 if the sizes fit
+/// neither precision.
 std::size_t bytes_of_number(const std::array<std::int64_t, kIntegers>& sizes, std::int64_t atoms) {
   for (const std::int64_t width : {sizeof(float), sizeof(double)}) {
     const std::int64_t box = 9 * width, vectors = 3 * atoms * width;
