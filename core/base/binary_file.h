@@ -71,8 +71,10 @@ class FileLines {
   /// pieces. The line is valid until the next call. Throws InputError as BinaryFile::read.
   bool next(std::string_view& line);
 
-  std::uint64_t begin() const { return begin_; }                 ///< offset of the last line read
-  std::uint64_t behind() const { return block_begin_ + used_; }  ///< offset after the last line read and its line end
+  std::uint64_t begin() const { return begin_; }  ///< offset of the last line read
+  std::uint64_t next_offset() const {
+    return block_begin_ + used_;
+  }  ///< offset after the last line read and its line end
   bool ended_by_newline() const { return used_ > 0 && block_[used_ - 1] == '\n'; }
 
  private:

@@ -129,7 +129,7 @@ OutputFile::OutputFile(fs::path target, Existing existing) : target_(std::move(t
   int error = EEXIST;
   for (int attempt = 0; descriptor_ < 0 && error == EEXIST && attempt < 1000; ++attempt) {
     temporary_ = folder_of(target_) /
-                 path_of_text(fmt::format(".{}.{}-{}.part{}", text_of_path(target_.stem()), system_file::process(),
+                 path_of_text(fmt::format(".{}.{}-{}.part{}", text_of_path(target_.stem()), system_file::process_id(),
                                           serial++, text_of_path(target_.extension())));
     unfinished.add(temporary_, [&] {
       descriptor_ = system_file::create(temporary_);

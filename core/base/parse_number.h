@@ -24,7 +24,7 @@ double check_extent(const TextFile& file, std::size_t line, char axis, double co
 double parse_coordinate(const TextFile& file, std::size_t line, char axis, std::string_view field);
 
 /// Parses a coordinate field and multiplies it by `unit` (Å). False where parse_coordinate would throw.
-bool parse_quickly(std::string_view field, double unit, double& coordinate);
+bool try_parse_coordinate(std::string_view field, double unit, double& coordinate);
 
 /// Parses a radius field in Å. Throws InputError if it is not a number from 0 to 1,000. columns: the fields of a line,
 /// for messages.

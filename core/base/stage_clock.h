@@ -32,7 +32,7 @@ class StageClock {
    public:
     Stage(StageClock& clock, std::string name)
         : clock_(clock), time_{std::move(name), 0.0}, begin_(std::chrono::steady_clock::now()) {
-      clock_.keep_room();
+      clock_.reserve_entry();
     }
     ~Stage() {
       time_.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin_).count();
@@ -51,16 +51,16 @@ class StageClock {
 
   /// Begins a stage.
   [[nodiscard]] Stage stage(const std::string& name) {
-    if (look_) look_();
+    if (check_) check_();
     return Stage(*this, name);
   }
 
   /// Sets a function that is called before each stage. An exception that it throws ends the work.
-  void before_stages(std::function<void()> look) { look_ = std::move(look); }
+  void before_stages(std::function<void()> check) { check_ = std::move(check); }
 
   /// Adds time that was measured elsewhere.
   void add(std::string name, double milliseconds) {
-    keep_room();
+    reserve_entry();
     end({std::move(name), milliseconds});
   }
 
@@ -71,7 +71,7 @@ class StageClock {
 
  private:
   /// Reserves room for the time of a stage when it begins, so that the stage can end without allocating memory.
-  void keep_room() {
+  void reserve_entry() {
     times_.reserve(times_.size() + open_ + 1);
     ++open_;
   }
@@ -86,7 +86,7 @@ class StageClock {
   }
 
   bool exact_;
-  std::function<void()> look_;
+  std::function<void()> check_;
   std::vector<StageTime> times_;
   std::size_t open_ = 0;
 };

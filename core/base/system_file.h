@@ -65,9 +65,9 @@ void remove(const std::filesystem::path& path) noexcept;
 void wait_a_millisecond() noexcept;
 
 /// The number of this process.
-int process();
+int process_id();
 /// The path of the running program; empty if the system does not have it.
-std::filesystem::path program();
+std::filesystem::path program_path();
 
 }  // namespace system_file
 }  // namespace meniscus

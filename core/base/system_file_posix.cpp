@@ -140,9 +140,9 @@ void wait_a_millisecond() noexcept {
   ::nanosleep(&millisecond, nullptr);
 }
 
-int process() { return ::getpid(); }
+int process_id() { return ::getpid(); }
 
-fs::path program() {
+fs::path program_path() {
   std::error_code none;
 #if defined(__APPLE__)
   std::array<char, 4096> path{};

@@ -170,9 +170,9 @@ void remove(const fs::path& path) noexcept {
 
 void wait_a_millisecond() noexcept { ::Sleep(1); }
 
-int process() { return ::_getpid(); }
+int process_id() { return ::_getpid(); }
 
-fs::path program() {
+fs::path program_path() {
   std::array<wchar_t, 32768> path{};  // the longest path of Windows
   const DWORD length = ::GetModuleFileNameW(nullptr, path.data(), static_cast<DWORD>(path.size()));
   return fs::path(path.data(), path.data() + length);

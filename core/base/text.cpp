@@ -136,10 +136,10 @@ namespace {
 
 std::string on_command_line(std::string_view name) { return "--" + std::string(name); }
 
-OptionSpelling spelling_of_door = on_command_line;
+OptionSpelling current_spelling = on_command_line;
 
 /// Returns the edit distance of two words: the number of bytes to change, insert or drop (V. I. Levenshtein 1966).
-std::size_t letters_apart(std::string_view from, std::string_view to) {
+std::size_t edit_distance(std::string_view from, std::string_view to) {
   std::vector<std::size_t> row(to.size() + 1);
   for (std::size_t j = 0; j <= to.size(); ++j) row[j] = j;
   for (std::size_t i = 1; i <= from.size(); ++i) {
@@ -156,9 +156,9 @@ std::size_t letters_apart(std::string_view from, std::string_view to) {
 
 }  // namespace
 
-std::string option_name(std::string_view name) { return spelling_of_door(name); }
+std::string option_name(std::string_view name) { return current_spelling(name); }
 
-void spell_options(OptionSpelling spelling) { spelling_of_door = spelling; }
+void spell_options(OptionSpelling spelling) { current_spelling = spelling; }
 
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> known) {
   constexpr std::size_t kLongestWord = 40;
@@ -166,9 +166,9 @@ std::string_view nearest_word(std::string_view word, std::span<const std::string
   std::size_t fewest = std::min<std::size_t>(3, (word.size() + 1) / 2);
   std::string_view nearest;
   for (const std::string_view other : known) {
-    const std::size_t apart = letters_apart(word, other);
-    if (other.size() <= 2 || apart >= fewest) continue;
-    fewest = apart;
+    const std::size_t distance = edit_distance(word, other);
+    if (other.size() <= 2 || distance >= fewest) continue;
+    fewest = distance;
     nearest = other;
   }
   return nearest;

@@ -27,8 +27,8 @@ struct Box {
   }
   /// Returns the squared distance (Å²) from a point to the box. It is 0 inside.
   double squared_distance(const glm::dvec3& x) const {
-    const glm::dvec3 beside = glm::max(glm::max(low - x, x - high), glm::dvec3(0.0));
-    return glm::dot(beside, beside);
+    const glm::dvec3 outside = glm::max(glm::max(low - x, x - high), glm::dvec3(0.0));
+    return glm::dot(outside, outside);
   }
 };
 

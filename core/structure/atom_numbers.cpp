@@ -317,12 +317,12 @@ NumberFile read_number_file(const std::string& path, const std::string& column) 
 
 const NumberFile& NumberFile::of_frame(const std::optional<std::uint64_t>& frame) const {
   if (!by_frame) return *this;
-  const std::string held =
+  const std::string contents =
       fmt::format("holds numbers of {} {}, {} to {}", by_frame->size(), by_frame->size() == 1 ? "frame" : "frames",
                   by_frame->begin()->first, by_frame->rbegin()->first);
-  if (!frame) throw InputError(path, 0, held + message("; add @frames@, or leave out its column frame"));
+  if (!frame) throw InputError(path, 0, contents + message("; add @frames@, or leave out its column frame"));
   const auto found = by_frame->find(*frame);
-  if (found == by_frame->end()) throw InputError(path, 0, fmt::format("{}, but none of frame {}", held, *frame));
+  if (found == by_frame->end()) throw InputError(path, 0, fmt::format("{}, but none of frame {}", contents, *frame));
   return found->second;
 }
 

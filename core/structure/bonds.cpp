@@ -102,7 +102,7 @@ class BondFinder {
       const bool continues = r > 0 && atoms_[begins_[r]].chain == atoms_[begins_[r - 1]].chain;
       for (std::uint32_t a = begins_[r]; a < begins_[r + 1]; ++a)
         for (std::uint32_t b = continues ? begins_[r - 1] : begins_[r]; b < a; ++b)
-          if (squared_distance(a, b) <= squared_reach(a, b)) bonds_.push_back({b, a});
+          if (squared_distance(a, b) <= squared_bond_length(a, b)) bonds_.push_back({b, a});
     }
     return std::move(bonds_);
   }
@@ -123,11 +123,11 @@ class BondFinder {
     return glm::dot(d, d);
   }
 
-  double squared_reach(std::uint32_t a, std::uint32_t b) const {
+  double squared_bond_length(std::uint32_t a, std::uint32_t b) const {
     const auto radius = [&](std::uint32_t n) { return gemmi::Element(atoms_[n].element).covalent_r(); };
     if (atoms_[a].element == 1 && atoms_[b].element == 1) return 0.0;
-    const double reach = radius(a) + radius(b) + 0.4;
-    return reach * reach;
+    const double limit = radius(a) + radius(b) + 0.4;
+    return limit * limit;
   }
 
   /// Bonds every two neighbours of the paths "A-B-C D-E" that are both among the names.
@@ -201,7 +201,7 @@ class MoleculeBonds {
       positions_.push_back(atom.position);
       if (atom.altloc == ' ') continue;
       const auto [first, is_new] = letters.try_emplace({atom.residue, atom.name}, atom.altloc);
-      if (!is_new && first->second != atom.altloc) of_several_.insert(atom.residue);
+      if (!is_new && first->second != atom.altloc) several_locations_.insert(atom.residue);
     }
   }
 
@@ -246,9 +246,9 @@ class MoleculeBonds {
         if (b >= a || !binds_by_distance(atoms_[b]) || (atoms_[a].element == 1 && atoms_[b].element == 1)) return;
         const bool both_standard = standard_[a] && standard_[b];
         if (both_standard && atoms_[a].residue == atoms_[b].residue) return;
-        const double reach = own + radii[atoms_[b].element] + (both_standard ? kSlackBetweenStandardResidues : kSlack);
+        const double limit = own + radii[atoms_[b].element] + (both_standard ? kSlackBetweenStandardResidues : kSlack);
         const double distance = glm::distance(positions_[a], positions_[b]);
-        if (kShortestFound <= distance && distance <= reach) add(b, a);
+        if (kShortestFound <= distance && distance <= limit) add(b, a);
       });
     }
   }
@@ -274,7 +274,7 @@ class MoleculeBonds {
   bool of_one_molecule(const Atom& a, const Atom& b) const {
     if (a.model != b.model || a.copy != b.copy) return false;
     if (a.altloc == b.altloc || a.altloc == ' ' || b.altloc == ' ') return true;
-    return !of_several_.contains(a.residue) && !of_several_.contains(b.residue);
+    return !several_locations_.contains(a.residue) && !several_locations_.contains(b.residue);
   }
 
   bool add(std::uint32_t a, std::uint32_t b) {
@@ -287,8 +287,8 @@ class MoleculeBonds {
   std::span<const Atom> atoms_;
   std::set<std::int32_t> fully_bonded_;
   std::vector<glm::dvec3> positions_;
-  std::vector<bool> standard_;          ///< true for atoms with a bond from a template
-  std::set<std::uint32_t> of_several_;  ///< residues with an atom in several alternate locations
+  std::vector<bool> standard_;                 ///< true for atoms with a bond from a template
+  std::set<std::uint32_t> several_locations_;  ///< residues with an atom in several alternate locations
   std::vector<Bond> bonds_;
 };
 

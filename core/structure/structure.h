@@ -29,8 +29,8 @@ enum class AtomClass : std::uint8_t { polymer, ligand, water, ion, unclassified 
 /// Returns "polymer", "ligand", "water", "ion" or "unclassified".
 const char* class_name(AtomClass kind);
 
-/// The radii in a file. `if_asked`: radii other than those of van der Waals, which are used only on request.
-enum class FileRadii : std::uint8_t { none, if_asked, usual };
+/// The radii in a file. `on_request`: radii other than those of van der Waals, which are used only on request.
+enum class FileRadii : std::uint8_t { none, on_request, usual };
 
 /// The secondary structure of a residue. `unknown`: not determined yet; `coil`: neither helix nor strand.
 enum class SecondaryStructure : std::uint8_t { unknown, coil, helix, strand };

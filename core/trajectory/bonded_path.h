@@ -18,8 +18,8 @@ namespace meniscus {
 /// The bonds between atoms, and the neighbours of each atom.
 class BondNetwork {
  public:
-  /// Makes the network of the bonds that have both ends in `held`. atoms: number of atoms.
-  BondNetwork(std::size_t atoms, std::span<const Bond> bonds, std::span<const std::uint32_t> held);
+  /// Makes the network of the bonds that have both ends in `constrained`. atoms: number of atoms.
+  BondNetwork(std::size_t atoms, std::span<const Bond> bonds, std::span<const std::uint32_t> constrained);
   /// Makes a network of any pairs of atoms that are near each other. It has no angles and no corners.
   BondNetwork(std::size_t atoms, std::vector<Bond> pairs);
 
@@ -47,7 +47,7 @@ class BondNetwork {
 /// Two atoms and the distance that they should have, Å.
 struct Distance {
   std::uint32_t a, b;
-  double wanted;
+  double target;
 };
 
 /// The path of atoms between two frames, corrected for rotating groups. On straight lines or curves from frame to
@@ -66,23 +66,24 @@ class BondedPath {
   void correct(double share, std::vector<glm::dvec3>& positions) const;
 
   /// Moves atoms so that the vectors between neighbours change from those in `instead_of` to those of the rotating
-  /// groups. stay: weight of the squared moves relative to the squared errors of the vectors. rounds: number of
+  /// groups. move_weight: weight of the squared moves relative to the squared errors of the vectors. rounds: number of
   /// Gauss-Seidel iterations.
-  void turn_groups(double share, const std::vector<glm::dvec3>& instead_of, double stay, int rounds,
-                   std::vector<glm::dvec3>& positions) const;
+  void rotate_groups(double share, const std::vector<glm::dvec3>& instead_of, double move_weight, int rounds,
+                     std::vector<glm::dvec3>& positions) const;
   /// Moves atoms until bonds, angles and volumes of corners have their interpolated values, and until the pairs in
-  /// `apart` have at least their distances.
-  void hold_lengths(double share, std::span<const Distance> apart, std::vector<glm::dvec3>& positions) const;
+  /// `minimum_distances` have at least their distances.
+  void constrain_lengths(double share, std::span<const Distance> minimum_distances,
+                         std::vector<glm::dvec3>& positions) const;
 
   /// Returns the positions (Å) of all atoms on straight lines between both frames.
-  std::vector<glm::dvec3> straight(double share) const;
+  std::vector<glm::dvec3> interpolate(double share) const;
 
  private:
-  void turn_alike();
+  void choose_directions();
 
   const BondNetwork& network_;
   std::vector<glm::dvec3> from_, to_;
-  std::vector<glm::dquat> turns_;  ///< rotation of each atom with its neighbours
+  std::vector<glm::dquat> rotations_;  ///< rotation of each atom with its neighbours
 };
 
 }  // namespace meniscus

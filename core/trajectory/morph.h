@@ -44,7 +44,7 @@ class Morph {
   std::size_t stops() const { return common_.positions.size(); }
   const std::vector<glm::dvec3>& at(std::size_t stop) const { return common_.positions[stop]; }
   /// Returns the positions (Å) of `steps` models from a stop to before the next one. The first is the stop itself.
-  std::vector<std::vector<glm::dvec3>> way(std::size_t stop, std::size_t steps) const;
+  std::vector<std::vector<glm::dvec3>> models(std::size_t stop, std::size_t steps) const;
 
   /// Returns the greatest overlap of two atoms of a model, Å: by how much they are nearer than they may be. Returns 0
   /// if none overlap. stop: where the path of the model begins.
@@ -55,13 +55,13 @@ class Morph {
 
  private:
   std::vector<Bond> near_pairs(std::size_t stop) const;
-  std::vector<glm::dvec3> between(std::size_t stop, double share) const;
-  void hold(std::size_t stop, double share, std::vector<glm::dvec3>& positions) const;
-  std::vector<Distance> too_near(std::size_t stop, const std::vector<glm::dvec3>& positions) const;
+  std::vector<glm::dvec3> smooth_model(std::size_t stop, double share) const;
+  void constrain(std::size_t stop, double share, std::vector<glm::dvec3>& positions) const;
+  std::vector<Distance> find_contacts(std::size_t stop, const std::vector<glm::dvec3>& positions) const;
 
   CommonAtoms common_;
   BondNetwork bonds_;
-  std::vector<Bond> related_;  ///< pairs that at most three bonds connect, ascending; these may be near each other
+  std::vector<Bond> bonded_pairs_;  ///< pairs that at most three bonds connect, ascending; these may be near each other
   std::vector<BondNetwork> networks_;    ///< for each path between two stops the network of atoms near each other
   std::vector<BondedPath> body_, path_;  ///< for each path between two stops
 };

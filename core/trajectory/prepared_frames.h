@@ -68,14 +68,15 @@ struct Preparation {
 };
 
 /// The number of frames before and after two frames that the path between these two depends on.
-inline constexpr std::size_t kPathReach = 3;
+inline constexpr std::size_t kPathNeighbors = 3;
 
 /// A place between two frames, and the frames around them. Frames are given by their numbers in the trajectory.
 struct BetweenFrames {
-  std::vector<std::uint64_t> before;  ///< the nearest first; kPathReach of them, or fewer at the beginning of the run
+  std::vector<std::uint64_t>
+      before;  ///< the nearest first; kPathNeighbors of them, or fewer at the beginning of the run
   std::uint64_t from = 0, to = 0;
-  std::vector<std::uint64_t> behind;  ///< the nearest first; kPathReach of them, or fewer at the end of the run
-  double share = 0.0;                 ///< share of the path from `from` to `to`, in (0, 1)
+  std::vector<std::uint64_t> after;  ///< the nearest first; kPathNeighbors of them, or fewer at the end of the run
+  double share = 0.0;                ///< share of the path from `from` to `to`, in (0, 1)
 };
 
 /// Reads frames of a trajectory and prepares them. A prepared frame depends on the trajectory and its number only, not
@@ -100,12 +101,12 @@ class PreparedFrames {
   void read_between(const BetweenFrames& place, Frame& frame);
 
  private:
-  struct Kept {
+  struct CachedFrame {
     std::uint64_t number;
     Frame frame;
   };
-  void read_placed(std::uint64_t number, Frame& frame);
-  const Frame& placed(std::uint64_t number);
+  void read_aligned(std::uint64_t number, Frame& frame);
+  const Frame& aligned(std::uint64_t number);
   const BondedPath& path(const BetweenFrames& place, const Frame& from, const Frame& to);
   void refuse_jumps(std::uint64_t number, const Frame& from, std::uint64_t next, const Frame& to) const;
 
@@ -114,7 +115,7 @@ class PreparedFrames {
   std::vector<glm::dvec3> reference_;  ///< Å, all atoms of the reference frame after they were made whole
   std::optional<BondedPath> path_;     ///< path between the two frames of path_ends_
   std::pair<std::uint64_t, std::uint64_t> path_ends_;
-  std::deque<Kept> kept_;  ///< prepared frames that smoothing and paths may need again
+  std::deque<CachedFrame> cache_;  ///< aligned frames that smoothing and paths may need again
 };
 
 /// A frame, or the error of reading it.

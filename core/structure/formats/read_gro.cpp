@@ -172,7 +172,7 @@ bool positions(std::string_view model, std::vector<glm::dvec3>& positions) {
     if (width == 0 || !parse_whole_number(line.substr(0, 5), residue)) return false;
     glm::dvec3& position = positions.emplace_back();
     for (int axis = 0; axis < 3; ++axis)
-      if (!parse_quickly(coordinate(line, width, axis), kAngstromPerNanometre, position[axis])) return false;
+      if (!try_parse_coordinate(coordinate(line, width, axis), kAngstromPerNanometre, position[axis])) return false;
   }
   return lines.next(line) && is_box_line(line);
 }

@@ -149,7 +149,7 @@ class Mol2Reader {
   void begin_molecule() {
     std::string_view line;
     ++contents_.models;
-    wanted_ = choice_.takes(static_cast<std::int32_t>(contents_.models));
+    is_wanted_ = choice_.takes(static_cast<std::int32_t>(contents_.models));
     first_ = contents_.atoms.size();
     seen_ = counted_ = 0;
     places_.clear();
@@ -162,7 +162,7 @@ class Mol2Reader {
     counted_bonds_ = -1;
     if (fields.size() > 1) parse_whole_number(fields[1], counted_bonds_);
     const bool kind = next(fields);
-    no_charges_ = kind && next(fields) && fields[0] == "NO_CHARGES";
+    has_no_charges_ = kind && next(fields) && fields[0] == "NO_CHARGES";
   }
 
   void read_atoms() {
@@ -173,7 +173,7 @@ class Mol2Reader {
         throw InputError(file_.path, lines_.number(),
                          fmt::format("{} is one atom more than line {} says; correct the count", in_quotes(line_),
                                      molecule_line_ + 2));
-      if (!wanted_) {
+      if (!is_wanted_) {
         ++contents_.other_model_atoms;
       } else {
         take_atom(fields);
@@ -216,7 +216,7 @@ class Mol2Reader {
   void read_bonds() {
     std::int64_t bonds = 0;
     for (std::vector<std::string_view> fields; next(fields); ++bonds) {
-      if (!wanted_) continue;
+      if (!is_wanted_) continue;
       if (fields.size() < 4)
         throw InputError(file_.path, lines_.number(),
                          fmt::format("{} is not a bond: id, two atoms and a kind", in_quotes(line_)));
@@ -232,7 +232,7 @@ class Mol2Reader {
       }
       if (fields[3] != "nc") contents_.bonds.push_back({std::min(bond[0], bond[1]), std::max(bond[0], bond[1])});
     }
-    if (wanted_ && counted_bonds_ >= 0 && bonds < counted_bonds_)
+    if (is_wanted_ && counted_bonds_ >= 0 && bonds < counted_bonds_)
       throw InputError(
           file_.path, molecule_line_ + 2,
           fmt::format("the count says {} bonds, but {} follow; is the file cut short?", counted_bonds_, bonds));
@@ -255,7 +255,8 @@ class Mol2Reader {
                             std::make_move_iterator(contents_.atoms.end()));
     contents_.atoms.resize(first_);
     residues_.end_piece();
-    const bool uncharged = no_charges_ && std::ranges::all_of(atoms, [](const Atom& a) { return !(a.charge != 0.0F); });
+    const bool uncharged =
+        has_no_charges_ && std::ranges::all_of(atoms, [](const Atom& a) { return !(a.charge != 0.0F); });
     const bool glycam = std::ranges::any_of(rows_, [](const Row& row) { return row.type == kGlycamCarbon; });
     for (std::size_t n = 0; n < atoms.size(); ++n) {
       const auto& [line, id, name, type] = rows_[n];
@@ -283,7 +284,7 @@ class Mol2Reader {
   FileContents contents_;
   ResidueCounter residues_{contents_.atoms};
   std::string line_;  ///< the line whose fields next() returned
-  bool wanted_ = false, no_charges_ = false;
+  bool is_wanted_ = false, has_no_charges_ = false;
   /// First atom of this molecule in the contents, number of its atoms, its line.
   std::size_t first_ = 0, seen_ = 0, molecule_line_ = 0;
   std::int64_t counted_ = 0, counted_bonds_ = -1;           ///< numbers in its header; -1: none

@@ -30,7 +30,7 @@
 namespace meniscus {
 namespace {
 
-constexpr std::size_t kCoordinatesEnd = 54, kBehind = 66;  // ends of columns
+constexpr std::size_t kCoordinatesEnd = 54, kTrailingColumns = 66;  // ends of columns
 
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
@@ -49,8 +49,8 @@ gemmi::Element element_by_place(std::string_view name) {
 
 class PdbReader {
  public:
-  PdbReader(const TextFile& file, const ModelChoice& models, ColumnsBehind behind)
-      : file_(file), choice_(models), behind_(behind) {}
+  PdbReader(const TextFile& file, const ModelChoice& models, TrailingColumns read_trailing)
+      : file_(file), choice_(models), read_trailing_(read_trailing) {}
 
   FileContents run() {
     LineReader lines(file_.text);
@@ -97,7 +97,7 @@ class PdbReader {
       bonds_.add_record(line);
     } else if (is_pdb_record(line, "EXPDTA")) {
       take_experiment(line);
-    } else if (behind_ && is_pdb_record(line, "BRANCH")) {
+    } else if (read_trailing_ && is_pdb_record(line, "BRANCH")) {
       take_branch(line);
     } else if (is_pdb_record(line, "HELIX")) {
       take_range(line, SecondaryStructure::helix, 19, 31);
@@ -171,7 +171,7 @@ class PdbReader {
       refuse_shifted(line, number);
       throw;
     }
-    read_pdb_names(behind_ ? line.substr(0, kBehind) : line, atom);
+    read_pdb_names(read_trailing_ ? line.substr(0, kTrailingColumns) : line, atom);
     if (!residue_numbers_.read(line, atom)) number_.add(number, line.substr(22, 4));
     atom.occupancy = optional_number(line, 54, occupancy_, number);
     atom.b_factor = optional_number(line, 60, b_factor_, number);
@@ -209,9 +209,9 @@ class PdbReader {
     hints.heteroatom = is_pdb_record(line, "HETATM");
     if (hints.heteroatom && !atom.chain.empty() && ended_chains_.contains(atom.chain))
       hints.residue = ResidueStatement::other;
-    if (behind_) {
-      if (!behind_(file_, number, line, atom))
-        symbol_.add(number, line.substr(kBehind));
+    if (read_trailing_) {
+      if (!read_trailing_(file_, number, line, atom))
+        symbol_.add(number, line.substr(kTrailingColumns));
       else
         hints.site = atom.element == 0;
       return;
@@ -246,7 +246,7 @@ class PdbReader {
 
   const TextFile& file_;
   const ModelChoice& choice_;
-  ColumnsBehind behind_;
+  TrailingColumns read_trailing_;
   FileContents contents_;
   std::vector<AtomHints> hints_;
   ResidueCounter residues_{contents_.atoms};
@@ -282,8 +282,9 @@ bool positions(std::string_view model, std::vector<glm::dvec3>& positions) {
   for (std::string_view line; lines.next(line);) {
     if (!is_pdb_atom(line)) continue;
     glm::dvec3& position = positions.emplace_back();
-    if (line.size() < kCoordinatesEnd || !parse_quickly(line.substr(30, 8), 1.0, position.x) ||
-        !parse_quickly(line.substr(38, 8), 1.0, position.y) || !parse_quickly(line.substr(46, 8), 1.0, position.z))
+    if (line.size() < kCoordinatesEnd || !try_parse_coordinate(line.substr(30, 8), 1.0, position.x) ||
+        !try_parse_coordinate(line.substr(38, 8), 1.0, position.y) ||
+        !try_parse_coordinate(line.substr(46, 8), 1.0, position.z))
       return false;
   }
   return true;
@@ -291,8 +292,8 @@ bool positions(std::string_view model, std::vector<glm::dvec3>& positions) {
 
 }  // namespace
 
-FileContents read_pdb(const TextFile& file, const ModelChoice& models, ColumnsBehind behind) {
-  return PdbReader(file, models, behind).run();
+FileContents read_pdb(const TextFile& file, const ModelChoice& models, TrailingColumns read_trailing) {
+  return PdbReader(file, models, read_trailing).run();
 }
 
 const Reader kPdbReader{

@@ -11,9 +11,9 @@ namespace meniscus {
 
 /// A function that takes charge and element of an atom from the columns after the B-factor. False if the element is
 /// unknown. Throws InputError.
-using ColumnsBehind = bool (*)(const TextFile& file, std::size_t line_number, std::string_view line, Atom& atom);
+using TrailingColumns = bool (*)(const TextFile& file, std::size_t line_number, std::string_view line, Atom& atom);
 
-/// Reads a file. behind: null for PDB, which has segment and element in these columns.
-FileContents read_pdb(const TextFile& file, const ModelChoice& models, ColumnsBehind behind);
+/// Reads a file. read_trailing: null for PDB, which has segment and element in these columns.
+FileContents read_pdb(const TextFile& file, const ModelChoice& models, TrailingColumns read_trailing);
 
 }  // namespace meniscus

@@ -42,7 +42,7 @@ std::uint8_t element_of_type(std::string_view type) {
   return found != std::end(kTypes) ? found->second : element_of_symbol(letters);
 }
 
-bool read_columns_behind(const TextFile& file, std::size_t number, std::string_view line, Atom& atom) {
+bool read_trailing_columns(const TextFile& file, std::size_t number, std::string_view line, Atom& atom) {
   if (!parse_single(charge_of(line), atom.charge))
     throw InputError(file.path, number,
                      fmt::format("charge in columns 67 to 76 is {}, not a finite number; is this PDB, not PDBQT?",
@@ -71,7 +71,7 @@ bool recognizes(std::string_view text) {
 }
 
 FileContents read(const TextFile& file, const ModelChoice& models) {
-  return read_pdb(file, models, read_columns_behind);
+  return read_pdb(file, models, read_trailing_columns);
 }
 
 }  // namespace

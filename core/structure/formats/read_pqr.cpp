@@ -55,8 +55,8 @@ std::optional<PqrRecord> by_blanks(std::string_view line) {
 /// separated by blanks.
 std::optional<PqrRecord> by_columns(std::string_view line) {
   if (line.size() <= kChargeStart) return std::nullopt;
-  const std::vector<std::string_view> behind = fields_of(line.substr(kChargeStart), 3);
-  if (behind.size() != 2) return std::nullopt;
+  const std::vector<std::string_view> charge_and_radius = fields_of(line.substr(kChargeStart), 3);
+  if (charge_and_radius.size() != 2) return std::nullopt;
   Atom names;
   read_pdb_names(line.substr(0, kNumbersStart), names);
   PqrRecord record;
@@ -71,8 +71,8 @@ std::optional<PqrRecord> by_columns(std::string_view line) {
     record.numbers[axis] = trimmed(line.substr(kNumbersStart + 8 * axis, 8));
     if (!is_number(record.numbers[axis])) return std::nullopt;
   }
-  record.numbers[3] = behind[0];
-  record.numbers[4] = behind[1];
+  record.numbers[3] = charge_and_radius[0];
+  record.numbers[4] = charge_and_radius[1];
   return record;
 }
 

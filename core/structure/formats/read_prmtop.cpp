@@ -256,7 +256,7 @@ class PrmtopReader {
             fmt::format("RADII of atom {} is {}; it must be from 0 to {} Å", n + 1, radii[n], kLargestRadius));
       contents_.atoms[n].radius = radii[n];
     }
-    contents_.radii = FileRadii::if_asked;
+    contents_.radii = FileRadii::on_request;
   }
 
   /// Numbers the residues. Chains, numbers and insertion codes of the PDB file are in the file only if ParmEd's addPDB

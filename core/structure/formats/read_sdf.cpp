@@ -80,12 +80,12 @@ class SdfReader {
     std::string_view title, program, line;
     const bool whole = lines_.next(title) && lines_.next(program) && lines_.next(line) && lines_.next(line);
     ++contents_.models;
-    wanted_ = choice_.takes(static_cast<std::int32_t>(contents_.models));
+    is_wanted_ = choice_.takes(static_cast<std::int32_t>(contents_.models));
     first_ = contents_.atoms.size();
     seen_ = 0;
     name_ = take_field(title);
     if (name_.empty()) name_ = "UNL";
-    flat_ = columns(program, 20, 2) != "3D";
+    is_flat_ = columns(program, 20, 2) != "3D";
     numbers_of_symbols_.clear();
     places_.clear();
     if (!whole)
@@ -177,7 +177,7 @@ class SdfReader {
 
   /// Reads the number of charges, and then pairs of an atom and its charge.
   void read_charges(std::string_view line) {
-    if (!wanted_) return;
+    if (!is_wanted_) return;
     const std::vector<std::string_view> fields = fields_of(line.substr(6));
     for (std::size_t n = 1; n + 1 < fields.size(); n += 2) {
       std::int64_t atom = 0, charge = 0;
@@ -194,7 +194,7 @@ class SdfReader {
   /// each atom.
   void read_data(std::string_view header) {
     const bool pubchem = header.find("<PUBCHEM_MMFF94_PARTIAL_CHARGES>") != std::string_view::npos;
-    if (!wanted_ || (!pubchem && header.find("<atom.dprop.PartialCharge>") == std::string_view::npos)) return;
+    if (!is_wanted_ || (!pubchem && header.find("<atom.dprop.PartialCharge>") == std::string_view::npos)) return;
     std::vector<float> charges;
     if (pubchem) charges.assign(seen_, 0.0F);
     const std::size_t first_line = lines_.number() + 1;
@@ -216,7 +216,7 @@ class SdfReader {
       throw InputError(file_.path, first_line - 1,
                        fmt::format("{} partial charges follow for {} atoms", charges.size(), seen_));
     for (std::size_t n = 0; n < seen_; ++n) contents_.atoms[first_ + n].charge = charges[n];
-    partial_charges_ = true;
+    has_partial_charges_ = true;
   }
 
   [[noreturn]] void refuse_partial_charges(std::string_view line) const {
@@ -277,7 +277,7 @@ class SdfReader {
       throw InputError(file_.path, lines_.number(),
                        fmt::format("atom {} is there twice; give each atom its own number", index));
     take_atom({{fields[2], fields[3], fields[4]}, fields[1], {}});
-    for (std::size_t n = 5; wanted_ && n < fields.size(); ++n) {
+    for (std::size_t n = 5; is_wanted_ && n < fields.size(); ++n) {
       if (!fields[n].starts_with("CHG=")) continue;
       if (!parse_single(fields[n].substr(4), contents_.atoms.back().charge))
         throw InputError(file_.path, lines_.number(), fmt::format("{} is not a charge", in_quotes(fields[n])));
@@ -302,7 +302,7 @@ class SdfReader {
 
   void take_atom(const AtomLine& line) {
     ++seen_;
-    if (!wanted_) {
+    if (!is_wanted_) {
       ++contents_.other_model_atoms;
       return;
     }
@@ -328,23 +328,23 @@ class SdfReader {
       throw InputError(file_.path, lines_.number(),
                        fmt::format("atom {} is bonded to itself; correct the bond", a + 1));
     const auto first = static_cast<std::uint32_t>(first_);
-    if (wanted_) contents_.bonds.push_back({first + std::min(a, b), first + std::max(a, b)});
+    if (is_wanted_) contents_.bonds.push_back({first + std::min(a, b), first + std::max(a, b)});
   }
 
   /// Completes a molecule. If all charges are zero, the file is taken to have none.
   void finish_molecule() {
-    if (!wanted_) return;
+    if (!is_wanted_) return;
     ++molecules_;
     if (!contents_.bonds.empty() && contents_.bonds.back()[0] >= first_)
       contents_.fully_bonded.push_back(static_cast<std::int32_t>(contents_.models));
     const auto begin = contents_.atoms.begin() + static_cast<std::ptrdiff_t>(first_);
     const auto all = [&](auto&& is) { return std::all_of(begin, contents_.atoms.end(), is); };
-    if (!partial_charges_ && all([](const Atom& atom) { return atom.charge == 0.0F; }))
+    if (!has_partial_charges_ && all([](const Atom& atom) { return atom.charge == 0.0F; }))
       std::for_each(begin, contents_.atoms.end(),
                     [](Atom& atom) { atom.charge = std::numeric_limits<float>::quiet_NaN(); });
-    partial_charges_ = false;
+    has_partial_charges_ = false;
     // Drawings are not in Å, and their atoms overlap.
-    if (seen_ > 3 && flat_ && all([](const Atom& atom) { return atom.position.z == 0.0; }))
+    if (seen_ > 3 && is_flat_ && all([](const Atom& atom) { return atom.position.z == 0.0; }))
       contents_.warnings.emplace_back(fmt::format(
           "molecule {} is drawn in two dimensions: all z are 0; a surface needs its conformer", contents_.models));
   }
@@ -353,7 +353,7 @@ class SdfReader {
   const ModelChoice& choice_;
   LineReader lines_;
   FileContents contents_;
-  bool wanted_ = true, partial_charges_ = false, flat_ = true;
+  bool is_wanted_ = true, has_partial_charges_ = false, is_flat_ = true;
   std::size_t first_ = 0;        ///< first atom of this molecule in the contents
   std::size_t seen_ = 0;         ///< number of atoms of this molecule
   std::uint32_t molecules_ = 0;  ///< number of molecules used before it

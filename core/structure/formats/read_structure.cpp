@@ -65,19 +65,19 @@ void leave_out(std::vector<Atom>& atoms, std::vector<Atom>& beside, ReadReport& 
 
 /// How selections are evaluated: for the current positions of atoms, for those in a frame of a trajectory, where
 /// nothing may be selected, or for all positions that atoms may have.
-enum class Meaning { here, in_a_frame, anywhere };
+enum class PositionScope { current, frame, any };
 
-std::vector<bool> selected_of(const Selection& selection, const std::vector<Atom>& atoms, Meaning meaning) {
-  return meaning == Meaning::anywhere ? selection.reach(atoms).selected : selection.evaluate(atoms);
+std::vector<bool> select(const Selection& selection, const std::vector<Atom>& atoms, PositionScope scope) {
+  return scope == PositionScope::any ? selection.possible(atoms).selected : selection.evaluate(atoms);
 }
 
 std::vector<bool> evaluate(const Selection& selection, const std::vector<Atom>& atoms, const RadiiChoice& radii,
-                           const std::string& path, Meaning meaning) {
+                           const std::string& path, PositionScope scope) {
   if (selection.uses_radius() && !radii.from_molecule_file()) {
     throw InputError(path, 0,
                      "has no radii yet: they are assigned after the selection, so 'radius' cannot be used in it");
   }
-  std::vector<bool> selected = selected_of(selection, atoms, meaning);
+  std::vector<bool> selected = select(selection, atoms, scope);
   if (std::find(selected.begin(), selected.end(), true) == selected.end()) {
     throw InputError(path, 0,
                      fmt::format("none of its {} atoms is selected by {}; {}", with_thousands(atoms.size()),
@@ -118,7 +118,7 @@ class Choice {
 
 /// Sets Atom::shown. Throws InputError if a selection shows no atoms, except in a frame.
 void mark_shown(std::vector<Atom>& atoms, std::span<const ShownAtoms> shown, const Choice& choice,
-                const RadiiChoice& radii, const std::string& path, Meaning meaning) {
+                const RadiiChoice& radii, const std::string& path, PositionScope scope) {
   if (shown.size() > kMostShown)
     throw CapacityError(
         fmt::format("{} sets of atoms beside the surface are too many; the most is {}", shown.size(), kMostShown));
@@ -127,14 +127,14 @@ void mark_shown(std::vector<Atom>& atoms, std::span<const ShownAtoms> shown, con
     if (selection.uses_radius() && !radii.from_molecule_file())
       throw InputError(path, 0,
                        fmt::format("has no radii yet, so {} cannot select by them", option_name(shown[bit].option)));
-    const std::vector<bool> selected = selected_of(selection, atoms, meaning), named = selection.names(atoms);
+    const std::vector<bool> selected = select(selection, atoms, scope), named = selection.names(atoms);
     bool any = false;
     for (std::size_t n = 0; n < atoms.size(); ++n) {
       if (choice.reason(atoms[n], selected[n], named[n])) continue;
       atoms[n].shown = static_cast<std::uint16_t>(atoms[n].shown | (1u << bit));
       any = true;
     }
-    if (any || meaning == Meaning::in_a_frame) continue;
+    if (any || scope == PositionScope::frame) continue;
     throw InputError(path, 0,
                      fmt::format("none of its {} atoms is shown by {}; chains and names are case-sensitive, water "
                                  "and free ions are shown where the expression names them",
@@ -146,7 +146,7 @@ void mark_shown(std::vector<Atom>& atoms, std::span<const ShownAtoms> shown, con
 /// Leaves out atoms for the reasons in structure.h, in their order.
 void choose_atoms(std::vector<Atom>& atoms, const std::vector<bool>& sites, std::vector<Atom>& beside,
                   const ReadOptions& options, const RadiiChoice& radii, ReadReport& report, const std::string& path,
-                  Meaning meaning) {
+                  PositionScope scope) {
   const std::vector<bool> of_kept_altlocs = kept_alternates(atoms, options.altloc, report.warnings);
   leave_out(atoms, beside, report, [&](std::size_t n) -> const char* {
     if (!of_kept_altlocs[n]) return kExcludedAltloc;
@@ -156,17 +156,17 @@ void choose_atoms(std::vector<Atom>& atoms, const std::vector<bool>& sites, std:
   if (options.secondary_structure) assign_secondary_structure(atoms);
   std::vector<bool> selected(atoms.size(), true), named(atoms.size());
   if (options.selection) {
-    for (const Selection& side : options.sides) evaluate(side, atoms, radii, path, meaning);
-    selected = evaluate(*options.selection, atoms, radii, path, meaning);
+    for (const Selection& side : options.required_parts) evaluate(side, atoms, radii, path, scope);
+    selected = evaluate(*options.selection, atoms, radii, path, scope);
     named = options.selection->names(atoms);
   }
   const Choice choice(atoms, options, radii);
-  mark_shown(atoms, options.shown, choice, radii, path, meaning);
+  mark_shown(atoms, options.shown, choice, radii, path, scope);
   leave_out(atoms, beside, report, [&](std::size_t n) { return choice.reason(atoms[n], selected[n], named[n]); });
 }
 
 /// Assigns radii to the atoms in `beside`. Returns the labels of those whose element is unknown.
-std::vector<std::string> assign_beside(Structure& structure, const RadiiChoice& radii) {
+std::vector<std::string> assign_extra_radii(Structure& structure, const RadiiChoice& radii) {
   if (structure.beside.empty()) return {};
   Structure beside;
   beside.atoms = std::move(structure.beside);
@@ -176,7 +176,7 @@ std::vector<std::string> assign_beside(Structure& structure, const RadiiChoice& 
 }
 
 /// Makes the copies of the assembly for the atoms in `beside`.
-void assemble_beside(Structure& structure, const Assembly& assembly) {
+void assemble_extra_atoms(Structure& structure, const Assembly& assembly) {
   std::erase_if(structure.beside, [&](const Atom& atom) { return !names_chain_of(assembly, atom); });
   if (structure.beside.empty()) return;
   Structure beside;
@@ -187,7 +187,7 @@ void assemble_beside(Structure& structure, const Assembly& assembly) {
 }
 
 /// Returns the bonds of all shown atoms, as places in `atoms` followed by `beside`.
-std::vector<Bond> bonds_of_shown(const Structure& structure, const FileContents& contents) {
+std::vector<Bond> find_shown_bonds(const Structure& structure, const FileContents& contents) {
   const std::size_t own = structure.atoms.size();
   const auto atom = [&](std::uint32_t n) -> const Atom& {
     return n < own ? structure.atoms[n] : structure.beside[n - own];
@@ -310,7 +310,7 @@ void list_assemblies(Structure& structure, const TextFile& file, const Reader& r
 }
 
 /// Returns the requested assembly, or nothing.
-std::optional<Assembly> asked_assembly(const TextFile& file, const Reader& reader, const ReadOptions& options) {
+std::optional<Assembly> requested_assembly(const TextFile& file, const Reader& reader, const ReadOptions& options) {
   if (options.assembly.empty()) return {};
   if (!reader.assemblies) {
     throw InputError(file.path, 0,
@@ -339,7 +339,7 @@ void copy_atoms(std::vector<Atom>& atoms, const Assembly& assembly, Structure& s
 
 /// Converts bonds from Atom::index to places in Structure::atoms followed by `beside`. Only bonds between shown atoms
 /// are returned.
-std::vector<Bond> places_of(const Structure& structure, const std::vector<Bond>& by_index) {
+std::vector<Bond> bonds_by_place(const Structure& structure, const std::vector<Bond>& by_index) {
   std::unordered_map<std::uint32_t, std::uint32_t> places;
   std::uint32_t next = 0;
   for (const std::vector<Atom>* atoms : {&structure.atoms, &structure.beside})
@@ -356,11 +356,11 @@ std::vector<Bond> places_of(const Structure& structure, const std::vector<Bond>&
 
 /// The contents of a file, which is read once.
 struct StructureFile::Parts {
-  Parts(const std::string& path, const ReadOptions& asked)
-      : options(asked),
+  Parts(const std::string& path, const ReadOptions& read_options)
+      : options(read_options),
         file(read_molecule_file(path)),
         reader(choose_reader(file)),
-        contents(reader.read(file, asked.model)) {
+        contents(reader.read(file, read_options.model)) {
     require_model(file.path, options.model, contents.models);
     report.models = contents.models;
     if (options.trajectory_atoms) keep_trajectory_atoms(contents, *options.trajectory_atoms, file, report);
@@ -374,22 +374,22 @@ struct StructureFile::Parts {
     report.excluded[kExcludedModel] = contents.other_model_atoms;
     std::erase_if(report.excluded, [](const auto& reason) { return reason.second == 0; });
     report.warnings = contents.warnings;
-    note_other_molecules();
+    warn_of_other_molecules();
     chains = chains_of(contents.atoms);
     radii.emplace(options.radii, file.path, contents.radii, contents.atoms);
-    note_version_of_beads();
+    warn_of_uncertain_martini();
   }
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
 
-  void note_other_molecules() {
+  void warn_of_other_molecules() {
     if (!contents.of_molecules || contents.models < 2 || options.model.all || options.model.number != 1) return;
     report.warnings.emplace_back(
         message("{} molecules are in the file; the first is used, @model 2@ takes the next, @model all@ unites them",
                 with_thousands(contents.models)));
   }
 
-  void note_version_of_beads() {
+  void warn_of_uncertain_martini() {
     const MartiniVersion martini = martini_version(contents.atoms);
     if (martini.number == 0 || martini.certain || !options.radii.set.empty()) return;
     report.warnings.emplace_back(
@@ -410,7 +410,7 @@ struct StructureFile::Parts {
 
   /// Makes a structure of atoms, which are those of the contents at any positions. Structure::shown_bonds is not filled
   /// in.
-  Structure choose(std::vector<Atom> atoms, Meaning meaning) const {
+  Structure choose(std::vector<Atom> atoms, PositionScope scope) const {
     Structure structure;
     structure.file = file.path;
     structure.format = reader.metadata.name;
@@ -419,18 +419,18 @@ struct StructureFile::Parts {
     structure.topology = topology;
     if (added) structure.added = added->place(atoms);
     structure.chains = chains;
-    const std::optional<Assembly> assembly = asked_assembly(file, reader, options);
+    const std::optional<Assembly> assembly = requested_assembly(file, reader, options);
     const bool copies_first = assembly && names_copies(options);
     if (copies_first) copy_atoms(atoms, *assembly, structure);
     warn_of_missing_altloc(structure, atoms, options.altloc);
-    choose_atoms(atoms, contents.sites, structure.beside, options, *radii, structure.report, file.path, meaning);
+    choose_atoms(atoms, contents.sites, structure.beside, options, *radii, structure.report, file.path, scope);
     structure.atoms = std::move(atoms);
     structure.report.used = structure.atoms.size();
     refuse_no_atoms(structure);
     std::vector<std::string> unknown = radii->assign(structure);
-    const std::vector<std::string> beside = assign_beside(structure, *radii);
+    const std::vector<std::string> beside = assign_extra_radii(structure, *radii);
     unknown.insert(unknown.end(), beside.begin(), beside.end());
-    if (options.unknown_element == UnknownElement::halt && meaning != Meaning::anywhere)
+    if (options.unknown_element == UnknownElement::halt && scope != PositionScope::any)
       halt_on_unknown_elements(structure, unknown, contents.unknown_elements);
     refuse_no_atoms(structure);
     warn_of_coincident_atoms(structure);
@@ -439,7 +439,7 @@ struct StructureFile::Parts {
     if (options.list_assemblies) list_assemblies(structure, file, reader);
     if (assembly && !copies_first) {
       assemble(structure, *assembly, options.copy_mode);
-      assemble_beside(structure, *assembly);
+      assemble_extra_atoms(structure, *assembly);
     }
     return structure;
   }
@@ -458,12 +458,15 @@ struct StructureFile::Parts {
 
 StructureFile::StructureFile(const std::string& path, const ReadOptions& options)
     : parts_(std::make_unique<Parts>(path, options)),
-      reach_(parts_->choose(parts_->contents.atoms, Meaning::anywhere)) {
+      possible_structure_(parts_->choose(parts_->contents.atoms, PositionScope::any)) {
   if (options.shown.empty()) return;
-  reach_.shown_bonds = std::make_shared<const std::vector<Bond>>(bonds_of_shown(reach_, parts_->contents));
-  const std::size_t own = reach_.atoms.size();
-  const auto index = [&](std::uint32_t n) { return (n < own ? reach_.atoms[n] : reach_.beside[n - own]).index; };
-  for (const auto& [a, b] : *reach_.shown_bonds) parts_->bonds_by_index.push_back({index(a), index(b)});
+  possible_structure_.shown_bonds =
+      std::make_shared<const std::vector<Bond>>(find_shown_bonds(possible_structure_, parts_->contents));
+  const std::size_t own = possible_structure_.atoms.size();
+  const auto index = [&](std::uint32_t n) {
+    return (n < own ? possible_structure_.atoms[n] : possible_structure_.beside[n - own]).index;
+  };
+  for (const auto& [a, b] : *possible_structure_.shown_bonds) parts_->bonds_by_index.push_back({index(a), index(b)});
 }
 
 StructureFile::~StructureFile() = default;
@@ -471,9 +474,10 @@ StructureFile::~StructureFile() = default;
 Structure StructureFile::at(std::span<const glm::dvec3> positions) const {
   std::vector<Atom> atoms = parts_->contents.atoms;
   for (std::size_t n = 0; n < positions.size(); ++n) atoms[n].position = positions[n];
-  Structure structure = parts_->choose(std::move(atoms), Meaning::in_a_frame);
+  Structure structure = parts_->choose(std::move(atoms), PositionScope::frame);
   if (!parts_->options.shown.empty())
-    structure.shown_bonds = std::make_shared<const std::vector<Bond>>(places_of(structure, parts_->bonds_by_index));
+    structure.shown_bonds =
+        std::make_shared<const std::vector<Bond>>(bonds_by_place(structure, parts_->bonds_by_index));
   return structure;
 }
 
@@ -487,9 +491,9 @@ std::size_t count_atoms(const std::string& path, const std::optional<Selection>&
 
 Structure read_structure(const std::string& path, const ReadOptions& options) {
   StructureFile::Parts parts(path, options);
-  Structure structure = parts.choose(std::move(parts.contents.atoms), Meaning::here);
+  Structure structure = parts.choose(std::move(parts.contents.atoms), PositionScope::current);
   if (!options.shown.empty())
-    structure.shown_bonds = std::make_shared<const std::vector<Bond>>(bonds_of_shown(structure, parts.contents));
+    structure.shown_bonds = std::make_shared<const std::vector<Bond>>(find_shown_bonds(structure, parts.contents));
   return structure;
 }
 

@@ -50,7 +50,7 @@ struct ReadOptions {
   /// virtual sites, including water and ions. Selected water and ions are used only if the expression names them
   /// (Selection::names) or with keep_water or keep_ions.
   std::optional<Selection> selection = {};
-  std::vector<Selection> sides = {};  ///< parts of the selection, each of which must have atoms
+  std::vector<Selection> required_parts = {};  ///< parts of the selection, each of which must have atoms
   Hydrogens hydrogens = Hydrogens::automatic;
   RadiiOptions radii{};
   bool keep_topology = false;  ///< if true, Structure::topology is filled in
@@ -83,19 +83,19 @@ class StructureFile {
   StructureFile& operator=(const StructureFile&) = delete;
 
   /// All atoms that at() may use or show, at the positions of the file or of the options.
-  const Structure& reach() const { return reach_; }
+  const Structure& possible_structure() const { return possible_structure_; }
 
   /// Returns the structure that read_structure gives for other positions (Å), one for each atom of the file or of
   /// ReadOptions::trajectory_atoms. Atoms of added files are superposed on them if requested, and stay otherwise. A
-  /// selection of ReadOptions::shown may be empty. Bonds are those found in reach(), so that they do not change. Throws
-  /// as read_structure does.
+  /// selection of ReadOptions::shown may be empty. Bonds are those found in possible_structure(), so that they do not
+  /// change. Throws as read_structure does.
   Structure at(std::span<const glm::dvec3> positions) const;
 
  private:
   friend Structure read_structure(const std::string& path, const ReadOptions& options);
   struct Parts;
   std::unique_ptr<Parts> parts_;
-  Structure reach_;
+  Structure possible_structure_;
 };
 
 /// Returns the number of atoms in the first model of the file, or of those that belong to a trajectory

@@ -93,7 +93,7 @@ class XyzReader {
       read_frame(count_of(line));
     }
     if (contents_.atoms.empty() && contents_.other_model_atoms == 0) throw InputError(file_.path, 0, "holds no atoms");
-    tell_types();
+    warn_of_types();
     return std::move(contents_);
   }
 
@@ -122,7 +122,7 @@ class XyzReader {
     ++contents_.models;
     std::string_view line;
     const Columns columns = lines_.next(line) ? columns_of(line) : Columns{};
-    of_lammps_ = line.starts_with("Atoms. Timestep:") || trimmed(line) == "Atoms";  // the latter in old versions
+    is_lammps_ = line.starts_with("Atoms. Timestep:") || trimmed(line) == "Atoms";  // the latter in old versions
     const bool wanted = choice_.takes(static_cast<std::int32_t>(contents_.models));
     for (std::size_t n = 0; n < count; ++n) {
       if (!lines_.next(line)) refuse_short_frame(file_, count_line, count, n);
@@ -149,11 +149,11 @@ class XyzReader {
     atom.name = fields[columns.element];
     std::int64_t ignored = 0;
     const bool is_number = parse_whole_number(atom.name, ignored);
-    const bool is_type = is_number && of_lammps_;
+    const bool is_type = is_number && is_lammps_;
     if (!is_type) atom.element = element_of(atom.name);
     if (is_number) numbers_.set(atom.element);
-    symbols_ = symbols_ || !is_number;
-    types_ = types_ || is_type;
+    has_symbols_ = has_symbols_ || !is_number;
+    has_types_ = has_types_ || is_type;
     for (int axis = 0; axis < 3; ++axis) {
       const std::string_view field = fields[columns.position + static_cast<std::size_t>(axis)];
       double number = 0.0;
@@ -165,13 +165,13 @@ class XyzReader {
   }
 
   /// Warns if the numbers of elements may be types of atoms. Types count from 1, while few molecules contain helium.
-  void tell_types() {
-    if (types_)
+  void warn_of_types() {
+    if (has_types_)
       contents_.unknown_elements =
           "the numbers are LAMMPS' types of atoms; write the file again after 'dump_modify ID element C H O ...', one "
           "symbol a type, or put symbols in their place";
     const std::size_t last = numbers_.count();
-    if (symbols_ || last < 2 || numbers_ != (~std::bitset<128>() >> (127 - last)).reset(0)) return;
+    if (has_symbols_ || last < 2 || numbers_ != (~std::bitset<128>() >> (127 - last)).reset(0)) return;
     contents_.warnings.emplace_back(
         fmt::format("the elements are numbers from 1 to {}, and count as H, He and so on; if these are types of a "
                     "simulation, put symbols in their place",
@@ -183,7 +183,7 @@ class XyzReader {
   LineReader lines_;
   FileContents contents_;
   std::bitset<128> numbers_;  ///< elements that are written as numbers
-  bool symbols_ = false, types_ = false, of_lammps_ = false;
+  bool has_symbols_ = false, has_types_ = false, is_lammps_ = false;
 };
 
 bool recognizes(std::string_view text) {
@@ -233,7 +233,7 @@ bool positions(std::string_view model, std::vector<glm::dvec3>& positions) {
     glm::dvec3& position = positions.emplace_back();
     for (std::size_t n = 0; n < columns.position; ++n) take_field(line);
     for (int axis = 0; axis < 3; ++axis)
-      if (!parse_quickly(take_field(line), 1.0, position[axis])) return false;
+      if (!try_parse_coordinate(take_field(line), 1.0, position[axis])) return false;
   }
   return positions.size() == static_cast<std::uint64_t>(count);
 }

@@ -168,7 +168,7 @@ class Evaluation {
     }
     const PointTree tree(std::move(points));
     for (std::size_t n = 0; n < atoms_.size(); ++n) {
-      set[n] = set[n] ? step.with_the_set : tree.any_within(atoms_[n].position, step.distance);
+      set[n] = set[n] ? step.includes_set : tree.any_within(atoms_[n].position, step.distance);
     }
   }
 
@@ -189,7 +189,7 @@ class Evaluation {
     }
   }
 
-  void operator()(const SettledTest& test) {
+  void operator()(const FixedTest& test) {
     stack_.push_back(atoms_where(atoms_, [&](const Atom& atom) {
       return test.atoms->contains({test.copied ? atom.copy : 0, atom.index});
     }));
@@ -236,7 +236,7 @@ bool names_by(const SelectionStep& step, const Atom& atom, const std::set<std::s
            std::any_of(test->ranges.begin(), test->ranges.end(),
                        [&](const std::array<double, 2>& range) { return range[0] == atom.element; });
   }
-  if (const auto* test = std::get_if<SettledTest>(&step)) {
+  if (const auto* test = std::get_if<FixedTest>(&step)) {
     return std::ranges::any_of(test->expression->steps,
                                [&](const SelectionStep& each) { return names_by(each, atom, names_of_others); });
   }
@@ -331,37 +331,37 @@ bool Selection::uses_positions() const {
 
 // Two evaluations run in parallel: one of the atoms that are always selected, and one of the atoms that may be
 // selected.
-Selection::Reach Selection::reach(std::span<const Atom> atoms) const {
-  Evaluation surely(atoms), perhaps(atoms);
-  Reach reach{{}, Set(atoms.size(), false)};
+Selection::PossibleAtoms Selection::possible(std::span<const Atom> atoms) const {
+  Evaluation certain(atoms), perhaps(atoms);
+  PossibleAtoms possible{{}, Set(atoms.size(), false)};
   for (const SelectionStep& step : steps_->steps) {
     if (is_of_coordinates(step) || is_of_backbone(step)) {
-      surely.push(Set(atoms.size(), false));
+      certain.push(Set(atoms.size(), false));
       perhaps.push(is_of_coordinates(step) ? Set(atoms.size(), true) : atoms_with(AtomFlag::protein, atoms));
     } else if (const auto* within = std::get_if<WithinStep>(&step)) {
       for (std::size_t n = 0; n < atoms.size(); ++n) {
-        reach.measured[n] = reach.measured[n] || perhaps.top()[n];
-        perhaps.top()[n] = within->with_the_set || !surely.top()[n];
-        surely.top()[n] = within->with_the_set && surely.top()[n];
+        possible.measured[n] = possible.measured[n] || perhaps.top()[n];
+        perhaps.top()[n] = within->includes_set || !certain.top()[n];
+        certain.top()[n] = within->includes_set && certain.top()[n];
       }
     } else {
-      std::visit(surely, step);
+      std::visit(certain, step);
       std::visit(perhaps, step);
-      if (std::holds_alternative<NotStep>(step)) std::swap(surely.top(), perhaps.top());
+      if (std::holds_alternative<NotStep>(step)) std::swap(certain.top(), perhaps.top());
     }
   }
-  reach.selected = perhaps.pop();
-  return reach;
+  possible.selected = perhaps.pop();
+  return possible;
 }
 
-Selection Selection::settled(std::span<const Atom> atoms, const std::vector<bool>& selected) const {
+Selection Selection::fixed(std::span<const Atom> atoms, const std::vector<bool>& selected) const {
   auto chosen = std::make_shared<std::set<std::pair<std::uint32_t, std::uint32_t>>>();
   for (std::size_t n = 0; n < atoms.size(); ++n)
     if (selected[n]) chosen->emplace(atoms[n].copy, atoms[n].index);
-  Selection settled = *this;
-  settled.steps_ = std::make_shared<const SelectionSteps>(
-      SelectionSteps{{SettledTest{steps_, std::move(chosen), has_copies(atoms)}}});
-  return settled;
+  Selection fixed = *this;
+  fixed.steps_ =
+      std::make_shared<const SelectionSteps>(SelectionSteps{{FixedTest{steps_, std::move(chosen), has_copies(atoms)}}});
+  return fixed;
 }
 
 Selection either(const Selection& a, const Selection& b) {

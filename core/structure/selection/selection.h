@@ -41,14 +41,14 @@ class Selection {
   bool names_copies() const;
 
   /// The atoms that an expression may select at any positions, and the atoms from which it measures distances.
-  struct Reach {
+  struct PossibleAtoms {
     std::vector<bool> selected, measured;
   };
-  Reach reach(std::span<const Atom> atoms) const;
+  PossibleAtoms possible(std::span<const Atom> atoms) const;
 
   /// Returns this expression with a fixed result: at any positions it selects the atoms that are `selected` here, by
   /// Atom::index.
-  Selection settled(std::span<const Atom> atoms, const std::vector<bool>& selected) const;
+  Selection fixed(std::span<const Atom> atoms, const std::vector<bool>& selected) const;
 
   const std::string& text() const { return text_; }
 

@@ -17,7 +17,7 @@ namespace {
 
 enum class Chemistry : std::uint8_t { other, protein, nucleic };
 
-bool among(std::string_view names, const std::string& name) {
+bool is_in_list(std::string_view names, const std::string& name) {
   if (name.empty() || name.find(' ') != std::string::npos) return false;
   return names.find(' ' + name + ' ') != std::string_view::npos;
 }
@@ -37,7 +37,7 @@ constexpr std::string_view kStandardResidues =
 /// True for an atom of a base. Other names of nucleotides have a prime or an asterisk in the sugar, and a P in the
 /// phosphate.
 bool is_base_atom(const std::string& name) {
-  return name.find_first_of("'*P") == std::string::npos && !among(kPhosphateHydrogens, name);
+  return name.find_first_of("'*P") == std::string::npos && !is_in_list(kPhosphateHydrogens, name);
 }
 
 Chemistry chemistry_of(std::span<const Atom> residue) {
@@ -52,7 +52,7 @@ Chemistry chemistry_of(std::span<const Atom> residue) {
   return has("C4'") || has("C4*") ? Chemistry::nucleic : Chemistry::other;
 }
 
-bool answers(AtomFlag flag, Chemistry chemistry, const Atom& atom) {
+bool has_flag(AtomFlag flag, Chemistry chemistry, const Atom& atom) {
   const bool protein = chemistry == Chemistry::protein, nucleic = chemistry == Chemistry::nucleic;
   switch (flag) {
     case AtomFlag::protein:
@@ -60,16 +60,16 @@ bool answers(AtomFlag flag, Chemistry chemistry, const Atom& atom) {
     case AtomFlag::nucleic:
       return nucleic;
     case AtomFlag::backbone:
-      return among(protein ? kProteinBackbone : nucleic ? kNucleicBackbone : std::string_view(), atom.name);
+      return is_in_list(protein ? kProteinBackbone : nucleic ? kNucleicBackbone : std::string_view(), atom.name);
     case AtomFlag::sidechain:
-      return (protein && !among(kProteinMainChain, atom.name)) || (nucleic && is_base_atom(atom.name));
+      return (protein && !is_in_list(kProteinMainChain, atom.name)) || (nucleic && is_base_atom(atom.name));
     default:
       return false;
   }
 }
 
 /// Returns whether a residue belongs to a class that depends on all its atoms.
-bool answers(AtomFlag flag, std::span<const Atom> residue) {
+bool has_flag(AtomFlag flag, std::span<const Atom> residue) {
   if (flag == AtomFlag::glycan) return sugar_of(residue) != nullptr;
   if (flag == AtomFlag::lipid) return is_lipid(residue);
   const bool carbon = std::any_of(residue.begin(), residue.end(), [](const Atom& atom) { return atom.element == 6; });
@@ -78,7 +78,7 @@ bool answers(AtomFlag flag, std::span<const Atom> residue) {
   return (ligand && !carbon) || residue.front().kind == AtomClass::ion;
 }
 
-bool answers(AtomFlag flag, const Atom& atom) {
+bool has_flag(AtomFlag flag, const Atom& atom) {
   switch (flag) {
     case AtomFlag::all:
       return true;
@@ -92,7 +92,7 @@ bool answers(AtomFlag flag, const Atom& atom) {
       return atom.kind == AtomClass::ion;
     case AtomFlag::heteroatom:
       return atom.kind != AtomClass::unclassified &&
-             (atom.kind != AtomClass::polymer || !among(kStandardResidues, atom.residue_name));
+             (atom.kind != AtomClass::polymer || !is_in_list(kStandardResidues, atom.residue_name));
     case AtomFlag::hydrogen:
       return atom.element == 1;
     case AtomFlag::heavy:
@@ -122,7 +122,7 @@ std::vector<bool> atoms_with(AtomFlag flag, std::span<const Atom> atoms) {
     return result;
   }
   if (!needs_residues(flag)) {
-    for (std::size_t n = 0; n < atoms.size(); ++n) result[n] = answers(flag, atoms[n]);
+    for (std::size_t n = 0; n < atoms.size(); ++n) result[n] = has_flag(flag, atoms[n]);
     return result;
   }
   std::size_t last = 0;
@@ -133,12 +133,12 @@ std::vector<bool> atoms_with(AtomFlag flag, std::span<const Atom> atoms) {
     const std::span<const Atom> residue = atoms.subspan(first, last - first);
     if (flag == AtomFlag::organic || flag == AtomFlag::inorganic || flag == AtomFlag::glycan ||
         flag == AtomFlag::lipid) {
-      const bool yes = answers(flag, residue);
+      const bool yes = has_flag(flag, residue);
       for (std::size_t n = first; n < last; ++n) result[n] = yes;
       continue;
     }
     const Chemistry chemistry = chemistry_of(residue);
-    for (std::size_t n = first; n < last; ++n) result[n] = answers(flag, chemistry, atoms[n]);
+    for (std::size_t n = first; n < last; ++n) result[n] = has_flag(flag, chemistry, atoms[n]);
   }
   return result;
 }

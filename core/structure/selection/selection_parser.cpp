@@ -86,16 +86,16 @@ class Parser {
   /// around 5` selects the atoms near the set.
   void parse_nearness() {
     while (word() && word()->kind == WordKind::distance) {
-      const bool with_the_set = word()->which == 1;
+      const bool includes_set = word()->which == 1;
       const Token keyword = take();
       const double distance = parse_limit();
       if (token().kind != TokenKind::word || lower(token().text) != "of") {
-        steps_.push_back(WithinStep{distance, with_the_set});
+        steps_.push_back(WithinStep{distance, includes_set});
         continue;
       }
       take();
       parse_operand(keyword);
-      steps_.push_back(WithinStep{distance, with_the_set});
+      steps_.push_back(WithinStep{distance, includes_set});
       steps_.push_back(AndStep{});
     }
   }
@@ -211,11 +211,11 @@ class Parser {
     return distance;
   }
 
-  void parse_distance(const Token& keyword, bool with_the_set) {
+  void parse_distance(const Token& keyword, bool includes_set) {
     const double distance = parse_limit();
     if (token().kind == TokenKind::word && lower(token().text) == "of") take();
     parse_operand(keyword);
-    steps_.push_back(WithinStep{distance, with_the_set});
+    steps_.push_back(WithinStep{distance, includes_set});
   }
 
   void parse_same(const Token& keyword) {

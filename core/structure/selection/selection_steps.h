@@ -96,7 +96,7 @@ struct AndStep {};
 struct OrStep {};
 struct WithinStep {
   double distance;    ///< Å
-  bool with_the_set;  ///< true if the atoms of the set itself are in the result
+  bool includes_set;  ///< true if the atoms of the set itself are in the result
 };
 struct WholeStep {
   bool chains;  ///< true for whole chains, false for whole residues
@@ -105,14 +105,14 @@ struct WholeStep {
 struct SelectionSteps;
 
 /// Selects the atoms that an expression selected once.
-struct SettledTest {
+struct FixedTest {
   std::shared_ptr<const SelectionSteps> expression;
   std::shared_ptr<const std::set<std::pair<std::uint32_t, std::uint32_t>>> atoms;  ///< by Atom::copy and Atom::index
   bool copied;  ///< true to compare both; false for Atom::index alone, if there were no copies
 };
 
 using SelectionStep = std::variant<FlagTest, TextTest, NumberTest, ResidueTest, CompareTest, NotStep, AndStep, OrStep,
-                                   WithinStep, WholeStep, SettledTest>;
+                                   WithinStep, WholeStep, FixedTest>;
 
 /// The steps of an expression. They are evaluated in order on a stack of sets, and leave one set.
 struct SelectionSteps {

@@ -35,22 +35,22 @@ std::uint64_t checksum(std::string_view bytes) {
   return sum;
 }
 
-void put(std::string& bytes, std::uint64_t number) {
+void append(std::string& bytes, std::uint64_t number) {
   const auto raw = std::bit_cast<std::array<char, sizeof number>>(number);
   bytes.append(raw.data(), raw.size());
 }
 
-void put(std::string& bytes, std::string_view text) {
-  put(bytes, std::uint64_t{text.size()});
+void append(std::string& bytes, std::string_view text) {
+  append(bytes, std::uint64_t{text.size()});
   bytes += text;
 }
 
 /// Returns the bytes with which the index of this file in its current state begins.
 std::string identity(const BinaryFile& file) {
   std::string bytes(kMagic);
-  put(bytes, text_of_path(fs::absolute(path_of_text(file.path()))));
-  put(bytes, file.size());
-  put(bytes, static_cast<std::uint64_t>(file.modified()));
+  append(bytes, text_of_path(fs::absolute(path_of_text(file.path()))));
+  append(bytes, file.size());
+  append(bytes, static_cast<std::uint64_t>(file.modified()));
   return bytes;
 }
 
@@ -69,7 +69,7 @@ class Fields {
   std::string_view rest_;
 };
 
-std::optional<FrameIndex> kept_index(const BinaryFile& file, const std::string& folder) {
+std::optional<FrameIndex> load_index(const BinaryFile& file, const std::string& folder) {
   std::ifstream stream(path_of_text(frame_index_path(folder, file.path())), std::ios::binary);
   if (!stream) return std::nullopt;
   const std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
@@ -96,12 +96,12 @@ bool changed_just_now(const BinaryFile& file) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count() - file.modified() < 2'000'000'000;
 }
 
-void keep_index(const BinaryFile& file, const std::string& folder, const FrameIndex& index) {
+void store_index(const BinaryFile& file, const std::string& folder, const FrameIndex& index) {
   std::string bytes = identity(file);
-  put(bytes, std::uint64_t{index.offsets.size()});
-  for (const std::uint64_t offset : index.offsets) put(bytes, offset);
-  put(bytes, std::string_view(index.cut_short));
-  put(bytes, checksum(bytes));
+  append(bytes, std::uint64_t{index.offsets.size()});
+  for (const std::uint64_t offset : index.offsets) append(bytes, offset);
+  append(bytes, std::string_view(index.cut_short));
+  append(bytes, checksum(bytes));
   std::error_code ignored;
   fs::create_directories(path_of_text(folder), ignored);
   try {
@@ -146,7 +146,7 @@ std::string frame_index_path(const std::string& folder, const std::string& path)
 FrameIndex find_frames(BinaryFile& file, const std::string& folder,
                        const std::function<FrameExtent(std::uint64_t)>& extent_at) {
   if (!folder.empty()) {
-    if (auto index = kept_index(file, folder)) return *std::move(index);
+    if (auto index = load_index(file, folder)) return *std::move(index);
   }
   FrameIndex index = walk(file, extent_at);
   file.check_unchanged();
@@ -155,7 +155,7 @@ FrameIndex find_frames(BinaryFile& file, const std::string& folder,
                      fmt::format("holds no complete frame{} in its {} bytes",
                                  index.cut_short.empty() ? " with positions" : "", with_thousands(file.size())));
   }
-  if (!folder.empty() && !changed_just_now(file)) keep_index(file, folder, index);
+  if (!folder.empty() && !changed_just_now(file)) store_index(file, folder, index);
   return index;
 }
 

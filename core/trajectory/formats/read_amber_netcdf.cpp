@@ -224,9 +224,9 @@ class AmberNetcdf final : public Trajectory {
     const std::vector<std::uint64_t>& lengths = variable.lengths;
     // A restart file has one frame, without a dimension of frames. Some writers give the dimension of frames a fixed
     // length.
-    single_ = !variable.has_records && lengths.size() == 2;
+    is_single_ = !variable.has_records && lengths.size() == 2;
     if (!variable.has_records && lengths.size() == 3) fixed_frames_ = lengths[0];
-    const bool shaped = lengths.size() == (variable.has_records || single_ ? 2U : 3U);
+    const bool shaped = lengths.size() == (variable.has_records || is_single_ ? 2U : 3U);
     if (!shaped || lengths.back() != 3 || lengths[lengths.size() - 2] == 0)
       throw InputError(path_, 0, "its 'coordinates' are not x, y and z of atoms of frames");
     atom_count_ = lengths[lengths.size() - 2];
@@ -241,7 +241,7 @@ class AmberNetcdf final : public Trajectory {
     if (found == layout.variables.end()) return std::nullopt;
     const NetcdfVariable& variable = found->second;
     const std::uint64_t width = variable.type == kDouble ? sizeof(double) : sizeof(float);
-    const std::uint64_t frames = variable.has_records || single_ ? 1 : fixed_frames_;
+    const std::uint64_t frames = variable.has_records || is_single_ ? 1 : fixed_frames_;
     if ((variable.type != kFloat && variable.type != kDouble) || variable.record_bytes != frames * count * width) {
       throw InputError(path_, 0,
                        fmt::format("its variable '{}' should hold {} floating-point numbers a frame", name, count));
@@ -264,8 +264,8 @@ class AmberNetcdf final : public Trajectory {
 
   void count_frames(const NetcdfLayout& layout) {
     constexpr std::uint64_t kMany = std::uint64_t{1} << 60;
-    const bool records = !single_ && fixed_frames_ == 0;
-    const std::uint64_t promised = single_ ? 1 : !records ? fixed_frames_ : layout.records;
+    const bool records = !is_single_ && fixed_frames_ == 0;
+    const std::uint64_t promised = is_single_ ? 1 : !records ? fixed_frames_ : layout.records;
     const bool known = !records || layout.records_are_known;
     const std::uint64_t present = frames_by_size(records ? kMany : promised);
     frame_count_ = known ? std::min(promised, present) : present;
@@ -315,7 +315,7 @@ class AmberNetcdf final : public Trajectory {
   }
 
   BinaryFile file_;
-  bool single_ = false;
+  bool is_single_ = false;
   std::uint64_t fixed_frames_ = 0;  // 0 if frames are records
   PerFrame coordinates_;
   std::optional<PerFrame> time_, edges_, angles_;

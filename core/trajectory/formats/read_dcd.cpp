@@ -46,20 +46,20 @@ std::optional<Markers> markers_of(std::string_view start) {
 }
 
 /// True if programs mean that there is no box. They write edges of 0 or 1 Å then.
-bool stands_for_no_box(const std::array<double, 6>& numbers) {
+bool means_no_box(const std::array<double, 6>& numbers) {
   return std::abs(numbers[0]) <= 1.0 && std::abs(numbers[2]) <= 1.0 && std::abs(numbers[5]) <= 1.0;
 }
 
 /// Returns the box from six numbers, in any form that versions of CHARMM and NAMD have written. These are A gamma B
 /// beta alpha C with angles in degrees or as cosines, and the symmetric shape matrix of CHARMM as the rows of its lower
 /// half.
-std::optional<glm::dmat3> cell_of_record(const std::array<double, 6>& numbers, bool charmm_itself) {
-  if (stands_for_no_box(numbers)) return std::nullopt;
+std::optional<glm::dmat3> cell_of_record(const std::array<double, 6>& numbers, bool written_by_charmm) {
+  if (means_no_box(numbers)) return std::nullopt;
   const auto& [n0, n1, n2, n3, n4, n5] = numbers;
   const glm::dmat3 shape(glm::dvec3(n0, n1, n3), glm::dvec3(n1, n2, n4), glm::dvec3(n3, n4, n5));
   const bool right_angles = n1 == 90.0 && n3 == 90.0 && n4 == 90.0;
   const bool positive_definite = n0 > 0.0 && n0 * n2 - n1 * n1 > 0.0 && glm::determinant(shape) > 0.0;
-  if (charmm_itself && positive_definite && !right_angles) return cell_of_vectors(shape);
+  if (written_by_charmm && positive_definite && !right_angles) return cell_of_vectors(shape);
   const glm::dvec3 edges(n0, n2, n5), angles(n4, n3, n1);
   if (std::abs(n1) <= 1.0 && std::abs(n3) <= 1.0 && std::abs(n4) <= 1.0) return cell_of_cosines(edges, angles);
   if (const auto cell = cell_of_angles(edges, angles)) return cell;
@@ -127,7 +127,7 @@ class Dcd final : public Trajectory {
     time_step_ = version == 0 ? number<double>(header.data() + 40) : number<float>(header.data() + 40);
     has_cell_ = version != 0 && integer(10) != 0;
     has_fourth_axis_ = version != 0 && integer(11) == 1;
-    charmm_itself_ = version >= kFirstCharmmWithShapeMatrix;
+    written_by_charmm_ = version >= kFirstCharmmWithShapeMatrix;
     return offset;
   }
 
@@ -214,7 +214,7 @@ class Dcd final : public Trajectory {
     const std::byte* next = bytes_.data();
     if (has_cell_) {
       check_markers(next, kCellRecord, offset, fmt::format("the box of frame {}", number));
-      frame.cell = cell_of_record(box_at(next + markers_.size), charmm_itself_);
+      frame.cell = cell_of_record(box_at(next + markers_.size), written_by_charmm_);
       next += kCellRecord + 2 * markers_.size;
       offset += kCellRecord + 2 * markers_.size;
     }
@@ -259,7 +259,7 @@ class Dcd final : public Trajectory {
     std::array<std::byte, kCellRecord> record;
     file_.read(first_frame_ + markers_.size, record);
     const std::array<double, 6> box = box_at(record.data());
-    if (stands_for_no_box(box) || cell_of_record(box, charmm_itself_)) return;
+    if (means_no_box(box) || cell_of_record(box, written_by_charmm_)) return;
     warnings_.emplace_back("the box of its first frame has none of the forms that DCD knows; it is left out");
   }
 
@@ -267,7 +267,7 @@ class Dcd final : public Trajectory {
   Markers markers_;
   std::int32_t promised_frames_ = 0, first_step_ = 0, steps_between_ = 0, fixed_count_ = 0;
   double time_step_ = 0.0;  // in units of AKMA
-  bool has_cell_ = false, has_fourth_axis_ = false, charmm_itself_ = false;
+  bool has_cell_ = false, has_fourth_axis_ = false, written_by_charmm_ = false;
   std::vector<std::uint32_t> free_atoms_;  // empty if no atom is fixed
   std::uint64_t first_frame_ = 0;          // offset of the first frame
   Frame first_;                            // the first frame, for the positions of fixed atoms; empty without them

@@ -51,15 +51,15 @@ struct Table {
 };
 
 /// Keeps the library from printing messages about missing objects while it lives.
-class Quiet {
+class ErrorSilencer {
  public:
-  Quiet() {
+  ErrorSilencer() {
     H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   }
-  ~Quiet() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
-  Quiet(const Quiet&) = delete;
-  Quiet& operator=(const Quiet&) = delete;
+  ~ErrorSilencer() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
+  ErrorSilencer(const ErrorSilencer&) = delete;
+  ErrorSilencer& operator=(const ErrorSilencer&) = delete;
 
  private:
   H5E_auto2_t function_ = nullptr;
@@ -68,7 +68,7 @@ class Quiet {
 
 /// Prevents the library from cleaning up at the end of the process. Otherwise it looks for the objects of damaged files
 /// that it lost, and prints that it found no end of them. All handles have been closed by then.
-void leave_no_last_words() { [[maybe_unused]] static const herr_t told = H5dont_atexit(); }
+void disable_exit_cleanup() { [[maybe_unused]] static const herr_t status = H5dont_atexit(); }
 
 bool has(hid_t place, const std::string& path) {
   // The library requires that every step of a path is checked on its own.
@@ -80,7 +80,7 @@ bool has(hid_t place, const std::string& path) {
 
 /// True if the numbers are in other files that this file names. Reading one file must never make the program read
 /// others.
-bool is_elsewhere(hid_t set) {
+bool is_stored_elsewhere(hid_t set) {
   const Handle creation(H5Dget_create_plist(set), H5Pclose);
   return H5Pget_external_count(creation) != 0 || H5Pget_layout(creation) == H5D_VIRTUAL;
 }
@@ -106,7 +106,7 @@ Table table(hid_t place, const std::string& path) {
   Table result;
   if (!has(place, path)) return result;
   result.set = Handle(H5Dopen2(place, path.c_str(), H5P_DEFAULT), H5Dclose);
-  if (!result.set || is_elsewhere(result.set)) return {};
+  if (!result.set || is_stored_elsewhere(result.set)) return {};
   if (!is_number(Handle(H5Dget_type(result.set), H5Tclose))) return {};
   const Handle space(H5Dget_space(result.set), H5Sclose);
   const int dimensions = H5Sget_simple_extent_ndims(space);
@@ -165,8 +165,8 @@ double time_unit(const Table& times) {
 class H5md final : public Trajectory {
  public:
   explicit H5md(const std::string& path) : Trajectory(path, "H5MD"), bytes_(path) {
-    leave_no_last_words();  // must be the first call of the library
-    const Quiet quiet;
+    disable_exit_cleanup();  // must be the first call of the library
+    const ErrorSilencer quiet;
     H5Lunregister(H5L_TYPE_EXTERNAL);  // disables links to other files; it does no harm if they were disabled before
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_file_locking(access, false, true);  // several readers of one file must not wait for each other
@@ -328,7 +328,7 @@ class H5md final : public Trajectory {
   }
 
   void read_unchecked(std::uint64_t number, Frame& frame) override {
-    const Quiet quiet;
+    const ErrorSilencer quiet;
     numbers_.resize(3 * atom_count_);
     const bool good = read_frame_of(position_, number, H5T_NATIVE_DOUBLE, numbers_.data());
     bytes_.check_unchanged();

@@ -87,7 +87,7 @@ class Mdcrd final : public Trajectory {
     FileLines lines(file_);
     std::string_view line;
     lines.next(line);
-    begin_ = lines.behind();
+    begin_ = lines.next_offset();
     for (std::size_t n = 0; n < lines_; ++n) {
       if (!lines.next(line))
         throw InputError(path_, n + 1,
@@ -95,12 +95,12 @@ class Mdcrd final : public Trajectory {
                                      "the two belong together?",
                                      with_thousands(atom_count_)));
     }
-    frame_bytes_ = lines.behind() - begin_;
+    frame_bytes_ = lines.next_offset() - begin_;
     last_newline_ = lines.ended_by_newline() ? (line.ends_with('\r') ? 2 : 1) : 0;
     // A frame of one atom looks like a box, and a trajectory of one atom needs no box.
     if (numbers_ != 3 && lines.next(line) && edges_of(line)) {
       has_box_ = true;
-      frame_bytes_ = lines.behind() - begin_;
+      frame_bytes_ = lines.next_offset() - begin_;
       last_newline_ = lines.ended_by_newline() ? (line.ends_with('\r') ? 2 : 1) : 0;
     }
     lines_of_frame_ = lines_ + (has_box_ ? 1 : 0);

@@ -56,7 +56,7 @@ class PdbWalk {
     if (cut && !result_.frames.empty()) {
       result_.cut_short = cut_short_sentence(result_.frames.size());
     } else {
-      close(lines_.behind());
+      close(lines_.next_offset());
     }
     return std::move(result_);
   }
@@ -135,7 +135,7 @@ TextFrames walk_by_counts(const BinaryFile& file, bool title_first) {
       result.cut_short = cut_short_sentence(result.frames.size());
       break;
     }
-    frame.end = lines.behind();
+    frame.end = lines.next_offset();
     result.frames.push_back(frame);
   }
   return result;
