@@ -177,7 +177,7 @@ void OutputFile::sync() {
 }
 
 void OutputFile::rename_to_target() {
-  replaced_ = system_file::state_of_entry(target_).has_value();
+  has_replaced_ = system_file::state_of_entry(target_).has_value();
   if (existing_ == Existing::refuse) {
     refuse_unsuitable_target(target_, existing_);
     if (!system_file::rename_to_free(temporary_, target_)) {
@@ -245,7 +245,7 @@ OutputFolder::OutputFolder(fs::path folder, Existing existing) : folder_(std::mo
 
 OutputFolder::~OutputFolder() {
   files_.clear();
-  if (committed_) {
+  if (is_committed_) {
     for (const fs::path& path : created_folders_) unfinished.remove(path);
   } else {
     remove_created_folders();
@@ -274,12 +274,12 @@ void OutputFolder::commit() {
     for (; renamed < files_.size(); ++renamed) files_[renamed]->rename_to_target();
   } catch (...) {
     for (std::size_t n = 0; n < renamed; ++n) {
-      if (!files_[n]->replaced_) system_file::remove(files_[n]->target_);
+      if (!files_[n]->has_replaced_) system_file::remove(files_[n]->target_);
     }
     throw;
   }
   system_file::sync_folder(folder_);
-  committed_ = true;
+  is_committed_ = true;
 }
 
 void write_shared_files(const std::filesystem::path& folder, Existing existing, std::span<const SharedFile> files) {

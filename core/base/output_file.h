@@ -51,7 +51,7 @@ class OutputFile {
   std::filesystem::path temporary_;
   Existing existing_;
   int descriptor_ = -1;
-  bool replaced_ = false;
+  bool has_replaced_ = false;
 };
 
 /// Protects a file from being replaced by any output of this process, by whatever name, including hard and symbolic
@@ -89,7 +89,7 @@ class OutputFolder {
   Existing existing_;
   std::vector<std::filesystem::path> created_folders_;
   std::vector<std::unique_ptr<OutputFile>> files_;
-  bool committed_ = false;
+  bool is_committed_ = false;
 };
 
 /// Deletes the temporary files of all outputs that are not committed yet, and the empty folders made for them. It is

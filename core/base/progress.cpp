@@ -38,7 +38,7 @@ void Progress::advance(std::uint64_t units) {
 }
 
 ProgressText::ProgressText(bool terminal, std::function<void(std::string_view)> write)
-    : terminal_(terminal), write_(std::move(write)) {}
+    : is_terminal_(terminal), write_(std::move(write)) {}
 
 void ProgressText::report(const ProgressReport& report) {
   const double share = static_cast<double>(report.done) / static_cast<double>(report.total);
@@ -47,7 +47,7 @@ void ProgressText::report(const ProgressReport& report) {
     task_ = report.task;
     last_tenth_ = -1;
   }
-  if (terminal_) {
+  if (is_terminal_) {
     const int filled = static_cast<int>(kBarWidth * share);
     write_(fmt::format("\r\033[K{} [{:#<{}}{:.<{}}] {:3d} %{}", task_, "", filled, "", kBarWidth - filled, percent,
                        report.done == report.total ? "\n" : ""));

@@ -49,7 +49,7 @@ class ProgressText {
   void report(const ProgressReport& report);
 
  private:
-  bool terminal_;
+  bool is_terminal_;
   std::function<void(std::string_view)> write_;
   std::string task_;
   int last_tenth_ = -1;

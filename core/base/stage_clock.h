@@ -47,7 +47,7 @@ class StageClock {
     std::chrono::steady_clock::time_point begin_;
   };
 
-  explicit StageClock(StageTiming timing = StageTiming::rough) : exact_(timing == StageTiming::exact) {}
+  explicit StageClock(StageTiming timing = StageTiming::rough) : is_exact_(timing == StageTiming::exact) {}
 
   /// Begins a stage.
   [[nodiscard]] Stage stage(const std::string& name) {
@@ -66,7 +66,7 @@ class StageClock {
 
   /// Forgets all times.
   void restart() { times_.clear(); }
-  bool is_exact() const { return exact_; }
+  bool is_exact() const { return is_exact_; }
   const std::vector<StageTime>& times() const { return times_; }
 
  private:
@@ -85,7 +85,7 @@ class StageClock {
       known->milliseconds += time.milliseconds;
   }
 
-  bool exact_;
+  bool is_exact_;
   std::function<void()> check_;
   std::vector<StageTime> times_;
   std::size_t open_ = 0;

@@ -217,8 +217,8 @@ class Classifier {
     constexpr std::size_t kLargestResidue = 1'000;
     const Atom& atom = atoms_[n];
     const std::string& name = atom.name;
-    if (hint(n).site || atom.element > 1 || name.size() < 2 || begins_[r + 1] - begins_[r] > kLargestResidue)
-      return hint(n).site;
+    if (hint(n).is_site || atom.element > 1 || name.size() < 2 || begins_[r + 1] - begins_[r] > kLargestResidue)
+      return hint(n).is_site;
     const auto any_other = [&](auto&& is) {
       const auto first = atoms_.begin() + static_cast<std::ptrdiff_t>(begins_[r]),
                  last = atoms_.begin() + static_cast<std::ptrdiff_t>(begins_[r + 1]);
@@ -302,7 +302,7 @@ class Classifier {
   bool is_polymer(std::size_t r, const Names& names) {
     const std::string& name = head(r).residue_name;
     const bool named = is_tabulated_polymer(name) || (is_polymer_name(name) && has_backbone(names));
-    if (named && !hint(begins_[r]).heteroatom) return true;
+    if (named && !hint(begins_[r]).is_heteroatom) return true;
     if (!linked_) linked_ = linked_residues(atoms_, bonds_);
     if ((*linked_)[head(r).residue]) return true;
     return named && (has_no_ends(names) || (in_chain(r, r - 1) && in_chain(r, r + 1)));
@@ -312,7 +312,7 @@ class Classifier {
   bool in_chain(std::size_t r, std::size_t neighbor) const {
     if (neighbor >= begins_.size() - 1) return false;  // for the first residue r - 1 is the largest number
     const Atom &here = head(r), &there = head(neighbor);
-    return is_polymer_name(there.residue_name) && !hint(begins_[neighbor]).heteroatom && there.chain == here.chain &&
+    return is_polymer_name(there.residue_name) && !hint(begins_[neighbor]).is_heteroatom && there.chain == here.chain &&
            there.segment == here.segment && there.model == here.model &&
            (neighbor < r ? there.residue_number < here.residue_number : here.residue_number < there.residue_number);
   }
@@ -392,11 +392,11 @@ void set_elements_by_mass(std::vector<Atom>& atoms, std::span<AtomHints> hints) 
   for (std::size_t n = 0; n < hints.size(); ++n) {
     AtomHints& hint = hints[n];
     if (!weighed) hint.mass = std::numeric_limits<float>::quiet_NaN();
-    hint.site = hint.site || (hint.mass > 0.0F && hint.mass < kLightestAtom);
-    if (hint.site && n > 0 && !hints[n - 1].site && hint.mass < kLightestAtom) hints[n - 1].mass += hint.mass;
+    hint.is_site = hint.is_site || (hint.mass > 0.0F && hint.mass < kLightestAtom);
+    if (hint.is_site && n > 0 && !hints[n - 1].is_site && hint.mass < kLightestAtom) hints[n - 1].mass += hint.mass;
   }
   for (std::size_t n = 0; n < hints.size(); ++n)
-    if (atoms[n].element == 0 && !hints[n].site) atoms[n].element = element_of_mass(atoms[n].name, hints[n].mass);
+    if (atoms[n].element == 0 && !hints[n].is_site) atoms[n].element = element_of_mass(atoms[n].name, hints[n].mass);
 }
 
 }  // namespace meniscus

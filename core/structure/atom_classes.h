@@ -20,10 +20,10 @@ enum class ResidueStatement : std::uint8_t { none, polymer, other };
 /// Information that a file has about an atom, in addition to its names.
 struct AtomHints {
   ResidueStatement residue = ResidueStatement::none;
-  bool heteroatom = false;  ///< true for HETATM: not in a standard residue of a chain, but perhaps in a modified one
+  bool is_heteroatom = false;  ///< true for HETATM: not in a standard residue of a chain, but perhaps in a modified one
   /// The element by the columns of the name (PDB: " CA " is carbon, "CA  " calcium); 0: none.
   std::uint8_t element = 0;
-  bool site = false;  ///< true for a virtual site or Drude particle, by its type, element column or mass
+  bool is_site = false;  ///< true for a virtual site or Drude particle, by its type, element column or mass
   float mass = std::numeric_limits<float>::quiet_NaN();  ///< atomic mass units; NaN: not in the file
 };
 

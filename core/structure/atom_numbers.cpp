@@ -86,8 +86,8 @@ class NumberReader {
       }
       if (!column_.empty())
         fail(message("is not the header of a table, so @color-column {}@ cannot choose a column", in_quotes(column_)));
-      if (first) by_residue_ = names_residue(cells);
-      if (by_residue_)
+      if (first) is_by_residue_ = names_residue(cells);
+      if (is_by_residue_)
         add_residue(cells);
       else
         add_numbers(text);
@@ -303,7 +303,7 @@ class NumberReader {
   LineReader lines_;
   NumberFile result_;
   char separator_ = ' ';
-  bool by_residue_ = false;
+  bool is_by_residue_ = false;
 };
 
 }  // namespace

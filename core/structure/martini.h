@@ -30,7 +30,7 @@ struct Bead {
 /// found.
 struct MartiniVersion {
   int number = 0;
-  bool certain = true;  ///< false: no residue distinguishes 2 and 3, and 3 is assumed
+  bool is_certain = true;  ///< false: no residue distinguishes 2 and 3, and 3 is assumed
 };
 MartiniVersion martini_version(std::span<const Atom> atoms);
 

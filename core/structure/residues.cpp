@@ -51,7 +51,7 @@ bool ResidueCounter::continues(const Piece& piece, const Atom& atom) const {
 
 void ResidueCounter::number(Atom& atom) {
   atom.index = static_cast<std::uint32_t>(atoms_.size());
-  if (!piece_open_ || !same_place(atoms_.back(), atom) || !same_or_alternative_name(atoms_.back(), atom)) {
+  if (!is_piece_open_ || !same_place(atoms_.back(), atom) || !same_or_alternative_name(atoms_.back(), atom)) {
     const auto [found, added] = last_piece_.try_emplace(key_of(atom), Piece{residues_, atoms_.size(), atoms_.size()});
     piece_ = &found->second;
     if (added || !continues(*piece_, atom)) {
@@ -59,7 +59,7 @@ void ResidueCounter::number(Atom& atom) {
     } else {
       piece_->begin = atoms_.size();
     }
-    piece_open_ = true;
+    is_piece_open_ = true;
   }
   piece_->end = atoms_.size() + 1;
   atom.residue = piece_->residue;

@@ -29,7 +29,7 @@ class ResidueCounter {
   /// Sets atom.index and atom.residue.
   void number(Atom& atom);
   /// Makes the next atom begin a new piece, as after TER.
-  void end_piece() { piece_open_ = false; }
+  void end_piece() { is_piece_open_ = false; }
 
  private:
   struct Piece {
@@ -41,7 +41,7 @@ class ResidueCounter {
   const std::vector<Atom>& atoms_;
   std::unordered_map<std::string, Piece> last_piece_;
   Piece* piece_ = nullptr;
-  bool piece_open_ = false;
+  bool is_piece_open_ = false;
   std::uint32_t residues_ = 0;
 };
 

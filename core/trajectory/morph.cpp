@@ -171,11 +171,11 @@ std::vector<std::vector<glm::dvec3>> Morph::models(std::size_t stop, std::size_t
   for (std::size_t n = 1; n < steps; ++n) constrain(stop, share(n), models[n]);
   for (int sweep = 0; sweep < kSweeps; ++sweep)
     for (std::size_t n = 1; n < steps; ++n) {
-      const std::vector<glm::dvec3>&before = models[n - 1], &behind = after(models, n);
+      const std::vector<glm::dvec3>&before = models[n - 1], &next = after(models, n);
       // The bending of the smooth path itself is not straightened.
       for (std::size_t a = 0; a < models[n].size(); ++a) {
         const glm::dvec3 bend = 0.5 * (smooth[n - 1][a] + after(smooth, n)[a]) - smooth[n][a];
-        models[n][a] += kRelaxation * (0.5 * (before[a] + behind[a]) - models[n][a] - bend);
+        models[n][a] += kRelaxation * (0.5 * (before[a] + next[a]) - models[n][a] - bend);
       }
       constrain(stop, share(n), models[n]);
     }

@@ -133,8 +133,8 @@ void JoinedFrames::warn_of_overlap(std::size_t part) {
 }
 
 void JoinedFrames::read_unchecked(std::uint64_t number, Frame& frame) {
-  const auto behind = std::ranges::upper_bound(begin_, number);
-  const auto part = static_cast<std::size_t>(behind - begin_.begin()) - 1;
+  const auto next = std::ranges::upper_bound(begin_, number);
+  const auto part = static_cast<std::size_t>(next - begin_.begin()) - 1;
   parts_[part]->read(number - begin_[part], frame);
 }
 

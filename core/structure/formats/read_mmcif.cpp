@@ -351,7 +351,7 @@ class AtomRows {
   /// The identifiers of an atom in other tables.
   struct Names {
     std::uint32_t entity, residue;
-    bool heteroatom, site;
+    bool is_heteroatom, is_site;
   };
 
   void take(const cif::Table& table, std::size_t number, const cif::Table::Row& row) {
@@ -387,8 +387,8 @@ class AtomRows {
     for (const Names& names : names_) {
       const auto statement = entities.find(texts_.text(names.entity));
       hints.push_back({.residue = statement == entities.end() ? ResidueStatement::none : statement->second,
-                       .heteroatom = names.heteroatom,
-                       .site = names.site});
+                       .is_heteroatom = names.is_heteroatom,
+                       .is_site = names.is_site});
     }
     return hints;
   }

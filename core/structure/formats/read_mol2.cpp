@@ -266,7 +266,8 @@ class Mol2Reader {
       if (atoms[n].element == 0 && type != "LP") force_field_.add(line, type);
       // UNK is more often a molecule without a name than an unknown amino acid.
       const bool unnamed = atoms[n].residue_name == "UNK";
-      hints_.push_back({.residue = unnamed ? ResidueStatement::other : ResidueStatement::none, .site = type == "LP"});
+      hints_.push_back(
+          {.residue = unnamed ? ResidueStatement::other : ResidueStatement::none, .is_site = type == "LP"});
       atoms[n].chain = atoms[n].subchain = substructure.chain;
       if (uncharged) atoms[n].charge = std::numeric_limits<float>::quiet_NaN();
       residues_.number(atoms[n]);

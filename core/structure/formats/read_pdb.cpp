@@ -82,17 +82,17 @@ class PdbReader {
     if (is_pdb_atom(line)) {
       take_atom(line, number);
     } else if (is_pdb_record(line, "TER")) {
-      if (open_ && wanted() && !contents_.atoms.empty()) ended_chains_.insert(contents_.atoms.back().chain);
+      if (is_open_ && wanted() && !contents_.atoms.empty()) ended_chains_.insert(contents_.atoms.back().chain);
       residues_.end_piece();
     } else if (is_pdb_record(line, "MODEL")) {
-      if (open_) ++unmarked_models_;
+      if (is_open_) ++unmarked_models_;
       close_model();
       in_model_record_ = true;
     } else if (is_pdb_record(line, "ENDMDL")) {
       close_model();
       in_model_record_ = false;
     } else if (is_pdb_record(line, "END")) {
-      ended_ = true;
+      has_ended_ = true;
     } else if (is_pdb_record(line, "CONECT")) {
       bonds_.add_record(line);
     } else if (is_pdb_record(line, "EXPDTA")) {
@@ -130,18 +130,18 @@ class PdbReader {
 
   /// Begins a model if none is open. Atoms after END belong to a new model, as molecular dynamics programs write them.
   void open_model() {
-    if (open_ && ended_ && !in_model_record_) {
+    if (is_open_ && has_ended_ && !in_model_record_) {
       ++unmarked_models_;
       close_model();
     }
-    ended_ = false;
-    if (open_) return;
+    has_ended_ = false;
+    if (is_open_) return;
     ++contents_.models;
-    open_ = true;
+    is_open_ = true;
   }
 
   void close_model() {
-    open_ = ended_ = false;
+    is_open_ = has_ended_ = false;
     ended_chains_.clear();
     residues_.end_piece();
   }
@@ -206,21 +206,21 @@ class PdbReader {
   /// belong to another chain.
   void take_element(std::string_view line, std::size_t number, Atom& atom) {
     AtomHints& hints = hints_.emplace_back();
-    hints.heteroatom = is_pdb_record(line, "HETATM");
-    if (hints.heteroatom && !atom.chain.empty() && ended_chains_.contains(atom.chain))
+    hints.is_heteroatom = is_pdb_record(line, "HETATM");
+    if (hints.is_heteroatom && !atom.chain.empty() && ended_chains_.contains(atom.chain))
       hints.residue = ResidueStatement::other;
     if (read_trailing_) {
       if (!read_trailing_(file_, number, line, atom))
         symbol_.add(number, line.substr(kTrailingColumns));
       else
-        hints.site = atom.element == 0;
+        hints.is_site = atom.element == 0;
       return;
     }
     const std::string symbol(line.substr(std::min<std::size_t>(line.size(), 76), 2));
     if (std::any_of(symbol.begin(), symbol.end(), is_letter)) {
       atom.element = static_cast<std::uint8_t>(gemmi::Element(symbol).atomic_number());
-      hints.site = is_site_symbol(trimmed(symbol));
-      if (atom.element == 0 && !hints.site) symbol_.add(number, symbol);
+      hints.is_site = is_site_symbol(trimmed(symbol));
+      if (atom.element == 0 && !hints.is_site) symbol_.add(number, symbol);
     } else {
       element_.add(number, line.substr(12, 14));
       hints.element = static_cast<std::uint8_t>(element_by_place(line.substr(12, 4)).atomic_number());
@@ -254,14 +254,14 @@ class PdbReader {
   std::vector<SecondaryRange> secondary_;
   PdbResidueNumbers residue_numbers_;
   std::set<std::string> ended_chains_;
-  bool open_ = false, ended_ = false, in_model_record_ = false;
+  bool is_open_ = false, has_ended_ = false, in_model_record_ = false;
   std::size_t unmarked_models_ = 0, left_ = 0, right_ = 0;
   WarningCollector number_, occupancy_, b_factor_, element_, symbol_;
 };
 
 bool recognizes(std::string_view text) {
   const AtomRecordStyle style = style_of_atom_records(text);
-  if (style.any) return style.pdb;
+  if (style.has_records) return style.is_pdb;
   constexpr std::array<std::string_view, 14> kOtherRecords{"HEADER", "TITLE ", "COMPND", "SOURCE", "REMARK",
                                                            "CRYST1", "MODEL ", "SEQRES", "EXPDTA", "AUTHOR",
                                                            "KEYWDS", "CONECT", "ENDMDL", "DBREF "};

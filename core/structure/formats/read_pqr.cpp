@@ -110,9 +110,9 @@ AtomRecordStyle style_of_atom_records(std::string_view text) {
     occupancies += has_occupancy_and_b_factor(line);
   }
   AtomRecordStyle style;
-  style.any = records > 0;
-  style.pqr = records > 0 && 2 * pqr >= records;
-  style.pdb = coordinates > 0 && !(style.pqr && 2 * occupancies < records);
+  style.has_records = records > 0;
+  style.is_pqr = records > 0 && 2 * pqr >= records;
+  style.is_pdb = coordinates > 0 && !(style.is_pqr && 2 * occupancies < records);
   return style;
 }
 
@@ -139,10 +139,10 @@ class PqrReader {
  private:
   void take(std::string_view line, std::size_t number) {
     if (is_pdb_record(line, "TER")) residues_.end_piece();
-    if (is_pdb_record(line, "ENDMDL") || is_pdb_record(line, "END")) open_ = false;
+    if (is_pdb_record(line, "ENDMDL") || is_pdb_record(line, "END")) is_open_ = false;
     if (!is_pdb_atom(line)) return;
-    if (!open_) ++contents_.models;
-    open_ = true;
+    if (!is_open_) ++contents_.models;
+    is_open_ = true;
     const auto model = static_cast<std::int32_t>(contents_.models);
     if (choice_.takes(model)) {
       take_atom(line, number, model);
@@ -178,7 +178,7 @@ class PqrReader {
     }
     atom.radius = parse_radius(file_, number, record->numbers[4], kLine);
     residues_.number(atom);
-    hints_.push_back({.heteroatom = is_pdb_record(line, "HETATM")});
+    hints_.push_back({.is_heteroatom = is_pdb_record(line, "HETATM")});
     contents_.atoms.push_back(std::move(atom));
   }
 
@@ -198,10 +198,10 @@ class PqrReader {
   FileContents contents_;
   std::vector<AtomHints> hints_;
   ResidueCounter residues_{contents_.atoms};
-  bool open_ = false;
+  bool is_open_ = false;
 };
 
-bool recognizes(std::string_view text) { return style_of_atom_records(text).pqr; }
+bool recognizes(std::string_view text) { return style_of_atom_records(text).is_pqr; }
 
 FileContents read(const TextFile& file, const ModelChoice& models) { return PqrReader(file, models).run(); }
 

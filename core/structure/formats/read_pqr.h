@@ -24,9 +24,9 @@ std::optional<PqrRecord> parse_pqr_record(std::string_view line);
 
 /// The formats that the atom records of a text may have, by the first hundred of them.
 struct AtomRecordStyle {
-  bool any = false;  ///< true if there are atom records
-  bool pqr = false;  ///< true if most of them can be split as PQR
-  bool pdb = false;  ///< true if some have coordinates in PDB's columns and they are not clearly PQR
+  bool has_records = false;  ///< true if there are atom records
+  bool is_pqr = false;       ///< true if most of them can be split as PQR
+  bool is_pdb = false;       ///< true if some have coordinates in PDB's columns and they are not clearly PQR
 };
 /// Returns the formats that the atom records of a text may have.
 AtomRecordStyle style_of_atom_records(std::string_view text);

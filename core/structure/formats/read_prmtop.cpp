@@ -238,7 +238,8 @@ class PrmtopReader {
       Atom& atom = contents_.atoms[n];
       atom.name = names[n];
       if (!elements.empty()) atom.element = static_cast<std::uint8_t>(std::max<std::int64_t>(0, elements[n]));
-      hints_.push_back({.site = is_site_symbol(types[n]), .mass = static_cast<float>(std::clamp(masses[n], 0.0, 1e6))});
+      hints_.push_back(
+          {.is_site = is_site_symbol(types[n]), .mass = static_cast<float>(std::clamp(masses[n], 0.0, 1e6))});
       if (std::abs(charges[n]) > std::numeric_limits<float>::max())
         throw InputError(file_.path, 0, fmt::format("CHARGE of atom {} is {}", n + 1, charges[n]));
       atom.charge = static_cast<float>(charges[n] / kChargeUnit);

@@ -26,7 +26,7 @@ class PsfReader {
   FileContents run() {
     std::string_view line;
     lines_.next(line);
-    extended_ = line.find("EXT") != std::string_view::npos;
+    is_extended_ = line.find("EXT") != std::string_view::npos;
     const std::optional<std::size_t> atoms = find_section("!NATOM");
     if (!atoms) throw InputError(file_.path, 0, "has no line with a number and !NATOM; is the file cut short?");
     read_atoms(*atoms);
@@ -86,7 +86,7 @@ class PsfReader {
       const bool has_segment = !is_residue_number(fields[1]) && is_residue_number(fields[2]);
       fields.insert(fields.begin() + (has_segment ? 5 : 1), std::string_view());
     }
-    if (fields.size() < 9 && line.size() > (extended_ ? 51 : 33)) fields = fixed_columns_of(line);
+    if (fields.size() < 9 && line.size() > (is_extended_ ? 51 : 33)) fields = fixed_columns_of(line);
     if (fields.size() < 9) {
       throw InputError(
           file_.path, lines_.number(),
@@ -99,7 +99,7 @@ class PsfReader {
 
   /// Splits a line in which several fields are blank at the columns of CHARMM, which have four or eight letters.
   std::vector<std::string_view> fixed_columns_of(std::string_view line) const {
-    const std::size_t number = extended_ ? 10 : 8, width = extended_ ? 8 : 4;
+    const std::size_t number = is_extended_ ? 10 : 8, width = is_extended_ ? 8 : 4;
     std::vector<std::string_view> fields{line.substr(0, number)};
     for (std::size_t n = 0; n < 4; ++n) fields.push_back(trimmed(line.substr(number + 1 + n * (width + 1), width)));
     const std::size_t type = number + 1 + 4 * (width + 1);
@@ -124,7 +124,7 @@ class PsfReader {
                        fmt::format("charge {} and mass {} are not both numbers; columns may have run together",
                                    in_quotes(charge), in_quotes(mass)));
     }
-    hint.site = type == "DRUD" || type.starts_with("LP");
+    hint.is_site = type == "DRUD" || type.starts_with("LP");
     hints_.push_back(hint);
     residues_.number(atom);
     contents_.atoms.push_back(std::move(atom));
@@ -149,7 +149,7 @@ class PsfReader {
   /// Appends the atoms of a line of bonds. In the largest systems numbers fill their columns, so that no blanks
   /// separate them.
   void take_bond_ends(std::string_view line, std::size_t most, std::vector<std::uint32_t>& ends) const {
-    const std::size_t width = extended_ ? 10 : 8;
+    const std::size_t width = is_extended_ ? 10 : 8;
     const bool touching =
         std::ranges::any_of(fields_of(line), [&](std::string_view field) { return field.size() > width; });
     while (ends.size() < most) {
@@ -171,7 +171,7 @@ class PsfReader {
   FileContents contents_;
   std::vector<AtomHints> hints_;
   ResidueCounter residues_{contents_.atoms};
-  bool extended_ = false;
+  bool is_extended_ = false;
 };
 
 bool recognizes(std::string_view text) {

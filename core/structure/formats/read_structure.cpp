@@ -391,7 +391,7 @@ struct StructureFile::Parts {
 
   void warn_of_uncertain_martini() {
     const MartiniVersion martini = martini_version(contents.atoms);
-    if (martini.number == 0 || martini.certain || !options.radii.set.empty()) return;
+    if (martini.number == 0 || martini.is_certain || !options.radii.set.empty()) return;
     report.warnings.emplace_back(
         message("nothing in the names tells Martini 2 from Martini 3; beads have the types and radii of 3; @radii "
                 "martini2@ takes those of 2"));

@@ -61,7 +61,7 @@ class RadiiChoice {
   struct Given {
     FoundRadius found;
     // False for Bondi's radius of the element, if the user chose other radii.
-    bool covered = true;
+    bool is_covered = true;
   };
   void refuse_covering_none(const std::string& molecule_file, std::span<const Atom> atoms) const;
   Given radius_for(const Atom& atom, bool hydrogens_used) const;

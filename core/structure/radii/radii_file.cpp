@@ -62,8 +62,8 @@ std::vector<NamePattern::Piece> NamePattern::pieces_of(std::string_view alternat
     const char c = alternative[n];
     if (c == '*' || c == '+' || c == '?') {
       if (pieces.empty()) refuse(alternative, "begins with a repetition sign");
-      pieces.back().optional |= c != '+';
-      pieces.back().repeated |= c != '?';
+      pieces.back().is_optional |= c != '+';
+      pieces.back().is_repeated |= c != '?';
       continue;
     }
     Piece piece;
@@ -93,14 +93,14 @@ bool NamePattern::matches(const std::vector<Piece>& pieces, std::string_view nam
   std::vector<bool> at(pieces.size() + 1);  // entry p: true if the name so far may end after p pieces
   at[0] = true;
   const auto skip_optional = [&] {
-    for (std::size_t p = 0; p < pieces.size(); ++p) at[p + 1] = at[p + 1] || (at[p] && pieces[p].optional);
+    for (std::size_t p = 0; p < pieces.size(); ++p) at[p + 1] = at[p + 1] || (at[p] && pieces[p].is_optional);
   };
   skip_optional();
   for (const char c : name) {
     std::vector<bool> next(at.size());
     for (std::size_t p = 0; p < pieces.size(); ++p) {
       if (!pieces[p].characters[static_cast<unsigned char>(c)]) continue;
-      if (at[p] || (at[p + 1] && pieces[p].repeated)) next[p + 1] = true;
+      if (at[p] || (at[p + 1] && pieces[p].is_repeated)) next[p + 1] = true;
     }
     at = std::move(next);
     skip_optional();

@@ -30,8 +30,8 @@ class NamePattern {
  private:
   struct Piece {
     std::bitset<256> characters;
-    bool optional = false;  // followed by ? or *
-    bool repeated = false;  // followed by + or *
+    bool is_optional = false;  // followed by ? or *
+    bool is_repeated = false;  // followed by + or *
   };
   static std::vector<Piece> pieces_of(std::string_view alternative);
   static bool matches(const std::vector<Piece>& pieces, std::string_view name);

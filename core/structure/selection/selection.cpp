@@ -117,12 +117,12 @@ bool names(const TextTest& test, const Atom& atom, bool copied) {
 /// Evaluates one step after another. Each overload evaluates one kind of step.
 class Evaluation {
  public:
-  explicit Evaluation(std::span<const Atom> atoms) : atoms_(atoms), copied_(has_copies(atoms)) {}
+  explicit Evaluation(std::span<const Atom> atoms) : atoms_(atoms), has_copies_(has_copies(atoms)) {}
 
   void operator()(const FlagTest& test) { stack_.push_back(atoms_with(test.flag, atoms_)); }
 
   void operator()(const TextTest& test) {
-    stack_.push_back(atoms_where(atoms_, [&](const Atom& atom) { return names(test, atom, copied_); }));
+    stack_.push_back(atoms_where(atoms_, [&](const Atom& atom) { return names(test, atom, has_copies_); }));
   }
 
   void operator()(const NumberTest& test) {
@@ -174,7 +174,7 @@ class Evaluation {
 
   void operator()(const WholeStep& step) {
     Set& set = top();
-    if (step.chains) {
+    if (step.whole_chains) {
       std::set<std::pair<std::int32_t, std::string>> chains;
       for (std::size_t n = 0; n < atoms_.size(); ++n) {
         if (set[n]) chains.emplace(atoms_[n].model, atoms_[n].chain);
@@ -191,7 +191,7 @@ class Evaluation {
 
   void operator()(const FixedTest& test) {
     stack_.push_back(atoms_where(atoms_, [&](const Atom& atom) {
-      return test.atoms->contains({test.copied ? atom.copy : 0, atom.index});
+      return test.atoms->contains({test.compares_copies ? atom.copy : 0, atom.index});
     }));
   }
 
@@ -206,7 +206,7 @@ class Evaluation {
 
  private:
   std::span<const Atom> atoms_;
-  bool copied_;
+  bool has_copies_;
   std::vector<Set> stack_;
 };
 
@@ -245,14 +245,14 @@ bool names_by(const SelectionStep& step, const Atom& atom, const std::set<std::s
   const bool by_atom_name = test->field == AtomField::name && ion && !names_of_others.contains(atom.name);
   if (test->field != AtomField::residue_name && !by_atom_name) return false;
   return std::any_of(test->values.begin(), test->values.end(), [&](const TextPattern& pattern) {
-    return !pattern.wildcards && pattern.text == text_of(test->field, atom);
+    return !pattern.has_wildcards && pattern.text == text_of(test->field, atom);
   });
 }
 
 }  // namespace
 
 bool matches(const TextPattern& pattern, const std::string& text) {
-  if (!pattern.wildcards) return pattern.text == text;
+  if (!pattern.has_wildcards) return pattern.text == text;
   std::size_t p = 0, t = 0, star = std::string::npos, retry = 0;
   while (t < text.size()) {
     if (p < pattern.text.size() && pattern.text[p] == '*') {

@@ -89,7 +89,7 @@ struct Ends {
 };
 
 SelectionValue part(const SelectionValue& value, std::size_t first, std::size_t length) {
-  return {value.text.substr(first, length), value.position + first, value.quoted};
+  return {value.text.substr(first, length), value.position + first, value.is_quoted};
 }
 
 /// Returns the place of the sign that separates a range, or npos. A minus sign does so only after a digit or an
@@ -108,7 +108,7 @@ std::vector<Ends> ends_of(std::string_view text, const std::vector<SelectionValu
   std::vector<Ends> all;
   for (std::size_t n = 0; n < values.size(); ++n) {
     const SelectionValue& value = values[n];
-    if (!value.quoted && (value.text == "to" || value.text == "TO")) {
+    if (!value.is_quoted && (value.text == "to" || value.text == "TO")) {
       if (all.empty() || all.back().high || n + 1 == values.size()) {
         throw SelectionError("'to' goes between two values, as in 5 to 10", pointed_at(text, value.position));
       }
@@ -162,7 +162,7 @@ std::vector<SelectionValue> split_at_plus(const Token& token) {
 std::vector<TextPattern> read_patterns(const std::vector<SelectionValue>& values) {
   std::vector<TextPattern> patterns;
   for (const SelectionValue& value : values) {
-    patterns.push_back({value.text, !value.quoted && value.text.find_first_of("*?") != std::string::npos});
+    patterns.push_back({value.text, !value.is_quoted && value.text.find_first_of("*?") != std::string::npos});
   }
   return patterns;
 }

@@ -29,7 +29,7 @@ std::vector<Token> tokens_of(std::string_view text);
 struct SelectionValue {
   std::string text;
   std::size_t position = 0;
-  bool quoted = false;
+  bool is_quoted = false;
 };
 
 /// Splits a word at plus signs. "CA+CB" has two values; "NA+" has one, because nothing follows the sign. A quoted text

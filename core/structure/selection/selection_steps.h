@@ -64,7 +64,7 @@ enum class Comparison : std::uint8_t { less, less_or_equal, greater, greater_or_
 /// A value of a text field. With wildcards, * stands for any characters and ? for one.
 struct TextPattern {
   std::string text;
-  bool wildcards = false;
+  bool has_wildcards = false;
 };
 
 struct FlagTest {
@@ -99,7 +99,7 @@ struct WithinStep {
   bool includes_set;  ///< true if the atoms of the set itself are in the result
 };
 struct WholeStep {
-  bool chains;  ///< true for whole chains, false for whole residues
+  bool whole_chains;  ///< true for whole chains, false for whole residues
 };
 
 struct SelectionSteps;
@@ -108,7 +108,7 @@ struct SelectionSteps;
 struct FixedTest {
   std::shared_ptr<const SelectionSteps> expression;
   std::shared_ptr<const std::set<std::pair<std::uint32_t, std::uint32_t>>> atoms;  ///< by Atom::copy and Atom::index
-  bool copied;  ///< true to compare both; false for Atom::index alone, if there were no copies
+  bool compares_copies;  ///< true to compare both; false for Atom::index alone, if there were no copies
 };
 
 using SelectionStep = std::variant<FlagTest, TextTest, NumberTest, ResidueTest, CompareTest, NotStep, AndStep, OrStep,

@@ -93,16 +93,16 @@ class BitReader {
 class StepReader {
  public:
   explicit StepReader(const PackedCoordinates& packed) : bits_(packed.bits), packed_(packed) {
-    bool joint = true;
+    bool is_joint = true;
     Wide product = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       sizes_[axis] =
           static_cast<std::uint32_t>(packed.highest[axis]) - static_cast<std::uint32_t>(packed.lowest[axis]) + 1;
       widths_[axis] = std::bit_width(sizes_[axis]);
-      joint = joint && sizes_[axis] <= kLargestJointSize;
+      is_joint = is_joint && sizes_[axis] <= kLargestJointSize;
       product *= sizes_[axis];
     }
-    if (joint) joint_width_ = bit_width(product);
+    if (is_joint) joint_width_ = bit_width(product);
     set_small_class(packed.small_class);
   }
 
@@ -163,10 +163,10 @@ std::string unpack(const PackedCoordinates& packed, std::span<glm::dvec3> positi
   if (std::string fault = fault_of(packed); !fault.empty()) return fault;
   StepReader steps(packed);
   const double precision = packed.precision;
-  bool inside = true;  // true while all atoms are within the extent of the header; damaged atoms are not
+  bool is_inside = true;  // true while all atoms are within the extent of the header; damaged atoms are not
   const auto place = [&](std::size_t n, const Steps& at) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      inside = inside && at[axis] >= packed.lowest[axis] && at[axis] <= packed.highest[axis];
+      is_inside = is_inside && at[axis] >= packed.lowest[axis] && at[axis] <= packed.highest[axis];
       // The product is exact, so that the quotient is the double nearest to the decimal number that was packed.
       positions[n][static_cast<int>(axis)] = 10.0 * static_cast<double>(at[axis]) / precision;
     }
@@ -196,7 +196,7 @@ std::string unpack(const PackedCoordinates& packed, std::span<glm::dvec3> positi
         if (steps.bits().overrun()) return fmt::format("has too few bits: they end at atom {}", n);
       }
     }
-    if (!inside) return fmt::format("is damaged: atom {} lies outside of the extent that the frame names", n);
+    if (!is_inside) return fmt::format("is damaged: atom {} lies outside of the extent that the frame names", n);
     if (class_change != 0) steps.set_small_class(steps.small_class() + class_change);
   }
   if (steps.bits().bytes_left() > kMostBytesLeft)

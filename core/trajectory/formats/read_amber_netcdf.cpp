@@ -194,7 +194,7 @@ struct PerFrame {
   /// Bytes from frame to frame; `count` is the number of values of a frame.
   std::uint64_t begin = 0, stride = 0, count = 0;
   std::uint64_t bytes = 0;  ///< bytes of the values of a frame
-  bool doubles = false;
+  bool is_double = false;
   double scale = 1.0;
 };
 
@@ -210,7 +210,7 @@ class AmberNetcdf final : public Trajectory {
     }
     find_coordinates(layout);
     time_ = find(layout, "time", 1);
-    if (time_ && !time_->doubles) time_precision_ = kSinglePrecision;
+    if (time_ && !time_->is_double) time_precision_ = kSinglePrecision;
     edges_ = find(layout, "cell_lengths", 3);
     angles_ = find(layout, "cell_angles", 3);
     count_frames(layout);
@@ -282,9 +282,9 @@ class AmberNetcdf final : public Trajectory {
   }
 
   double number_of(const PerFrame& part, std::uint64_t n) const {
-    const std::byte* at = bytes_.data() + n * (part.doubles ? sizeof(double) : sizeof(float));
+    const std::byte* at = bytes_.data() + n * (part.is_double ? sizeof(double) : sizeof(float));
     return part.scale *
-           (part.doubles ? number_at<double>(at, std::endian::big) : number_at<float>(at, std::endian::big));
+           (part.is_double ? number_at<double>(at, std::endian::big) : number_at<float>(at, std::endian::big));
   }
 
   /// Reads the numbers of a frame into bytes_. Returns `part`.

@@ -96,9 +96,9 @@ class Dcd final : public Trajectory {
 
   void check_markers(const std::byte* record, std::uint64_t length, std::uint64_t offset,
                      const std::string& what) const {
-    const std::uint64_t before = markers_.at(record), behind = markers_.at(record + markers_.size + length);
-    if (before == length && behind == length) return;
-    const std::uint64_t wrong = before == length ? behind : before;
+    const std::uint64_t before = markers_.at(record), after = markers_.at(record + markers_.size + length);
+    if (before == length && after == length) return;
+    const std::uint64_t wrong = before == length ? after : before;
     refuse(before == length ? offset + markers_.size + length : offset,
            fmt::format("is damaged: the record with {} should have {} bytes, but a marker says {}", what,
                        with_thousands(length), with_thousands(wrong)));

@@ -80,7 +80,7 @@ class HeaderReader {
     return false;
   }
 
-  bool only_blanks() const { return only_blanks_; }  ///< true if only blank lines were read
+  bool only_blanks() const { return has_only_blanks_; }  ///< true if only blank lines were read
 
   struct Fault {
     std::string words;
@@ -90,7 +90,7 @@ class HeaderReader {
   bool next(std::string_view& line) {
     if (!lines_.next(line)) return false;
     line = without_return(line);
-    only_blanks_ = only_blanks_ && trimmed(line).empty();
+    has_only_blanks_ = has_only_blanks_ && trimmed(line).empty();
     return lines_.ended_by_newline();  // without a line feed the line may be cut by the end of the file
   }
 
@@ -149,7 +149,7 @@ class HeaderReader {
   }
 
   FileLines& lines_;
-  bool only_blanks_ = true;
+  bool has_only_blanks_ = true;
 };
 
 class LammpsDump final : public Trajectory {

@@ -52,7 +52,7 @@ class PdbWalk {
 
   TextFrames run() {
     for (std::string_view line; lines_.next(line);) take(without_return(line));
-    const bool cut = open_ && !ended_ && (atoms_ != atoms_of_first_ || last_atom_bytes_ < kCoordinatesEnd);
+    const bool cut = is_open_ && !has_ended_ && (atoms_ != atoms_of_first_ || last_atom_bytes_ < kCoordinatesEnd);
     if (cut && !result_.frames.empty()) {
       result_.cut_short = cut_short_sentence(result_.frames.size());
     } else {
@@ -66,9 +66,9 @@ class PdbWalk {
 
   void take(std::string_view line) {
     if (is_pdb_atom(line)) {
-      if (open_ && ended_ && !in_model_record_) close(lines_.begin());
-      if (!open_) open();
-      ended_ = false;
+      if (is_open_ && has_ended_ && !in_model_record_) close(lines_.begin());
+      if (!is_open_) open();
+      has_ended_ = false;
       ++atoms_;
       last_atom_bytes_ = line.size();
     } else if (is_pdb_record(line, "MODEL")) {
@@ -79,7 +79,7 @@ class PdbWalk {
       close(lines_.begin());
       in_model_record_ = false;
     } else if (is_pdb_record(line, "END")) {
-      ended_ = true;
+      has_ended_ = true;
     } else if (is_pdb_record(line, "CRYST1")) {
       box_ = lines_.begin();
     }
@@ -87,23 +87,23 @@ class PdbWalk {
 
   void open() {
     frame_ = {in_model_record_ ? model_record_ : lines_.begin(), 0, box_};
-    open_ = true;
+    is_open_ = true;
     atoms_ = 0;
   }
 
   void close(std::uint64_t end) {
-    if (open_) {
+    if (is_open_) {
       frame_.end = end;
       if (result_.frames.empty()) atoms_of_first_ = atoms_;
       result_.frames.push_back(frame_);
     }
-    open_ = ended_ = false;
+    is_open_ = has_ended_ = false;
   }
 
   FileLines lines_;
   TextFrames result_;
   TextFrame frame_;
-  bool open_ = false, ended_ = false, in_model_record_ = false;
+  bool is_open_ = false, has_ended_ = false, in_model_record_ = false;
   std::uint64_t model_record_ = 0, box_ = kNoBox, atoms_ = 0, atoms_of_first_ = 0;
   std::size_t last_atom_bytes_ = 0;
 };

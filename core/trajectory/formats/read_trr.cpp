@@ -28,7 +28,7 @@ Number big_endian(const std::byte* bytes) {
 }
 
 struct TrrHeader {
-  bool doubles = false;
+  bool is_double = false;
   std::size_t atoms = 0;
   std::int32_t step = 0;
   std::uint64_t title_bytes = 0, header_bytes = 0;
@@ -79,7 +79,7 @@ std::string parse(std::span<const std::byte> bytes, TrrHeader& header) {
   const std::size_t width = bytes_of_number(numbers, atoms);
   if (width == 0) return fmt::format("has parts whose sizes do not belong to {} atoms", atoms);
   const auto size = [&](std::size_t n) { return static_cast<std::uint64_t>(numbers[n]); };
-  header.doubles = width == sizeof(double);
+  header.is_double = width == sizeof(double);
   header.atoms = static_cast<std::size_t>(atoms);
   header.step = static_cast<std::int32_t>(numbers[11]);
   header.header_bytes = header.time_offset() + 2 * width;
@@ -130,8 +130,8 @@ class Trr final : public Trajectory {
                        message("frame {} at byte {} {}; leave it out by @frames@, or write the file again", number,
                                with_thousands(offset), fault));
     }
-    time_precision_ = header.doubles ? kDoublePrecision : kSinglePrecision;
-    header.doubles ? copy<double>(header, frame) : copy<float>(header, frame);
+    time_precision_ = header.is_double ? kDoublePrecision : kSinglePrecision;
+    header.is_double ? copy<double>(header, frame) : copy<float>(header, frame);
   }
 
   template <typename Number>
