@@ -289,7 +289,7 @@ void FrameRun::prepare(const MoleculeRequest& molecule, const RunRequest& reques
     for (const Atom& atom : without_added(atoms, topology)) own.push_back(atom.index);
   };
   add_own(structure_.atoms);
-  add_own(structure_.beside);
+  add_own(structure_.extra_atoms);
   if (together_) add_own(together_->atoms);
   std::vector<Bond> bonds;
   if (request.whole != WholeBy::nothing || interpolates_) bonds = known_bonds(request.whole);
@@ -330,7 +330,7 @@ glm::dvec3 FrameRun::position_of(const Atom& atom, const std::vector<glm::dvec3>
 
 void FrameRun::place(const std::vector<glm::dvec3>& positions, Structure& structure) const {
   for (Atom& atom : structure.atoms) atom.position = position_of(atom, positions);
-  for (Atom& atom : structure.beside) atom.position = position_of(atom, positions);
+  for (Atom& atom : structure.extra_atoms) atom.position = position_of(atom, positions);
 }
 
 Structure FrameRun::structure_at(const Frame& frame, std::uint64_t number) const {

@@ -164,8 +164,8 @@ struct Structure {
   std::vector<std::string> chains;
   std::vector<AddedFile> added;  ///< files whose atoms follow those of `file`
   std::vector<Atom> atoms;
-  std::vector<Atom> beside;  ///< atoms that are shown in addition to the surface, which is not computed for them
-  /// Bonds of shown atoms, as places in `atoms` followed by `beside`.
+  std::vector<Atom> extra_atoms;  ///< atoms that are shown in addition to the surface, which is not computed for them
+  /// Bonds of shown atoms, as places in `atoms` followed by `extra_atoms`.
   std::shared_ptr<const std::vector<Bond>> shown_bonds;
   std::optional<std::uint64_t> frame;  ///< number of the frame in its trajectory; none without a trajectory
   std::vector<Instances> instances;    ///< copies; each atom is in one entry; empty: every atom is only at its position

@@ -46,15 +46,15 @@ bool has_charge_and_room(const Atom& atom, std::string_view reason) {
 }
 
 /// Moves the atoms without a reason for leaving them out to the front of `atoms`. The reasons of the others are
-/// counted, and those of them that are shown are moved to `beside`.
+/// counted, and those of them that are shown are moved to `extra_atoms`.
 template <typename Reason>
-void leave_out(std::vector<Atom>& atoms, std::vector<Atom>& beside, ReadReport& report, Reason&& reason_of) {
+void leave_out(std::vector<Atom>& atoms, std::vector<Atom>& extra_atoms, ReadReport& report, Reason&& reason_of) {
   std::size_t kept = 0;
   for (std::size_t n = 0; n < atoms.size(); ++n) {
     if (const char* reason = reason_of(n)) {
       ++report.excluded[reason];
       if (has_charge_and_room(atoms[n], reason)) ++report.charged[reason];
-      if (atoms[n].shown != 0) beside.push_back(std::move(atoms[n]));
+      if (atoms[n].shown != 0) extra_atoms.push_back(std::move(atoms[n]));
     } else {
       if (kept != n) atoms[kept] = std::move(atoms[n]);
       ++kept;
@@ -144,11 +144,11 @@ void mark_shown(std::vector<Atom>& atoms, std::span<const ShownAtoms> shown, con
 }
 
 /// Leaves out atoms for the reasons in structure.h, in their order.
-void choose_atoms(std::vector<Atom>& atoms, const std::vector<bool>& sites, std::vector<Atom>& beside,
+void choose_atoms(std::vector<Atom>& atoms, const std::vector<bool>& sites, std::vector<Atom>& extra_atoms,
                   const ReadOptions& options, const RadiiChoice& radii, ReadReport& report, const std::string& path,
                   PositionScope scope) {
   const std::vector<bool> of_kept_altlocs = kept_alternates(atoms, options.altloc, report.warnings);
-  leave_out(atoms, beside, report, [&](std::size_t n) -> const char* {
+  leave_out(atoms, extra_atoms, report, [&](std::size_t n) -> const char* {
     if (!of_kept_altlocs[n]) return kExcludedAltloc;
     const bool is_site = (atoms[n].index < sites.size() && sites[atoms[n].index]) || is_virtual_site(atoms[n]);
     return !radii.from_molecule_file() && is_site ? kExcludedVirtual : nullptr;
@@ -162,38 +162,38 @@ void choose_atoms(std::vector<Atom>& atoms, const std::vector<bool>& sites, std:
   }
   const Choice choice(atoms, options, radii);
   mark_shown(atoms, options.shown, choice, radii, path, scope);
-  leave_out(atoms, beside, report, [&](std::size_t n) { return choice.reason(atoms[n], selected[n], named[n]); });
+  leave_out(atoms, extra_atoms, report, [&](std::size_t n) { return choice.reason(atoms[n], selected[n], named[n]); });
 }
 
-/// Assigns radii to the atoms in `beside`. Returns the labels of those whose element is unknown.
+/// Assigns radii to the atoms in `extra_atoms`. Returns the labels of those whose element is unknown.
 std::vector<std::string> assign_extra_radii(Structure& structure, const RadiiChoice& radii) {
-  if (structure.beside.empty()) return {};
-  Structure beside;
-  beside.atoms = std::move(structure.beside);
-  std::vector<std::string> unknown = radii.assign(beside);
-  structure.beside = std::move(beside.atoms);
+  if (structure.extra_atoms.empty()) return {};
+  Structure extra;
+  extra.atoms = std::move(structure.extra_atoms);
+  std::vector<std::string> unknown = radii.assign(extra);
+  structure.extra_atoms = std::move(extra.atoms);
   return unknown;
 }
 
-/// Makes the copies of the assembly for the atoms in `beside`.
+/// Makes the copies of the assembly for the atoms in `extra_atoms`.
 void assemble_extra_atoms(Structure& structure, const Assembly& assembly) {
-  std::erase_if(structure.beside, [&](const Atom& atom) { return !names_chain_of(assembly, atom); });
-  if (structure.beside.empty()) return;
-  Structure beside;
-  beside.file = structure.file;
-  beside.atoms = std::move(structure.beside);
-  assemble(beside, assembly, CopyMode::atoms);
-  structure.beside = std::move(beside.atoms);
+  std::erase_if(structure.extra_atoms, [&](const Atom& atom) { return !names_chain_of(assembly, atom); });
+  if (structure.extra_atoms.empty()) return;
+  Structure extra;
+  extra.file = structure.file;
+  extra.atoms = std::move(structure.extra_atoms);
+  assemble(extra, assembly, CopyMode::atoms);
+  structure.extra_atoms = std::move(extra.atoms);
 }
 
-/// Returns the bonds of all shown atoms, as places in `atoms` followed by `beside`.
+/// Returns the bonds of all shown atoms, as places in `atoms` followed by `extra_atoms`.
 std::vector<Bond> find_shown_bonds(const Structure& structure, const FileContents& contents) {
   const std::size_t own = structure.atoms.size();
   const auto atom = [&](std::uint32_t n) -> const Atom& {
-    return n < own ? structure.atoms[n] : structure.beside[n - own];
+    return n < own ? structure.atoms[n] : structure.extra_atoms[n - own];
   };
   std::vector<std::uint32_t> places;
-  for (std::uint32_t n = 0; n < own + structure.beside.size(); ++n)
+  for (std::uint32_t n = 0; n < own + structure.extra_atoms.size(); ++n)
     if (atom(n).shown != 0) places.push_back(n);
   // Residues must be in the order of the file.
   std::stable_sort(places.begin(), places.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -337,12 +337,12 @@ void copy_atoms(std::vector<Atom>& atoms, const Assembly& assembly, Structure& s
   std::erase_if(structure.report.excluded, [](const auto& reason) { return reason.second == 0; });
 }
 
-/// Converts bonds from Atom::index to places in Structure::atoms followed by `beside`. Only bonds between shown atoms
-/// are returned.
+/// Converts bonds from Atom::index to places in Structure::atoms followed by `extra_atoms`. Only bonds between shown
+/// atoms are returned.
 std::vector<Bond> bonds_by_place(const Structure& structure, const std::vector<Bond>& by_index) {
   std::unordered_map<std::uint32_t, std::uint32_t> places;
   std::uint32_t next = 0;
-  for (const std::vector<Atom>* atoms : {&structure.atoms, &structure.beside})
+  for (const std::vector<Atom>* atoms : {&structure.atoms, &structure.extra_atoms})
     for (const Atom& atom : *atoms) places.emplace(atom.index, next++);
   std::vector<Bond> bonds;
   for (const auto& [a, b] : by_index) {
@@ -423,13 +423,13 @@ struct StructureFile::Parts {
     const bool copies_first = assembly && names_copies(options);
     if (copies_first) copy_atoms(atoms, *assembly, structure);
     warn_of_missing_altloc(structure, atoms, options.altloc);
-    choose_atoms(atoms, contents.sites, structure.beside, options, *radii, structure.report, file.path, scope);
+    choose_atoms(atoms, contents.sites, structure.extra_atoms, options, *radii, structure.report, file.path, scope);
     structure.atoms = std::move(atoms);
     structure.report.used = structure.atoms.size();
     refuse_no_atoms(structure);
     std::vector<std::string> unknown = radii->assign(structure);
-    const std::vector<std::string> beside = assign_extra_radii(structure, *radii);
-    unknown.insert(unknown.end(), beside.begin(), beside.end());
+    const std::vector<std::string> extra_unknown = assign_extra_radii(structure, *radii);
+    unknown.insert(unknown.end(), extra_unknown.begin(), extra_unknown.end());
     if (options.unknown_element == UnknownElement::halt && scope != PositionScope::any)
       halt_on_unknown_elements(structure, unknown, contents.unknown_elements);
     refuse_no_atoms(structure);
@@ -464,7 +464,7 @@ StructureFile::StructureFile(const std::string& path, const ReadOptions& options
       std::make_shared<const std::vector<Bond>>(find_shown_bonds(possible_structure_, parts_->contents));
   const std::size_t own = possible_structure_.atoms.size();
   const auto index = [&](std::uint32_t n) {
-    return (n < own ? possible_structure_.atoms[n] : possible_structure_.beside[n - own]).index;
+    return (n < own ? possible_structure_.atoms[n] : possible_structure_.extra_atoms[n - own]).index;
   };
   for (const auto& [a, b] : *possible_structure_.shown_bonds) parts_->bonds_by_index.push_back({index(a), index(b)});
 }

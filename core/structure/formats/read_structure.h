@@ -60,8 +60,8 @@ struct ReadOptions {
   std::optional<Selection> trajectory_atoms = {};
   /// The positions (Å) of all atoms of a file without positions (PSF), in the order of the file.
   std::vector<glm::dvec3> positions{};
-  /// Atoms to show, at most kMostShown entries. Atom::shown, Structure::beside and, for all shown atoms, shown_bonds
-  /// are filled in.
+  /// Atoms to show, at most kMostShown entries. Atom::shown, Structure::extra_atoms and, for all shown atoms,
+  /// shown_bonds are filled in.
   std::vector<ShownAtoms> shown{};
   bool secondary_structure = false;  ///< if true, Atom::secondary is computed for all atoms (secondary_structure.h)
 };
