@@ -21,7 +21,7 @@ struct ModuleFile {
 /// CapacityError if the system cannot load it.
 void* load_from_module(const ModuleFile& module, const char* function);
 
-/// Throws the Error that the module does not fit the program.
+/// Throws an Error: the module belongs to another build than the program.
 [[noreturn]] void refuse_module(const ModuleFile& module);
 
 }  // namespace meniscus

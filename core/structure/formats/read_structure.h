@@ -46,9 +46,9 @@ struct ReadOptions {
   std::vector<std::string> added{};  ///< names of further files, whose atoms are added as further models
   /// The atoms by which each added file is superposed on the first, selected in both (AddedFiles).
   std::optional<Selection> superpose_on{};
-  /// Selects the atoms to use. It is evaluated on all atoms except those of other models, other alternate locations and
-  /// virtual sites, including water and ions. Selected water and ions are used only if the expression names them
-  /// (Selection::names) or with keep_water or keep_ions.
+  /// Selects the atoms to use. It is evaluated on all atoms, including water and ions, except for virtual sites and the
+  /// atoms of other models and other alternate locations. Selected water and ions are used only if the expression names
+  /// them (Selection::names) or with keep_water or keep_ions.
   std::optional<Selection> selection = {};
   std::vector<Selection> required_parts = {};  ///< parts of the selection, each of which must have atoms
   Hydrogens hydrogens = Hydrogens::automatic;
