@@ -84,7 +84,7 @@ void run(const MorphCommand& command) {
     before = std::move(now);
   };
   for (std::size_t stop = 0; stop < ways; ++stop) {
-    std::vector<std::vector<glm::dvec3>> way = morph.way(stop, command.steps);
+    std::vector<std::vector<glm::dvec3>> way = morph.models(stop, command.steps);
     for (std::size_t n = 0; n < way.size(); ++n) add(stop, static_cast<double>(n) / command.steps, std::move(way[n]));
     progress.advance();
   }

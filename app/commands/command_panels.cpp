@@ -87,7 +87,7 @@ void superpose(const PanelsCommand& page, std::span<const SceneCommand> panels, 
                       "with three of these atoms or more; choose other atoms",
                       in_quotes(chosen->text()), escaped(page.files[n]), escaped(page.files.front())));
     const Superposition fit = superposition(first.atoms, moved.atoms, pairs);
-    for (std::vector<Atom>* const atoms : {&moved.atoms, &moved.beside})
+    for (std::vector<Atom>* const atoms : {&moved.atoms, &moved.extra_atoms})
       for (Atom& atom : *atoms) atom.position = fit.motion(atom.position);
     say(page, fmt::format("{} is superposed on {} by {} atoms with an RMSD of {:.3f} Å", page.files[n],
                           page.files.front(), with_thousands(pairs.size()), fit.rmsd));

@@ -97,7 +97,7 @@ void make_film(Scene scene, const ExportTarget& target, const ExportWatch& watch
   check_output(target.path, target.existing);
   scene.output = target.path.string();
   std::vector<std::string> words = render_words(scene);
-  words.front() = system_file::program().string();
+  words.front() = system_file::program_path().string();
   words.insert(words.end(), {"-q", "--progress", "json"});
   if (target.existing == Existing::replace) words.emplace_back("--force");
   const StopHandler handler([] { stop_children(); }, std::nullopt);

@@ -95,7 +95,7 @@ Words device_words(const Bundle& bundle, const Workplace& place, bool alone) {
 Words meniscus_command(const Bundle& bundle, Step step, const Workplace& place,
                        const std::vector<std::uint64_t>& frames, bool alone) {
   // This very program, whatever PATH says: the frames of a run must come from one version.
-  Words words{system_file::program().string()};
+  Words words{system_file::program_path().string()};
   words.insert(words.end(), bundle.command.begin(), bundle.command.end());
   const Words device = device_words(bundle, place, alone);
   words.insert(words.end(), device.begin(), device.end());

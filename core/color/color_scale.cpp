@@ -122,7 +122,7 @@ std::vector<double> places_in_chains(const Structure& structure) {
   using Chain = std::tuple<std::int32_t, std::uint32_t, std::string_view>;
   std::map<Chain, std::set<std::uint32_t>> residues;
   const auto chain_of = [](const Atom& atom) { return Chain(atom.model, atom.copy, atom.chain); };
-  for (const std::vector<Atom>* atoms : {&structure.atoms, &structure.beside})
+  for (const std::vector<Atom>* atoms : {&structure.atoms, &structure.extra_atoms})
     for (const Atom& atom : *atoms)
       if (atom.kind == AtomClass::polymer) residues[chain_of(atom)].insert(atom.residue);
   std::map<std::pair<Chain, std::uint32_t>, double> places;

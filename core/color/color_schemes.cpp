@@ -174,7 +174,7 @@ std::vector<std::string> rules_without_atoms(const Structure& structure, const C
   };
   // Opacity applies only to the surface; sticks and other shapes have colours, too.
   for (const ColorRule& rule : scheme.rules)
-    if (!means_some(rule.atoms, structure.atoms) && !means_some(rule.atoms, structure.beside))
+    if (!means_some(rule.atoms, structure.atoms) && !means_some(rule.atoms, structure.extra_atoms))
       texts.push_back(rule.atoms.text());
   for (const OpacityRule& rule : scheme.opacities)
     if (rule.atoms && !means_some(*rule.atoms, structure.atoms)) texts.push_back(rule.atoms->text());

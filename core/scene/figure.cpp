@@ -44,7 +44,7 @@ void name_atoms(std::span<const SurfaceObject* const> surfaces, Framebuffer& pic
 void name_atoms_as_the_file(const Structure& structure, Framebuffer& picture) {
   const std::size_t own = structure.atoms.size();
   for (std::uint32_t& atom : picture.atom)
-    if (atom != kNone) atom = (atom < own ? structure.atoms[atom] : structure.beside[atom - own]).index;
+    if (atom != kNone) atom = (atom < own ? structure.atoms[atom] : structure.extra_atoms[atom - own]).index;
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ struct Expressions {
 };
 
 void settle(const std::vector<Selection*>& selections, const std::vector<Atom>& atoms) {
-  for (Selection* selection : selections) *selection = selection->settled(atoms, selection->evaluate(atoms));
+  for (Selection* selection : selections) *selection = selection->fixed(atoms, selection->evaluate(atoms));
 }
 
 }  // namespace
