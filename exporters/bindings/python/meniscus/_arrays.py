@@ -12,7 +12,7 @@ from ._errors import InputError
 from ._library import DOUBLE, FLOAT, STRUCTURE_ALTLOCS, STRUCTURE_INSERTION_CODES, Array, Handle, call
 from ._sources import TAKEN_BY, package_of
 from ._types import AnyArray, Floats, Texts
-from ._units import plain
+from ._arguments import plain
 
 
 LETTERS = (STRUCTURE_INSERTION_CODES, STRUCTURE_ALTLOCS)

@@ -19,7 +19,7 @@ import numpy as np
 from ._errors import (CapacityError, Error, GpuError, InputError, InternalError, NotClosedError, OutputError,
                       UsageError)
 from ._loading import why_not_loaded
-from ._units import plain
+from ._arguments import plain
 
 NONE = 0xFFFFFFFF
 SES, SAS, VDW = range(3)

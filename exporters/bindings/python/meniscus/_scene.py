@@ -14,7 +14,7 @@ from ._errors import InputError, UsageError
 from ._page import Page, made
 from ._picture import Picture, blank, renderer
 from ._types import Device, Path
-from ._units import plain
+from ._arguments import plain
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack

@@ -18,7 +18,7 @@ from ._pockets import Pocket, pockets_of
 from ._scene import Scene
 from ._structure import Structure
 from ._types import AnyArray, Bytes, Device, Floats, Indices, Kind, Projection, Quantity, Rows
-from ._units import warn_of_nanometres
+from ._arguments import warn_of_nanometres
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
