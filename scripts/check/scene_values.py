@@ -15,7 +15,7 @@ PACKAGE = EXPORTERS / "bindings/python"
 sys.path.insert(0, str(PACKAGE))
 
 import meniscus
-from meniscus import _library as lib
+from meniscus import _header as header
 
 HEAD = '''# SPDX-License-Identifier: BSD-3-Clause
 """The types of a scene's values, written by scripts/check/scene_values.py from the table of properties."""
@@ -28,8 +28,8 @@ from typing import Literal, TypedDict, Union
 Path = Union[str, "os.PathLike[str]"]
 Text = Union[str, float]
 '''
-TYPES = {lib.VALUE_FLAG: "bool", lib.VALUE_NUMBER: "float", lib.VALUE_COUNT: "int", lib.VALUE_TEXT: "Text",
-         lib.VALUE_FILE: "Path", lib.VALUE_NEW_FILE: "Path", lib.VALUE_CAMERA: "Path"}
+TYPES = {header.VALUE_FLAG: "bool", header.VALUE_NUMBER: "float", header.VALUE_COUNT: "int", header.VALUE_TEXT: "Text",
+         header.VALUE_FILE: "Path", header.VALUE_NEW_FILE: "Path", header.VALUE_CAMERA: "Path"}
 
 
 #: What the panel has, in its order.
@@ -46,7 +46,7 @@ Row = collections.namedtuple("Row", "key type words initial lowest highest help"
 
 ROWS = (
 '''
-PANEL_TYPES = {lib.VALUE_FLAG: "flag", lib.VALUE_COUNT: "count", lib.VALUE_WORD: "word", lib.VALUE_TEXT: "text"}
+PANEL_TYPES = {header.VALUE_FLAG: "flag", header.VALUE_COUNT: "count", header.VALUE_WORD: "word", header.VALUE_TEXT: "text"}
 
 
 def refusal(atoms, scheme):
@@ -78,7 +78,7 @@ def panel_text():
 
 
 def type_of(known):
-    if known.type == lib.VALUE_WORD:
+    if known.type == header.VALUE_WORD:
         one = "Literal[" + ", ".join(f'"{word}"' for word in known.words) + "]"
     else:
         one = TYPES[known.type]

@@ -28,9 +28,8 @@ from ._mesh import Mesh
 from ._page import Page, page
 from ._picture import Camera, Picture
 from ._pockets import Pocket
-from ._radii import radii_of
 from ._scene import Property, Scene, properties
-from ._structure import Structure, read
+from ._structure import Structure, radii_of, read
 from ._surface import Patches, Surface, surface
 from ._widget import Picked, Widget, widget
 from ._adapters import (frames, from_ase, from_biopython, from_biotite, from_gemmi, from_mdanalysis, from_mdtraj,

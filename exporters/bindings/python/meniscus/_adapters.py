@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, Iterator, Optional
 import numpy as np
 
 from ._errors import InputError
-from ._radii import radii_of
 from ._sources import TAKEN_BY, Source, opened, package_of
+from ._structure import radii_of
 from ._surface import Surface, surface
 from ._types import Rows
 

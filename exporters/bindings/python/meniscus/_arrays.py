@@ -8,20 +8,21 @@ from typing import Any, Optional
 
 import numpy as np
 
+from . import _header as header
+from ._arguments import plain
 from ._errors import InputError
-from ._library import DOUBLE, FLOAT, STRUCTURE_ALTLOCS, STRUCTURE_INSERTION_CODES, Array, Handle, call
+from ._library import Handle, call
 from ._sources import TAKEN_BY, package_of
 from ._types import AnyArray, Floats, Texts
-from ._arguments import plain
 
 
-LETTERS = (STRUCTURE_INSERTION_CODES, STRUCTURE_ALTLOCS)
+_LETTERS = (header.STRUCTURE_INSERTION_CODES, header.STRUCTURE_ALTLOCS)
 
 
 class _Rows:
     """What numpy needs to see rows of a table; the array that it makes holds this object, and this one its owner."""
 
-    def __init__(self, owner: Handle, array: Array, dtype: Any, columns: tuple[int, ...]) -> None:
+    def __init__(self, owner: Handle, array: header.Array, dtype: Any, columns: tuple[int, ...]) -> None:
         self.owner = owner
         strides = (array.stride,) + (dtype.itemsize,) * len(columns)
         self.__array_interface__ = {"version": 3, "shape": (array.count,) + columns, "typestr": dtype.str,
@@ -30,7 +31,7 @@ class _Rows:
 
 def view(owner: Handle, function: str, table: int, row: Any, columns: int = 0) -> AnyArray:
     """A read-only view of a table whose rows are `row`, a ctypes struct, or numbers of that dtype."""
-    array = Array()
+    array = header.Array()
     call(function, owner.pointer, table, ctypes.byref(array))
     shape = (columns,) if columns else ()
     dtype: Any = np.dtype(row)
@@ -49,17 +50,17 @@ def view(owner: Handle, function: str, table: int, row: Any, columns: int = 0) -
 def texts(owner: Handle, function: str, table: int) -> Texts:
     """A table whose rows are texts of one length, filled with zeros, or letters. What is not UTF-8 stays as names of
     files do in Python."""
-    array = Array()
+    array = header.Array()
     call(function, owner.pointer, table, ctypes.byref(array))
     if array.count == 0:
         return np.empty(0, np.str_)
     # Of letters the next stands where the next atom's does.
-    width = 1 if table in LETTERS else array.stride
+    width = 1 if table in _LETTERS else array.stride
     rows = np.asarray(_Rows(owner, array, np.dtype((np.bytes_, width)), ()))
     return np.char.decode(rows, "utf-8", "surrogateescape")
 
 
-_TYPES = {np.dtype(np.float64): DOUBLE, np.dtype(np.float32): FLOAT}
+_TYPES = {np.dtype(np.float64): header.DOUBLE, np.dtype(np.float32): header.FLOAT}
 
 
 def real_array(values: Any, name: str, power: Optional[int] = None) -> AnyArray:
@@ -114,11 +115,3 @@ def atom_colors(colors: Any, atom_count: int) -> AnyArray:
     if given.shape not in ((3,), (atom_count, 3)):
         raise InputError(f"colors has the shape {given.shape}; it has to be (3,) or ({atom_count}, 3)")
     return np.array(np.broadcast_to(given, (atom_count, 3)), order="C")
-
-
-def put_colors(struct: Any, colors: Any, atom_count: int) -> None:
-    """Into `atom_colors` of a struct."""
-    if colors is None:
-        return
-    struct.owner = atom_colors(colors, atom_count)
-    struct.atom_colors = struct.owner.ctypes.data

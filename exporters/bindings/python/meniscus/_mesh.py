@@ -5,14 +5,14 @@ from __future__ import annotations
 import copy
 import ctypes
 import importlib
-import os
 from typing import Any, Optional, Protocol
 
 import numpy as np
 
+from . import _header as header
 from . import _library as lib
-from ._arrays import put_colors, view
-from ._errors import InputError
+from ._arguments import file_name, flag, text
+from ._arrays import atom_colors, view
 from ._types import AnyArray, Bytes, Floats, Indices, MeshFormat, Path
 
 
@@ -36,11 +36,11 @@ class Mesh:
 
     def __init__(self, surface: Computed, tolerance: float, split_colors: bool, density: Optional[float],
                  even: bool) -> None:
-        options = lib.default("mesh_options", lib.MeshOptions())
-        options.tolerance, options.split_colors = tolerance, lib.flag("split_colors", split_colors)
-        options.method = lib.MESH_EVEN if lib.flag("even", even) else lib.MESH_BY_PATCH
+        options = lib.default("mesh_options", header.MeshOptions())
+        options.tolerance, options.split_colors = tolerance, flag("split_colors", split_colors)
+        options.method = header.MESH_EVEN if flag("even", even) else header.MESH_BY_PATCH
         if density is not None:
-            options.method, options.density = lib.MESH_BY_DENSITY, density
+            options.method, options.density = header.MESH_BY_DENSITY, density
         self._surface = copy.copy(surface)  # of this frame
         self._handle = lib.Handle("mesh", "surface_mesh", self._surface._handle.pointer, ctypes.byref(options))
         self._options = (tolerance, split_colors, density, even)
@@ -65,7 +65,7 @@ class Mesh:
 
         >>> mesh.vertices.shape
         (184, 3)"""
-        return self._table(lib.MESH_POSITIONS, np.float64, 3)
+        return self._table(header.MESH_POSITIONS, np.float64, 3)
 
     @property
     def normals(self) -> Floats:
@@ -73,7 +73,7 @@ class Mesh:
 
         >>> np.allclose(np.linalg.norm(mesh.normals, axis=1), 1)
         True"""
-        return self._table(lib.MESH_NORMALS, np.float64, 3)
+        return self._table(header.MESH_NORMALS, np.float64, 3)
 
     @property
     def triangles(self) -> Indices:
@@ -81,7 +81,7 @@ class Mesh:
 
         >>> len(mesh.triangles) == 2 * len(mesh.vertices) - 4
         True"""
-        return self._table(lib.MESH_TRIANGLES, np.uint32, 3)
+        return self._table(header.MESH_TRIANGLES, np.uint32, 3)
 
     @property
     def triangle_atoms(self) -> Indices:
@@ -89,7 +89,7 @@ class Mesh:
 
         >>> np.bincount(mesh.triangle_atoms).tolist()
         [182, 182]"""
-        return self._table(lib.MESH_TRIANGLE_ATOMS, np.uint32)
+        return self._table(header.MESH_TRIANGLE_ATOMS, np.uint32)
 
     @property
     def triangle_kinds(self) -> Bytes:
@@ -97,7 +97,7 @@ class Mesh:
 
         >>> np.bincount(mesh.triangle_kinds).tolist()
         [252, 112]"""
-        return self._table(lib.MESH_TRIANGLE_KINDS, np.uint8)
+        return self._table(header.MESH_TRIANGLE_KINDS, np.uint8)
 
     @property
     def triangle_faces(self) -> Indices:
@@ -105,7 +105,7 @@ class Mesh:
 
         >>> int(mesh.triangle_faces.max())
         2"""
-        return self._table(lib.MESH_TRIANGLE_FACES, np.uint32)
+        return self._table(header.MESH_TRIANGLE_FACES, np.uint32)
 
     @property
     def triangle_patches(self) -> Indices:
@@ -113,7 +113,7 @@ class Mesh:
 
         >>> int(mesh.triangle_patches.max())
         1"""
-        return self._table(lib.MESH_TRIANGLE_PATCHES, np.uint32)
+        return self._table(header.MESH_TRIANGLE_PATCHES, np.uint32)
 
     @property
     def triangle_components(self) -> Indices:
@@ -121,7 +121,7 @@ class Mesh:
 
         >>> int(mesh.triangle_components.max())
         0"""
-        return self._table(lib.MESH_TRIANGLE_COMPONENTS, np.uint32)
+        return self._table(header.MESH_TRIANGLE_COMPONENTS, np.uint32)
 
     @property
     def vertex_atoms(self) -> Indices:
@@ -129,7 +129,7 @@ class Mesh:
 
         >>> np.bincount(mesh.vertex_atoms).tolist()
         [103, 81]"""
-        return self._table(lib.MESH_VERTEX_ATOMS, np.uint32)
+        return self._table(header.MESH_VERTEX_ATOMS, np.uint32)
 
     @property
     def sharp_corners(self) -> Indices:
@@ -137,7 +137,7 @@ class Mesh:
 
         >>> mesh.sharp_corners.tolist()
         []"""
-        return self._table(lib.MESH_SHARP_CORNERS, np.uint32)
+        return self._table(header.MESH_SHARP_CORNERS, np.uint32)
 
     @property
     def sharp_normals(self) -> Floats:
@@ -145,7 +145,7 @@ class Mesh:
 
         >>> mesh.sharp_normals.shape
         (0, 3)"""
-        return self._table(lib.MESH_SHARP_NORMALS, np.float64, 3)
+        return self._table(header.MESH_SHARP_NORMALS, np.float64, 3)
 
     def __repr__(self) -> str:
         return f"<meniscus.Mesh: {len(self.vertices)} vertices, {len(self.triangles)} triangles>"
@@ -162,13 +162,13 @@ class Mesh:
 
         >>> mesh.save("pair.ply", colors=(0.9, 0.6, 0.3))
         """
-        name = os.fsencode(path)
-        if b"\0" in name:
-            raise InputError(f"path {path!r} has a zero in it, which no file's name may have")
-        file = lib.default("mesh_file", lib.MeshFile())
-        file.format, file.attributes = lib.text("format", format), lib.text("attributes", attributes)
-        file.scale, file.replace = scale, lib.flag("replace", replace)
-        put_colors(file, colors, len(self._surface))
+        name = file_name("path", path)
+        file = lib.default("mesh_file", header.MeshFile())
+        file.format, file.attributes = text("format", format), text("attributes", attributes)
+        file.scale, file.replace = scale, flag("replace", replace)
+        if colors is not None:
+            of_atoms = atom_colors(colors, len(self._surface))
+            file.atom_colors = of_atoms.ctypes.data
         lib.call("mesh_save", self._handle.pointer, name, ctypes.byref(file))
 
     def to_trimesh(self) -> Any:

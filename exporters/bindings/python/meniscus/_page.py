@@ -9,6 +9,7 @@ import tempfile
 from typing import Any, Optional, Protocol, Union
 
 from . import _library as lib
+from ._arguments import flag, positive
 from ._errors import InputError, OutputError
 from ._types import Path
 
@@ -28,7 +29,7 @@ class Page:
 
     def __init__(self, html: str, height: int = 480) -> None:
         self._html = html
-        self._height = lib.positive("height", height)
+        self._height = positive("height", height)
 
     @property
     def html(self) -> str:
@@ -60,7 +61,7 @@ class Page:
 
         >>> page.save("helix.html", replace=True)"""
         target = os.fsdecode(path)
-        if not lib.flag("replace", replace) and os.path.lexists(target):
+        if not flag("replace", replace) and os.path.lexists(target):
             raise OutputError(f"{target}: exists already; replace=True replaces it")
         try:
             handle, beside = tempfile.mkstemp(suffix=".part", dir=os.path.dirname(target) or ".")
@@ -82,7 +83,7 @@ class Page:
         >>> page.frame("helix.html", height=300)
         '<iframe title="helix.pdb" width="100%" height="300" frameborder="0" loading="lazy" \
 sandbox="allow-scripts allow-downloads" allowfullscreen src="helix.html"></iframe>'"""
-        tall = self._height if height is None else lib.positive("height", height)
+        tall = self._height if height is None else positive("height", height)
         shown = f'srcdoc="{_quoted(self._html)}"' if src is None else f'src="{_quoted(src)}"'
         title = self.title.replace('"', "&quot;")
         return (f'<iframe title="{title}" width="100%" height="{tall}" frameborder="0" loading="lazy" sandbox="{_MAY}" '
@@ -114,7 +115,7 @@ def _umask() -> int:
 
 def made(make: str, *arguments: Any, height: int) -> Page:
     """The page that meniscus_MAKE makes."""
-    lib.positive("frame_height", height)
+    positive("frame_height", height)
     handle = lib.Handle("page", make, *arguments)
     html, size = ctypes.c_char_p(), ctypes.c_size_t()
     lib.call("page_html", handle.pointer, ctypes.byref(html), ctypes.byref(size))

@@ -12,10 +12,15 @@ from typing import Any, Optional
 
 import numpy as np
 
+from . import _header as header
+from ._arguments import number, word
 from ._arrays import atom_colors, real_array
 from ._errors import InputError
+from ._library import Handle, call
 from ._types import AnyArray, Bytes, Projection
-from ._library import DEVICES, ORTHOGRAPHIC, PROJECTIONS, CameraStruct, Handle, call, number, word
+
+DEVICES = {"cpu": header.CPU, "auto": header.AUTO, "gpu": header.GPU, "software": header.SOFTWARE}
+_PROJECTIONS = {"perspective": header.PERSPECTIVE, "orthographic": header.ORTHOGRAPHIC}
 
 
 class _Sealed:
@@ -46,11 +51,11 @@ class Camera(_Sealed):
     vertical_fov: float = 30.0
     height: float = 1.0
 
-    def _struct(self) -> CameraStruct:
-        struct = CameraStruct(ctypes.sizeof(CameraStruct))
+    def _struct(self) -> header.Camera:
+        struct = header.Camera(ctypes.sizeof(header.Camera))
         struct.position, struct.target = _three(self.position, "position", 1), _three(self.target, "target", 1)
         struct.up, struct.vertical_fov, struct.height = _three(self.up, "up"), self.vertical_fov, self.height
-        struct.projection = word("projection", self.projection, PROJECTIONS)
+        struct.projection = word("projection", self.projection, _PROJECTIONS)
         return struct
 
 
@@ -64,11 +69,11 @@ def _three(values: Any, name: str, power: Optional[int] = None) -> tuple[float, 
 
 def framed(surface: Handle, aspect: float, projection: Projection) -> Camera:
     """The camera that shows all of a surface."""
-    c = CameraStruct(ctypes.sizeof(CameraStruct))
-    call("surface_camera", surface.pointer, number("aspect", aspect), word("projection", projection, PROJECTIONS),
+    c = header.Camera(ctypes.sizeof(header.Camera))
+    call("surface_camera", surface.pointer, number("aspect", aspect), word("projection", projection, _PROJECTIONS),
          ctypes.byref(c))
     return Camera(_three(c.position, "position"), _three(c.target, "target"), _three(c.up, "up"),
-                  "orthographic" if c.projection == ORTHOGRAPHIC else "perspective", c.vertical_fov, c.height)
+                  "orthographic" if c.projection == header.ORTHOGRAPHIC else "perspective", c.vertical_fov, c.height)
 
 
 @dataclass
@@ -127,7 +132,7 @@ def blank(scene: Handle) -> Picture:
     return Picture(np.zeros((height.value, width.value, 4), dtype=np.uint8))
 
 
-def of_picture(colors: Any, atom_count: int, camera: Optional[Camera]) -> tuple[Any, Optional[CameraStruct]]:
+def of_picture(colors: Any, atom_count: int, camera: Optional[Camera]) -> tuple[Any, Optional[header.Camera]]:
     """As meniscus_render() takes them."""
     if camera is not None and not isinstance(camera, Camera):
         raise InputError(f"camera is a {type(camera).__name__}, not a meniscus.Camera")

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from . import _header as header
 from . import _library as lib
 from ._arrays import view
 from ._types import AnyArray, Floats, Indices, PocketKind
@@ -54,14 +55,14 @@ class Pocket(NamedTuple):
 
 def pockets_of(surface: lib.Handle, large_probe: float, trim: float, min_volume: float,
                mouth_tolerance: float) -> list[Pocket]:
-    options = lib.default("pocket_options", lib.PocketOptions())
+    options = lib.default("pocket_options", header.PocketOptions())
     options.large_probe_radius, options.trim = large_probe, trim
     options.min_volume, options.mouth_tolerance = min_volume, mouth_tolerance
     handle = lib.Handle("pockets", "surface_pockets", surface.pointer, ctypes.byref(options))
     rows, mouths, atoms, probes = (
         view(handle, "pockets_table", table, row, columns)
-        for table, row, columns in ((lib.POCKETS, lib.PocketRow, 0), (lib.POCKET_MOUTHS, np.float64, 0),
-                                    (lib.POCKET_ATOMS, np.uint32, 0), (lib.POCKET_PROBES, np.float64, 3)))
+        for table, row, columns in ((header.POCKETS, header.Pocket, 0), (header.POCKET_MOUTHS, np.float64, 0),
+                                    (header.POCKET_ATOMS, np.uint32, 0), (header.POCKET_PROBES, np.float64, 3)))
 
     def part(all_rows: AnyArray, first: int, count: int) -> AnyArray:
         return all_rows[first:first + count]

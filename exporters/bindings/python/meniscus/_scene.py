@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union
 
 import numpy as np
 
+from . import _header as header
 from . import _library as lib
+from ._arguments import plain
 from ._errors import InputError, UsageError
 from ._page import Page, made
 from ._picture import Picture, blank, renderer
 from ._types import Device, Path
-from ._arguments import plain
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -54,17 +55,17 @@ def properties() -> list[Property]:
 
     >>> [p.name for p in meniscus.properties() if p.of_surface][:3]
     ['color', 'preset', 'light']"""
-    array = lib.Array()
+    array = header.Array()
     lib.call("scene_properties", ctypes.byref(array))
 
-    def told(row: lib.Property) -> Property:
+    def told(row: header.Property) -> Property:
         texts = [getattr(row, field).decode() for field in ("name", "key", "value", "help", "words", "initial")]
         words = [word for word in texts.pop(4).split("|") if word]
         name, key, value, explained, initial = texts
         return Property(name, key, value, explained, words, initial, row.lowest, row.highest, row.type,
                         bool(row.repeatable), bool(row.of_surface))
 
-    return [told(lib.Property.from_address(array.data + n * array.stride)) for n in range(array.count)]
+    return [told(header.Property.from_address(array.data + n * array.stride)) for n in range(array.count)]
 
 
 def _text_of(name: str, value: Any) -> bytes:
@@ -156,11 +157,11 @@ class Scene:
         known = next(p for p in properties() if name in (p.name, p.key))
         if known.repeatable:
             return texts
-        if known.type == lib.VALUE_FLAG:
+        if known.type == header.VALUE_FLAG:
             return texts[0] == "true"
-        if known.type == lib.VALUE_COUNT:
+        if known.type == header.VALUE_COUNT:
             return int(texts[0])
-        return float(texts[0]) if known.type == lib.VALUE_NUMBER else texts[0]
+        return float(texts[0]) if known.type == header.VALUE_NUMBER else texts[0]
 
     def _texts(self, name: str) -> Iterator[str]:
         text = ctypes.c_char_p()

@@ -9,18 +9,22 @@ from typing import Any, Iterable, Literal, Mapping, NamedTuple, Optional, Sequen
 
 import numpy as np
 
+from . import _header as header
 from . import _library as lib
+from ._arguments import file_name, flag, listed, number, positive, text, whole_number, word
 from ._arrays import texts, view
 from ._errors import InputError
 from ._types import AnyArray, Bytes, Floats, Hydrogens, Indices, Numbers, Path, RadiiSet, Singles, Texts, UnknownElement
 
 _NUMBERS: dict[int, Any] = {  # what a row is; other columns are texts
-    lib.STRUCTURE_POSITIONS: (np.float64, 3), lib.STRUCTURE_RADII: (np.float64,), lib.STRUCTURE_ELEMENTS: (np.uint8,),
-    lib.STRUCTURE_INDICES: (np.uint32,), lib.STRUCTURE_RESIDUE_NUMBERS: (np.int32,),
-    lib.STRUCTURE_RESIDUES: (np.uint32,), lib.STRUCTURE_MODELS: (np.int32,), lib.STRUCTURE_COPIES: (np.uint32,),
-    lib.STRUCTURE_CHARGES: (np.float32,), lib.STRUCTURE_B_FACTORS: (np.float32,),
-    lib.STRUCTURE_OCCUPANCIES: (np.float32,), lib.STRUCTURE_CLASSES: (np.uint8,),
-    lib.STRUCTURE_HYDROPATHIES: (np.float64,)}
+    header.STRUCTURE_POSITIONS: (np.float64, 3), header.STRUCTURE_RADII: (np.float64,), header.STRUCTURE_ELEMENTS: (np.uint8,),
+    header.STRUCTURE_INDICES: (np.uint32,), header.STRUCTURE_RESIDUE_NUMBERS: (np.int32,),
+    header.STRUCTURE_RESIDUES: (np.uint32,), header.STRUCTURE_MODELS: (np.int32,), header.STRUCTURE_COPIES: (np.uint32,),
+    header.STRUCTURE_CHARGES: (np.float32,), header.STRUCTURE_B_FACTORS: (np.float32,),
+    header.STRUCTURE_OCCUPANCIES: (np.float32,), header.STRUCTURE_CLASSES: (np.uint8,),
+    header.STRUCTURE_HYDROPATHIES: (np.float64,)}
+_HYDROGENS = {"auto": header.HYDROGENS_AUTO, "keep": header.HYDROGENS_KEEP, "drop": header.HYDROGENS_DROP}
+_UNKNOWN_ELEMENTS = {"halt": header.UNKNOWN_HALT, "guess": header.UNKNOWN_GUESS, "skip": header.UNKNOWN_SKIP}
 
 
 class _Report(NamedTuple):
@@ -56,7 +60,7 @@ class Structure:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickles hold what was read, so that the file is not needed again."""
-        columns = range(lib.STRUCTURE_POSITIONS, lib.STRUCTURE_HYDROPATHIES + 1)
+        columns = range(header.STRUCTURE_POSITIONS, header.STRUCTURE_HYDROPATHIES + 1)
         return _unpacked, (self._report, {column: self._column(column) for column in columns})
 
     def __copy__(self) -> Structure:
@@ -114,7 +118,7 @@ class Structure:
 
         >>> molecule.warnings
         []"""
-        return [str(text) for text in self._column(lib.STRUCTURE_WARNINGS)]
+        return [str(row) for row in self._column(header.STRUCTURE_WARNINGS)]
 
     def __len__(self) -> int:
         return self._report.atoms
@@ -130,7 +134,7 @@ class Structure:
 
         >>> molecule.positions[:2].tolist()
         [[3.1, 0.0, 0.0], [1.927, 2.428, 0.55]]"""
-        return self._column(lib.STRUCTURE_POSITIONS)
+        return self._column(header.STRUCTURE_POSITIONS)
 
     @property
     def radii(self) -> Floats:
@@ -138,7 +142,7 @@ class Structure:
 
         >>> molecule.radii[:4].tolist()
         [1.55, 1.7, 1.7, 1.52]"""
-        return self._column(lib.STRUCTURE_RADII)
+        return self._column(header.STRUCTURE_RADII)
 
     @property
     def elements(self) -> Bytes:
@@ -146,7 +150,7 @@ class Structure:
 
         >>> molecule.elements[:4].tolist()
         [7, 6, 6, 8]"""
-        return self._column(lib.STRUCTURE_ELEMENTS)
+        return self._column(header.STRUCTURE_ELEMENTS)
 
     @property
     def indices(self) -> Indices:
@@ -154,7 +158,7 @@ class Structure:
 
         >>> molecule.indices[-3:].tolist()
         [61, 62, 63]"""
-        return self._column(lib.STRUCTURE_INDICES)
+        return self._column(header.STRUCTURE_INDICES)
 
     @property
     def names(self) -> Texts:
@@ -162,7 +166,7 @@ class Structure:
 
         >>> molecule.names[:4].tolist()
         ['N', 'CA', 'C', 'O']"""
-        return self._column(lib.STRUCTURE_NAMES)
+        return self._column(header.STRUCTURE_NAMES)
 
     @property
     def residue_names(self) -> Texts:
@@ -170,7 +174,7 @@ class Structure:
 
         >>> molecule.residue_names[::8].tolist()[:2]
         ['ALA', 'ALA']"""
-        return self._column(lib.STRUCTURE_RESIDUE_NAMES)
+        return self._column(header.STRUCTURE_RESIDUE_NAMES)
 
     @property
     def chains(self) -> Texts:
@@ -178,7 +182,7 @@ class Structure:
 
         >>> molecule.chains[[0, -1]].tolist()
         ['A', 'B']"""
-        return self._column(lib.STRUCTURE_CHAINS)
+        return self._column(header.STRUCTURE_CHAINS)
 
     @property
     def segments(self) -> Texts:
@@ -186,7 +190,7 @@ class Structure:
 
         >>> set(molecule.segments.tolist())
         {''}"""
-        return self._column(lib.STRUCTURE_SEGMENTS)
+        return self._column(header.STRUCTURE_SEGMENTS)
 
     @property
     def residue_numbers(self) -> Numbers:
@@ -194,7 +198,7 @@ class Structure:
 
         >>> molecule.residue_numbers[::8].tolist()
         [1, 3, 5, 7, 9, 11, 13, 15]"""
-        return self._column(lib.STRUCTURE_RESIDUE_NUMBERS)
+        return self._column(header.STRUCTURE_RESIDUE_NUMBERS)
 
     @property
     def insertion_codes(self) -> Texts:
@@ -202,7 +206,7 @@ class Structure:
 
         >>> set(molecule.insertion_codes.tolist())
         {''}"""
-        return np.char.strip(self._column(lib.STRUCTURE_INSERTION_CODES))
+        return np.char.strip(self._column(header.STRUCTURE_INSERTION_CODES))
 
     @property
     def altlocs(self) -> Texts:
@@ -210,7 +214,7 @@ class Structure:
 
         >>> set(molecule.altlocs.tolist())
         {''}"""
-        return np.char.strip(self._column(lib.STRUCTURE_ALTLOCS))
+        return np.char.strip(self._column(header.STRUCTURE_ALTLOCS))
 
     @property
     def residues(self) -> Indices:
@@ -218,7 +222,7 @@ class Structure:
 
         >>> molecule.residues[::8].tolist()
         [0, 2, 4, 6, 8, 10, 12, 14]"""
-        return self._column(lib.STRUCTURE_RESIDUES)
+        return self._column(header.STRUCTURE_RESIDUES)
 
     @property
     def models(self) -> Numbers:
@@ -226,7 +230,7 @@ class Structure:
 
         >>> set(molecule.models.tolist())
         {1}"""
-        return self._column(lib.STRUCTURE_MODELS)
+        return self._column(header.STRUCTURE_MODELS)
 
     @property
     def copies(self) -> Indices:
@@ -234,7 +238,7 @@ class Structure:
 
         >>> set(molecule.copies.tolist())
         {0}"""
-        return self._column(lib.STRUCTURE_COPIES)
+        return self._column(header.STRUCTURE_COPIES)
 
     @property
     def charges(self) -> Singles:
@@ -242,7 +246,7 @@ class Structure:
 
         >>> bool(np.isnan(molecule.charges).all())
         True"""
-        return self._column(lib.STRUCTURE_CHARGES)
+        return self._column(header.STRUCTURE_CHARGES)
 
     @property
     def b_factors(self) -> Singles:
@@ -250,7 +254,7 @@ class Structure:
 
         >>> molecule.b_factors[:3].tolist()
         [0.0, 1.0, 2.0]"""
-        return self._column(lib.STRUCTURE_B_FACTORS)
+        return self._column(header.STRUCTURE_B_FACTORS)
 
     @property
     def occupancies(self) -> Singles:
@@ -258,7 +262,7 @@ class Structure:
 
         >>> molecule.occupancies[:3].tolist()
         [1.0, 1.0, 1.0]"""
-        return self._column(lib.STRUCTURE_OCCUPANCIES)
+        return self._column(header.STRUCTURE_OCCUPANCIES)
 
     @property
     def classes(self) -> Texts:
@@ -267,7 +271,7 @@ class Structure:
         >>> set(molecule.classes.tolist())
         {'polymer'}"""
         words = np.array(["polymer", "ligand", "water", "ion", "unclassified"])
-        return words[self._column(lib.STRUCTURE_CLASSES)]
+        return words[self._column(header.STRUCTURE_CLASSES)]
 
     @property
     def hydropathies(self) -> Floats:
@@ -275,7 +279,7 @@ class Structure:
 
         >>> molecule.hydropathies[:3].tolist()
         [1.8, 1.8, 1.8]"""
-        return self._column(lib.STRUCTURE_HYDROPATHIES)
+        return self._column(header.STRUCTURE_HYDROPATHIES)
 
     def colors(self, scheme: str = "element") -> Singles:
         """(n, 3) sRGB in [0, 1], as the program colours atoms and as render() and save() take them. scheme: "chain",
@@ -300,7 +304,7 @@ def _unpacked(report: _Report, columns: dict[int, AnyArray]) -> Structure:
 
 
 def _opened(handle: lib.Handle) -> Structure:
-    report = lib.ReadReport(ctypes.sizeof(lib.ReadReport))
+    report = header.ReadReport(ctypes.sizeof(header.ReadReport))
     lib.call("structure_report", handle.pointer, ctypes.byref(report))
     return Structure(handle, _Report(os.fsdecode(report.file), report.format.decode(),
                                      report.radii_set.decode("utf-8", "replace"),
@@ -313,19 +317,12 @@ def _overrides(radius: Union[Mapping[str, float], Iterable[str], None]) -> list[
     if isinstance(radius, str):
         return [radius]
     if isinstance(radius, Mapping):
-        return [f"{selection}={lib.number('radius', value)!r}" for selection, value in radius.items()]
-    return lib.listed("radius", radius, "texts such as 'element Zn=1.1'")
+        return [f"{selection}={number('radius', value)!r}" for selection, value in radius.items()]
+    return listed("radius", radius, "texts such as 'element Zn=1.1'")
 
 
 def _list_of(given: Sequence[bytes]) -> Any:
     return (ctypes.c_char_p * len(given))(*given)
-
-
-def _file_name(name: str, path: Path) -> bytes:
-    encoded = os.fsencode(path)
-    if b"\0" in encoded:
-        raise InputError(f"{name} {path!r} has a zero in it, which no file's name may have")
-    return encoded
 
 
 def read(path: Path, *, select: Optional[str] = None, assembly: Union[str, int, None] = None,
@@ -350,21 +347,57 @@ def read(path: Path, *, select: Optional[str] = None, assembly: Union[str, int, 
     Traceback (most recent call last):
         ...
     meniscus.InputError: none.pdb: cannot be read: No such file or directory"""
-    options = lib.default("read_options", lib.ReadOptions())
-    options.select, options.altloc = lib.text("select", select), lib.text("altloc", altloc)
-    options.assembly = None if assembly is None else lib.text("assembly", str(assembly))
-    options.radii = lib.text("radii", radii)
-    options.model = 0 if isinstance(model, str) and model == "all" else lib.positive("model", model)
-    options.hydrogens = lib.word("hydrogens", hydrogens, lib.HYDROGENS)
-    options.unknown_element = lib.word("unknown_element", unknown_element, lib.UNKNOWN_ELEMENTS)
-    options.keep_water, options.keep_ions = lib.flag("keep_water", keep_water), lib.flag("keep_ions", keep_ions)
+    options = lib.default("read_options", header.ReadOptions())
+    options.select, options.altloc = text("select", select), text("altloc", altloc)
+    options.assembly = None if assembly is None else text("assembly", str(assembly))
+    options.radii = text("radii", radii)
+    options.model = 0 if isinstance(model, str) and model == "all" else positive("model", model)
+    options.hydrogens = word("hydrogens", hydrogens, _HYDROGENS)
+    options.unknown_element = word("unknown_element", unknown_element, _UNKNOWN_ELEMENTS)
+    options.keep_water, options.keep_ions = flag("keep_water", keep_water), flag("keep_ions", keep_ions)
     files = ([radii_files] if isinstance(radii_files, (str, bytes, os.PathLike)) else
-             lib.listed("radii_files", radii_files, "files"))
-    tables = _list_of([_file_name("radii_files", file) for file in files])
-    overrides = _list_of([lib.text("radius", text) or b"" for text in _overrides(radius)])
-    options.radii_files, options.radii_file_count = ctypes.cast(tables, ctypes.c_void_p), len(tables)
-    options.radius, options.radius_count = ctypes.cast(overrides, ctypes.c_void_p), len(overrides)
-    structure = _opened(lib.Handle("structure", "read", _file_name("path", path), ctypes.byref(options)))
-    for text in structure.warnings:
-        warnings.warn(f"{structure.file}: {text}", stacklevel=2)
+             listed("radii_files", radii_files, "files"))
+    tables = _list_of([file_name("radii_files", file) for file in files])
+    overrides = _list_of([text("radius", override) or b"" for override in _overrides(radius)])
+    options.radii_files, options.radii_file_count = tables, len(tables)
+    options.radius, options.radius_count = overrides, len(overrides)
+    structure = _opened(lib.Handle("structure", "read", file_name("path", path), ctypes.byref(options)))
+    for warning in structure.warnings:
+        warnings.warn(f"{structure.file}: {warning}", stacklevel=2)
     return structure
+
+
+def _element(symbol: str) -> int:
+    number = ctypes.c_int32()
+    lib.call("element_of_symbol", symbol.strip().encode(), ctypes.byref(number))
+    return number.value
+
+
+def _radius(element: int) -> float:
+    radius = ctypes.c_double()
+    lib.call("element_radius", element, ctypes.byref(radius), None)
+    return radius.value
+
+
+def radii_of(elements: Iterable[Union[str, int]]) -> Floats:
+    """Å, one per symbol or atomic number: Bondi (1964, 1966), then Mantina et al. (2009), 2.0 for metals that neither
+    has. InputError where a symbol is not an element's.
+
+    >>> meniscus.radii_of(["C", "Zn", 8]).tolist()
+    [1.7, 1.39, 1.52]
+    >>> meniscus.radii_of(["Qq"])
+    Traceback (most recent call last):
+        ...
+    meniscus.InputError: atom 0: 'Qq' is not an element; give radii"""
+    given = listed("elements", elements, "symbols or atomic numbers")
+    given = [element if isinstance(element, str) else whole_number(f"atom {n}: the element", element)
+             for n, element in enumerate(given)]
+    known: dict[Union[str, int], float] = {}
+    for n, element in enumerate(given):
+        if element in known:
+            continue
+        number = _element(element) if isinstance(element, str) else element
+        if number == 0:
+            raise InputError(f"atom {n}: {str(element)!r} is not an element; give radii")
+        known[element] = _radius(number)
+    return np.array([known[element] for element in given], dtype=np.float64)

@@ -8,22 +8,28 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional, Union, ove
 
 import numpy as np
 
+from . import _header as header
 from . import _library as lib
+from ._arguments import flag, warn_of_nanometres, word
 from ._arrays import doubles, numbers, real_array, view
 from ._errors import GpuError, InputError
 from ._mesh import Mesh
 from ._page import Page, made
-from ._picture import Camera, Picture, framed, of_picture, painted
+from ._picture import DEVICES, Camera, Picture, framed, of_picture, painted
 from ._pockets import Pocket, pockets_of
 from ._scene import Scene
 from ._structure import Structure
 from ._types import AnyArray, Bytes, Device, Floats, Indices, Kind, Projection, Quantity, Rows
-from ._arguments import warn_of_nanometres
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from ._scene_values import SurfaceValues
+
+_KINDS = {"ses": header.SES, "sas": header.SAS, "vdw": header.VDW}
+_GRADIENTS = {"area": header.GRADIENT_AREA, "volume": header.GRADIENT_VOLUME, "sas_area": header.GRADIENT_SAS_AREA,
+              "sas_volume": header.GRADIENT_SAS_VOLUME}
+_COUNTS = [name for name, kind in header.Summary._fields_ if kind is ctypes.c_uint64]
 
 
 class Patches(NamedTuple):
@@ -49,6 +55,13 @@ def _radii_of(radii: Any) -> AnyArray:
     return np.array(given, dtype=np.float64) if given.ndim == 0 else np.array(numbers(given, "radii")[0])
 
 
+def _summary_of(handle: lib.Handle) -> header.Summary:
+    summary = header.Summary(ctypes.sizeof(header.Summary))
+    lib.call("surface_summary", handle.pointer, ctypes.byref(summary))
+    summary.owner = handle  # which owns the text in summary.device
+    return summary
+
+
 class Surface:
     """The exact, closed surface of some atoms; surface() and its like make it. Arrays are read-only views, and n counts
     atoms. May be used by many threads at once: update() replaces what the others get from then on, never what they
@@ -62,12 +75,12 @@ class Surface:
 
     def __init__(self, xyz: Any, radii: Any, probe: float, kind: Kind, device: Device, threads: int,
                  verify: bool) -> None:
-        options = lib.default("options", lib.Options())
-        options.probe_radius, options.threads, options.verify = probe, threads, lib.flag("verify", verify)
-        options.kind = lib.word("kind", kind, lib.KINDS)
+        options = lib.default("options", header.Options())
+        options.probe_radius, options.threads, options.verify = probe, threads, flag("verify", verify)
+        options.kind = word("kind", kind, _KINDS)
         if options.probe_radius == 0 and kind != "vdw":
             raise InputError('probe is 0; kind="vdw" is the surface without a probe')
-        options.device = lib.word("device", device, lib.DEVICES)
+        options.device = word("device", device, DEVICES)
         self._kind: Kind = kind
         self._options = (float(options.probe_radius), kind, device, int(options.threads), bool(options.verify))
         self._computer = lib.Handle("computer", "computer_new", ctypes.byref(options))
@@ -78,8 +91,8 @@ class Surface:
         positions, positions_type = numbers(xyz, "xyz", 3, power=1)
         if radii.ndim == 1 and len(radii) != len(positions):
             raise InputError(f"there are {len(positions)} positions and {len(radii)} radii")
-        radii_type = lib.FLOAT if radii.dtype == np.float32 else lib.DOUBLE
-        atoms = lib.Atoms(ctypes.sizeof(lib.Atoms), len(positions), positions.ctypes.data, radii.ctypes.data,
+        radii_type = header.FLOAT if radii.dtype == np.float32 else header.DOUBLE
+        atoms = header.Atoms(ctypes.sizeof(header.Atoms), len(positions), positions.ctypes.data, radii.ctypes.data,
                           positions.strides[0], 0, positions_type, radii_type, int(radii.ndim == 0), 0)
         handle = lib.Handle("surface", "compute", self._computer.pointer, ctypes.byref(atoms))
         warn_of_nanometres(positions)
@@ -114,12 +127,8 @@ class Surface:
 
     # ---- measures
 
-    def _summary(self) -> lib.Summary:
-        summary = lib.Summary(ctypes.sizeof(lib.Summary))
-        handle = self._handle
-        lib.call("surface_summary", handle.pointer, ctypes.byref(summary))
-        summary.owner = handle  # of its text
-        return summary
+    def _summary(self) -> header.Summary:
+        return _summary_of(self._handle)
 
     @property
     def area(self) -> float:
@@ -184,7 +193,7 @@ class Surface:
         >>> s.counts["atoms"], s.counts["cavities"]
         (4, 0)"""
         summary = self._summary()
-        return {name: getattr(summary, name) for name in lib.COUNTS}
+        return {name: getattr(summary, name) for name in _COUNTS}
 
     def __len__(self) -> int:
         return int(self._summary().atoms)
@@ -201,7 +210,7 @@ class Surface:
 
         >>> s.components["area"].round(2).tolist()
         [100.83]"""
-        return self._table(lib.COMPONENTS, lib.Component)
+        return self._table(header.COMPONENTS, header.Component)
 
     @property
     def atom_areas(self) -> Floats:
@@ -209,7 +218,7 @@ class Surface:
 
         >>> s.atom_areas.round(2).tolist()
         [26.13, 17.92, 19.86, 36.92]"""
-        return self._table(lib.ATOM_AREAS, np.float64)
+        return self._table(header.ATOM_AREAS, np.float64)
 
     @property
     def atom_sas_areas(self) -> Floats:
@@ -217,7 +226,7 @@ class Surface:
 
         >>> s.atom_sas_areas.round(2).tolist()
         [72.11, 34.64, 43.29, 98.04]"""
-        return self._table(lib.ATOM_SAS_AREAS, np.float64)
+        return self._table(header.ATOM_SAS_AREAS, np.float64)
 
     @property
     def patches(self) -> Patches:
@@ -226,8 +235,8 @@ class Surface:
         >>> s.patches.convex["atom"].tolist()
         [0, 1, 2, 3]"""
         handle = self._handle
-        tables = ((lib.CONVEX, lib.Convex), (lib.TOROIDAL, lib.Toroidal), (lib.CONCAVE, lib.Concave),
-                  (lib.PLANES, lib.Plane), (lib.CONTACTS, np.uint32), (lib.CUTS, np.uint32))
+        tables = ((header.CONVEX, header.Convex), (header.TOROIDAL, header.Toroidal), (header.CONCAVE, header.Concave),
+                  (header.PLANES, header.Plane), (header.CONTACTS, np.uint32), (header.CUTS, np.uint32))
         return Patches(*(view(handle, "surface_table", table, row) for table, row in tables))
 
     @property
@@ -236,7 +245,7 @@ class Surface:
 
         >>> s.balls["radius"].tolist()
         [1.7, 1.7, 1.52, 1.7]"""
-        return self._table(lib.ATOMS, lib.Ball)
+        return self._table(header.ATOMS, header.Ball)
 
     @property
     def faces(self) -> Rows:
@@ -244,7 +253,7 @@ class Surface:
 
         >>> round(float(s.faces["area"].sum()), 2)
         100.83"""
-        return self._table(lib.FACES, lib.Face)
+        return self._table(header.FACES, header.Face)
 
     @property
     def borders(self) -> Rows:
@@ -252,7 +261,7 @@ class Surface:
 
         >>> s.borders["radius"].round(2).tolist()[:3]
         [1.65, 1.65, 1.4]"""
-        return self._table(lib.BORDERS, lib.Border)
+        return self._table(header.BORDERS, header.Border)
 
     @property
     def half_borders(self) -> Indices:
@@ -260,7 +269,7 @@ class Surface:
 
         >>> len(s.half_borders) == 2 * len(s.borders)
         True"""
-        return self._table(lib.HALF_BORDERS, np.uint32)
+        return self._table(header.HALF_BORDERS, np.uint32)
 
     @property
     def loops(self) -> Rows:
@@ -268,7 +277,7 @@ class Surface:
 
         >>> int(s.loops["half_border_count"].sum()) == len(s.half_borders)
         True"""
-        return self._table(lib.LOOPS, lib.Loop)
+        return self._table(header.LOOPS, header.Loop)
 
     @property
     def vertices(self) -> Floats:
@@ -276,7 +285,7 @@ class Surface:
 
         >>> s.vertices.shape
         (12, 3)"""
-        return self._table(lib.VERTICES, np.float64, 3)
+        return self._table(header.VERTICES, np.float64, 3)
 
     # ---- what is made of it
 
@@ -312,7 +321,7 @@ class Surface:
         [[6.0, 0.0, 1.7]]"""
         given = doubles(points, "points", 3, power=1)
         distances = np.empty(len(given))
-        feet = np.empty((len(given), 3)) if lib.flag("nearest", nearest) else None
+        feet = np.empty((len(given), 3)) if flag("nearest", nearest) else None
         handle = self._handle
         lib.call("surface_distance", handle.pointer, len(given), given.ctypes.data, distances.ctypes.data,
                  None if feet is None else feet.ctypes.data)
@@ -329,9 +338,8 @@ class Surface:
         >>> np.allclose(s.gradient("volume").sum(axis=0), 0)
         True"""
         handle = self._handle
-        quantity = lib.word("of", of, lib.GRADIENTS)
-        summary = lib.Summary(ctypes.sizeof(lib.Summary))
-        lib.call("surface_summary", handle.pointer, ctypes.byref(summary))
+        quantity = word("of", of, _GRADIENTS)
+        summary = _summary_of(handle)
         given = None if weights is None else doubles(weights, "weights")
         if given is not None and given.shape != (summary.atoms,):
             raise InputError(f"weights has the shape {given.shape}; it has to be ({summary.atoms},)")
@@ -367,8 +375,7 @@ class Surface:
         >>> s.render(size="80x60", background="white", device="cpu")
         <meniscus.Picture: 80x60>"""
         handle = self._handle
-        summary = lib.Summary(ctypes.sizeof(lib.Summary))
-        lib.call("surface_summary", handle.pointer, ctypes.byref(summary))
+        summary = _summary_of(handle)
         scene = Scene()
         for name, value in values.items():
             scene[name] = value
