@@ -16,18 +16,21 @@ import numpy as np
 from ._errors import InputError, UsageError
 from ._types import AnyArray, Path
 
-_WAYS = ("value_in_unit", "m_as", "to_value")  # OpenMM and ParmEd; pint; astropy and unyt
+#: Methods that convert units: of OpenMM and ParmEd, of pint, and of astropy and unyt.
+_CONVERSIONS = ("value_in_unit", "m_as", "to_value")
 _NAMES_OF_ANGSTROM = ("Å", "A", "angstrom", "angstroms", "ångström")
-_SAMPLE = 16          # atoms whose nearest neighbour is looked for
-_NO_MOLECULE = 0.5    # Å: nearer neighbours are bonds in nm
+#: The number of atoms whose nearest neighbour warn_of_nanometres() finds.
+_SAMPLE = 16
+#: Å. Atoms are closer than this only if their positions are in nm.
+_CLOSEST_ATOMS = 0.5
 
-# Lengths, areas and volumes of structs: the power of Å of their unit.
+#: The units of the fields of structs, as powers of Å.
 _POWERS = {"probe_radius": 1, "large_probe_radius": 1, "trim": 1, "mouth_tolerance": 1, "tolerance": 1, "height": 1,
            "min_volume": 3, "density": -2}
 
 
 def has_unit(values: Any) -> bool:
-    return any(hasattr(values, way) for way in _WAYS)
+    return any(hasattr(values, method) for method in _CONVERSIONS)
 
 
 def _unit_of(values: Any) -> str:
@@ -42,7 +45,10 @@ def _converted(values: Any, power: int) -> Any:
 
 
 def plain(values: Any, name: str, power: Optional[int]) -> Any:
-    """In Å to this power if it has a unit, else as it is. power None: what may have no unit."""
+    """Returns values with a unit as plain numbers in Å to this power, and other values as they are.
+
+    power: None if the values must not have a unit. name: what messages call the values. Raises InputError for values in a
+    unit of another kind."""
     if isinstance(values, (list, tuple)) and any(has_unit(value) for value in values):
         return [plain(value, name, power) for value in values]
     if has_unit(values):
@@ -50,7 +56,7 @@ def plain(values: Any, name: str, power: Optional[int]) -> Any:
             raise InputError(f"{name} is in {_unit_of(values)}; give numbers without a unit")
         try:
             return _converted(values, power)
-        except Exception as error:  # each package has errors of its own
+        except Exception as error:  # which class it is depends on the package
             raise InputError(f"{name} is in {_unit_of(values)}, not in a unit of Å^{power}: {error}") from None
     units = getattr(values, "attrs", {}).get("units")  # xarray
     if units is not None and units not in _NAMES_OF_ANGSTROM:
@@ -59,7 +65,9 @@ def plain(values: Any, name: str, power: Optional[int]) -> Any:
 
 
 def warn_of_nanometres(positions: AnyArray) -> None:
-    """No molecule has its atoms so near to one another that half of them have a neighbour within 0.5 Å."""
+    """Warns if half of the atoms have a neighbour within 0.5 Å, which no molecule has.
+
+    positions: (n, 3). Only a sample of the atoms is compared with all others."""
     count = len(positions)
     if count < 2:
         return
@@ -70,13 +78,14 @@ def warn_of_nanometres(positions: AnyArray) -> None:
         squares[atom] = np.inf
         nearest.append(squares.min())
     middle = float(np.sqrt(np.median(nearest)))
-    if middle < _NO_MOLECULE:
+    if middle < _CLOSEST_ATOMS:
         warnings.warn(f"the nearest neighbours of atoms are {middle:.3g} Å away: do the positions look like nanometres? "
                       "They have to be in Å", stacklevel=5)
 
 
 def whole_number(name: str, value: Any) -> int:
-    """Of 32 bits, to which ctypes would cut a larger one without a word."""
+    """Returns the value as an int. Raises InputError for other types, and for numbers beyond 32 bits, which ctypes would
+    truncate."""
     try:
         number = int(value) if isinstance(value, np.bool_) else operator.index(value)
     except TypeError:
@@ -87,6 +96,7 @@ def whole_number(name: str, value: Any) -> int:
 
 
 def positive(name: str, value: Any) -> int:
+    """Returns a whole number of at least 1. Raises InputError for other types, and UsageError below 1."""
     number = whole_number(name, value)
     if number < 1:
         raise UsageError(f"{name} is {number}; it counts from 1")
@@ -94,11 +104,12 @@ def positive(name: str, value: Any) -> int:
 
 
 def number(name: str, value: Any) -> float:
-    """In Å, or a power of it, where that is what it counts."""
+    """Returns the value as a float. A value with a unit is converted to the unit of the field of this name in meniscus.h.
+    Raises InputError for anything but a single real number."""
     plain_value = plain(value, name, _POWERS.get(name))
     single = isinstance(plain_value, numbers.Real) or getattr(plain_value, "ndim", None) == 0
     try:
-        if single and np.asarray(plain_value).dtype.kind in "fiuO":  # O: fractions, and integers beyond 64 bits
+        if single and np.asarray(plain_value).dtype.kind in "fiuO":  # "O" has fractions and integers beyond 64 bits
             return float(plain_value)
     except (OverflowError, TypeError, ValueError):
         pass
@@ -106,14 +117,16 @@ def number(name: str, value: Any) -> float:
 
 
 def flag(name: str, value: Any) -> bool:
-    """Of True and False, or 1 and 0; other words would all be true."""
+    """Returns the value as a bool. Raises InputError for anything but True, False, 1 and 0."""
     if not isinstance(value, (bool, np.bool_, int, np.integer)) or value not in (0, 1):
         raise InputError(f"{name} is {reprlib.repr(value)}, neither True nor False")
     return bool(value)
 
 
 def listed(name: str, values: Any, what: str) -> list[Any]:
-    """Of what can be walked through and is not a text."""
+    """Returns the values as a list. Raises InputError for texts and for what cannot be iterated over.
+
+    what: the plural that the message calls the items."""
     try:
         if not isinstance(values, (str, bytes)):
             return list(values)
@@ -123,7 +136,7 @@ def listed(name: str, values: Any, what: str) -> list[Any]:
 
 
 def file_name(name: str, path: Path) -> bytes:
-    """Returns the path in the encoding of the system's file names."""
+    """Returns a path in the encoding of the system's file names. Raises InputError for a path with a zero byte."""
     encoded = os.fsencode(path)
     if b"\0" in encoded:
         raise InputError(f"{name} {path!r} has a zero in it, which no file's name may have")
@@ -131,7 +144,8 @@ def file_name(name: str, path: Path) -> bytes:
 
 
 def text(name: str, value: Optional[str]) -> Optional[bytes]:
-    """As C has it; None stays None."""
+    """Returns a text as a C string in UTF-8, and None as None. Raises InputError for other types, and for a text with a zero
+    byte."""
     if value is None:
         return None
     if not isinstance(value, str) or "\0" in value:
@@ -140,7 +154,8 @@ def text(name: str, value: Optional[str]) -> Optional[bytes]:
 
 
 class Struct(Structure):
-    """A struct whose numbers come from callers: each is looked at before ctypes makes something of it."""
+    """The base class of the structs of meniscus.h. It checks numbers that are assigned to fields, which ctypes would truncate
+    or convert."""
 
     def __setattr__(self, name: str, value: Any) -> None:
         kind = next((field[1] for field in self._fields_ if field[0] == name), None)
@@ -152,7 +167,7 @@ class Struct(Structure):
 
 
 def word(name: str, given: str, words: dict[str, int]) -> int:
-    """The constant that a word means."""
+    """Returns the constant that a word means. Raises UsageError, with the list of words, for others."""
     if not isinstance(given, str) or given not in words:
         raise UsageError(f"{name} is {reprlib.repr(given)}, none of {', '.join(words)}")
     return words[given]

@@ -20,11 +20,13 @@ _EXCEPTIONS = {header.INTERNAL: InternalError, header.USAGE: UsageError, header.
                header.NOT_CLOSED: NotClosedError}
 
 _ELF_MACHINES = {3: "i386", 62: "x86_64", 183: "arm64"}
-_PACKAGES = {"libz.so.1": "zlib1g"}  # that are not named after their library
+#: Debian packages that are not named after their library.
+_PACKAGES = {"libz.so.1": "zlib1g"}
 _NAMES = {"Darwin": "macOS", "AMD64": "x86_64", "aarch64": "arm64", "ARM64": "arm64"}
 
 
 def _content(file: str) -> bytes:
+    """Returns the bytes of a file, or none if it cannot be read."""
     try:
         with open(file, "rb") as opened:
             return opened.read()
@@ -33,7 +35,7 @@ def _content(file: str) -> bytes:
 
 
 def _made_for(content: bytes) -> str:
-    """The system that the first bytes of a file name; "" if they name none."""
+    """Returns the system for which a library was built, as its first bytes tell; "" if they do not."""
     if content[:4] == b"\x7fELF" and len(content) >= 20:
         number = int.from_bytes(content[18:20], "little" if content[5] == 1 else "big")
         return f"Linux on {_ELF_MACHINES.get(number, f'machine {number}')}"
@@ -43,7 +45,7 @@ def _made_for(content: bytes) -> str:
 
 
 def why_not_loaded(file: str, error: OSError) -> str:
-    """In place of the loader's own words, which leave out what to do."""
+    """Returns a sentence about why the file cannot be loaded, and what to do. error: that of the system's loader."""
     system, machine = (_NAMES.get(name, name) for name in (platform.system(), platform.machine()))
     content = _content(file)
     made_for, here = _made_for(content), f"{system} on {machine}"
@@ -69,17 +71,18 @@ def why_not_loaded(file: str, error: OSError) -> str:
 
 
 def _place() -> str:
-    """Of the library: what MENISCUS_LIBRARY names, the file beside this one, or what the system has."""
+    """Returns the path or name of the library: MENISCUS_LIBRARY if it is set, else the file in the package's folder, else the
+    library of the system."""
     named = os.environ.get("MENISCUS_LIBRARY")
     if named:
         return named
     own = {"win32": "meniscus.dll", "darwin": "libmeniscus.dylib"}.get(sys.platform, "libmeniscus.so")
-    beside = pathlib.Path(__file__).with_name(own)
-    if beside.exists():
-        return str(beside)
+    packaged = pathlib.Path(__file__).with_name(own)
+    if packaged.exists():
+        return str(packaged)
     if sys.platform == "linux":
         return "libmeniscus.so.0"
-    import ctypes.util  # which takes its time
+    import ctypes.util  # here, because this import is slow
     return ctypes.util.find_library("meniscus") or own
 
 
@@ -102,7 +105,7 @@ def _library() -> ctypes.CDLL:
 
 
 def call(name: str, *arguments: Any) -> None:
-    """Calls meniscus_NAME; other threads of Python go on meanwhile. Raises what its status means."""
+    """Calls meniscus_NAME and raises an error if its status is not OK. Other Python threads run during the call."""
     dll = _library()
     status = getattr(dll, "meniscus_" + name)(*arguments)
     if status != header.OK:
@@ -110,30 +113,31 @@ def call(name: str, *arguments: Any) -> None:
 
 
 def default(name: str, struct: Any) -> Any:
-    """The struct with the library's defaults, by meniscus_default_NAME."""
+    """Fills a struct with the defaults of meniscus_default_NAME, and returns it."""
     struct.size = ctypes.sizeof(struct)
     call("default_" + name, ctypes.byref(struct))
     return struct
 
 
 class Handle:
-    """One reference to an object of the library, released when Python no longer holds it."""
+    """One reference to an object of the library, which is released when this object is deleted."""
 
     def __init__(self, kind: str, make: str, *arguments: Any) -> None:
-        """The last argument of meniscus_MAKE takes the object."""
+        """kind: as in meniscus_KIND_release. make: the function meniscus_MAKE that creates the object. arguments: those of
+        meniscus_MAKE but for the last, which returns the object."""
         self.pointer: ctypes.c_void_p = ctypes.c_void_p()
         self._release: Callable[[ctypes.c_void_p], None] = getattr(_library(), f"meniscus_{kind}_release")
         call(make, *arguments, ctypes.byref(self.pointer))
 
     def __del__(self) -> None:
-        # When Python ends the names of this module may be gone already.
+        # Uses no name of this module, because Python deletes those first when it exits.
         if self.pointer:
             self._release(self.pointer)
             self.pointer.value = None
 
 
 def version() -> str:
-    """That of the library, which is meniscus.__version__, too.
+    """Returns the version of the loaded library, which meniscus.__version__ is, too.
 
     >>> meniscus.version() == meniscus.__version__
     True"""
@@ -141,7 +145,7 @@ def version() -> str:
 
 
 def library_path() -> str:
-    """The file or name that was loaded.
+    """Returns the path or name of the loaded library.
 
     >>> "meniscus" in meniscus.library_path()
     True"""
