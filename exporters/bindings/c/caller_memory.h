@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/base/version.h"
-#include "exporters/bindings/c/guard.h"
+#include "exporters/bindings/c/c_calls.h"
 #include "exporters/bindings/c/include/meniscus/meniscus.h"
 
 namespace meniscus::c_api {

@@ -7,7 +7,7 @@
 #include <tbb/task_arena.h>
 
 #include "core/gpu/device_choice.h"
-#include "exporters/bindings/c/guard.h"
+#include "exporters/bindings/c/c_calls.h"
 
 namespace meniscus::c_api {
 

@@ -7,7 +7,7 @@
 #include "core/mesh/mesh_objects.h"
 #include "core/mesh/triangle_mesh.h"
 #include "exporters/bindings/c/counted.h"
-#include "exporters/bindings/c/surface.h"
+#include "exporters/bindings/c/c_surface.h"
 
 struct meniscus_mesh : meniscus::c_api::Counted {
   std::shared_ptr<const meniscus::c_api::FinishedSurface> of;

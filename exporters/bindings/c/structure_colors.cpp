@@ -10,7 +10,7 @@
 #include "core/color/color_atoms.h"
 #include "core/color/color_schemes.h"
 #include "core/color/coloring.h"
-#include "exporters/bindings/c/guard.h"
+#include "exporters/bindings/c/c_calls.h"
 
 namespace meniscus::c_api {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Refuses pages, in builds without the libraries that they need.
-#include "exporters/bindings/c/guard.h"
+#include "exporters/bindings/c/c_calls.h"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Refuses molecule files, in builds without gemmi, whose tables of elements and residues all readers need.
-#include "exporters/bindings/c/guard.h"
+#include "exporters/bindings/c/c_calls.h"
 #include "exporters/bindings/c/read_file.h"
 
 namespace meniscus::c_api {

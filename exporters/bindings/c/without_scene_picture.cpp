@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Refuses scenes of molecules and their schemes of colours, in builds without the libraries that read and write them.
-#include "exporters/bindings/c/guard.h"
+#include "exporters/bindings/c/c_calls.h"
 #include "exporters/bindings/c/structure_colors.h"
 
 namespace {

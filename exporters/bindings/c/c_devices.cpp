@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs the work of a GL context on one thread, one piece at a time.
-#include "exporters/bindings/c/gl_thread.h"
+#include "exporters/bindings/c/c_devices.h"
 
 #include <atomic>
 #include <condition_variable>

@@ -9,9 +9,9 @@
 #include "core/surface/compute_surface.h"
 #include "exporters/bindings/c/counted.h"
 #include "exporters/bindings/c/device.h"
-#include "exporters/bindings/c/guard.h"
+#include "exporters/bindings/c/c_calls.h"
 #include "exporters/bindings/c/caller_memory.h"
-#include "exporters/bindings/c/surface.h"
+#include "exporters/bindings/c/c_surface.h"
 
 /// What is behind the handle of pockets: their rows, one after the other.
 struct meniscus_pockets : meniscus::c_api::Counted {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Maps exceptions to codes, and keeps the last message of each thread.
-#include "exporters/bindings/c/guard.h"
+#include "exporters/bindings/c/c_calls.h"
 
 #include <algorithm>
 #include <array>

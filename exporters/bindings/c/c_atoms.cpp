@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Checks every number before anything is computed from it.
-#include "exporters/bindings/c/atoms.h"
+#include "exporters/bindings/c/c_atoms.h"
 
 #include <cmath>
 #include <cstddef>

@@ -11,8 +11,8 @@
 #include "core/mesh/check_by_mesh.h"
 #include "core/scene/scene_json.h"
 #include "core/scene/scene_paths.h"
-#include "exporters/bindings/c/renderer.h"
-#include "exporters/bindings/c/scene.h"
+#include "exporters/bindings/c/c_renderer.h"
+#include "exporters/bindings/c/c_scene.h"
 
 namespace meniscus::c_api {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <string>
 
-#include "exporters/bindings/c/renderer.h"
-#include "exporters/bindings/c/scene.h"
-#include "exporters/bindings/c/structure.h"
-#include "exporters/bindings/c/surface.h"
+#include "exporters/bindings/c/c_renderer.h"
+#include "exporters/bindings/c/c_scene.h"
+#include "exporters/bindings/c/c_structure.h"
+#include "exporters/bindings/c/c_surface.h"
 #include "exporters/page/scene_page.h"
 
 meniscus_status meniscus_scene_page(const meniscus_scene* scene, meniscus_page** page) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ray casts pictures on the CPU, or on GL in a context of its own.
-#include "exporters/bindings/c/renderer.h"
+#include "exporters/bindings/c/c_renderer.h"
 
 #include <string_view>
 
@@ -9,8 +9,8 @@
 #include "core/render/look.h"
 #include "core/scene/scene_lengths.h"
 #include "exporters/bindings/c/atom_colors.h"
-#include "exporters/bindings/c/scene.h"
-#include "exporters/bindings/c/surface.h"
+#include "exporters/bindings/c/c_scene.h"
+#include "exporters/bindings/c/c_surface.h"
 
 namespace meniscus::c_api {
 namespace {

@@ -16,7 +16,7 @@
 #include "exporters/bindings/c/caller_memory.h"
 #include "exporters/bindings/c/counted.h"
 #include "exporters/bindings/c/device.h"
-#include "exporters/bindings/c/gl_thread.h"
+#include "exporters/bindings/c/c_devices.h"
 
 namespace meniscus::c_api {
 

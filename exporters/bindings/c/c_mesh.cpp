@@ -17,7 +17,7 @@
 #include "core/structure/structure.h"
 #include "exporters/bindings/c/atom_colors.h"
 #include "exporters/bindings/c/device.h"
-#include "exporters/bindings/c/guard.h"
+#include "exporters/bindings/c/c_calls.h"
 #include "exporters/bindings/c/caller_memory.h"
 #include "exporters/mesh_files/file_object.h"
 #include "exporters/mesh_files/mesh_formats.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sets and gets the values of scenes by their keys in the table of properties.
-#include "exporters/bindings/c/scene.h"
+#include "exporters/bindings/c/c_scene.h"
 
 #include <algorithm>
 #include <memory>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads a surface: its numbers, its tables without a copy, and distances to it.
-#include "exporters/bindings/c/surface.h"
+#include "exporters/bindings/c/c_surface.h"
 
 #include <cmath>
 #include <cstddef>
@@ -12,7 +12,7 @@
 #include "core/base/error.h"
 #include "core/surface/gradients.h"
 #include "exporters/bindings/c/device.h"
-#include "exporters/bindings/c/guard.h"
+#include "exporters/bindings/c/c_calls.h"
 #include "exporters/bindings/c/caller_memory.h"
 
 namespace meniscus::c_api {

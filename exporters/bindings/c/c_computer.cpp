@@ -12,11 +12,11 @@
 #include "core/mesh/compare_mesh.h"
 #include "core/scene/surface_computer.h"
 #include "core/surface/compute_surface.h"
-#include "exporters/bindings/c/atoms.h"
+#include "exporters/bindings/c/c_atoms.h"
 #include "exporters/bindings/c/device.h"
-#include "exporters/bindings/c/gl_thread.h"
+#include "exporters/bindings/c/c_devices.h"
 #include "exporters/bindings/c/caller_memory.h"
-#include "exporters/bindings/c/surface.h"
+#include "exporters/bindings/c/c_surface.h"
 
 namespace meniscus::c_api {
 namespace {
