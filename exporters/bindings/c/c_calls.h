@@ -1,16 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The boundary of the C interface: turns exceptions into codes, and messages for meniscus_last_error().
+// What every function of the C interface uses: errors as status codes, checks of the caller's memory, and reference
+// counts of the objects behind handles.
 #pragma once
 
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <exception>
+#include <limits>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "core/base/version.h"
 #include "exporters/bindings/c/include/meniscus/meniscus.h"
 
 namespace meniscus::c_api {
+
+// ---- Errors
 
 /// A call that is refused before anything is computed.
 class Refusal : public std::runtime_error {
@@ -39,6 +52,125 @@ meniscus_status guarded(const Call& call) noexcept {
   } catch (...) {
     return report(std::current_exception());
   }
+}
+
+// ---- Memory of the caller
+
+/// Bytes that one array can have: half the address space. More is a negative number, or a product that overflowed.
+inline constexpr std::size_t kMostBytes = std::numeric_limits<std::size_t>::max() / 2;
+
+/// Refuses with MENISCUS_USAGE a NULL, and what is not an address of such an object.
+template <typename Object>
+void require(const Object* pointer, const char* name) {
+  if (!pointer) refuse(MENISCUS_USAGE, "{} is NULL", name);
+  if constexpr (!std::is_void_v<Object>)
+    if (reinterpret_cast<std::uintptr_t>(pointer) % alignof(Object) != 0)
+      refuse(MENISCUS_USAGE, "{} is not aligned: its address is not a multiple of {}", name, alignof(Object));
+}
+
+/// Rows of a caller's array: `width` numbers of `number` bytes each, the next row `stride` bytes behind (0: without a
+/// gap).
+struct CallerRows {
+  std::size_t count, width, number, stride = 0;
+};
+
+/// The distance of the rows. Refuses with MENISCUS_USAGE what cannot be such an array: NULL, an address that numbers
+/// do not have, a stride shorter than a row or between two numbers, rows that would not fit into memory. An array
+/// without rows may be NULL.
+std::size_t require_rows(const void* data, const CallerRows& rows, const char* name);
+
+/// As above, of rows without a gap.
+template <typename Number>
+void require_numbers(const Number* data, std::size_t count, std::size_t width, const char* name) {
+  require_rows(data, {count, width, sizeof(Number)}, name);
+}
+
+/// Refuses with MENISCUS_USAGE what is written while the other is still read.
+void require_apart(const void* written, std::size_t written_bytes, const char* written_name, const void* read,
+                   std::size_t read_bytes, const char* read_name);
+
+/// Refuses with MENISCUS_USAGE a field that is kept for later versions and not 0.
+inline void require_zero(std::int32_t reserved, const char* name) {
+  if (reserved != 0) refuse(MENISCUS_USAGE, "{} is {}; it has to be 0", name, reserved);
+}
+
+/// Refuses with MENISCUS_INPUT a number that the property of this key cannot be. unit: as in "tolerance is 2 Å".
+void check_number(std::string_view key, const char* name, double value, const char* unit);
+
+/// Refuses a number that is outside of a range, or NaN, with MENISCUS_INPUT.
+inline void check_range(const char* name, double value, double low, double high) {
+  if (!(value >= low && value <= high))
+    refuse(MENISCUS_INPUT, "{} is {}; it has to be {} to {}", name, value, low, high);
+}
+
+/// Nobody's struct is smaller than its size and one field, or larger than this.
+inline constexpr std::size_t kLargestStruct = 4096;
+
+inline void check_size(std::size_t size, const char* name) {
+  if (size <= sizeof(std::size_t) || size > kLargestStruct)
+    refuse(MENISCUS_USAGE, "{}.size is {}; set it to sizeof({})", name, size, name);
+}
+
+/// What the caller's struct says, and `defaults` where it ends too early. Refuses what this library does not know
+/// unless it is zero.
+template <typename Struct>
+Struct read_struct(const Struct* given, const Struct& defaults, const char* name) {
+  require(given, name);
+  check_size(given->size, name);
+  const auto* const bytes = reinterpret_cast<const unsigned char*>(given);
+  if (given->size > sizeof(Struct) &&
+      std::any_of(bytes + sizeof(Struct), bytes + given->size, [](unsigned char byte) { return byte != 0; }))
+    refuse(MENISCUS_USAGE, "{} asks for more than version {} of this library knows", name, MENISCUS_VERSION);
+  Struct result = defaults;
+  std::memcpy(&result, given, std::min(given->size, sizeof(Struct)));
+  result.size = sizeof(Struct);
+  return result;
+}
+
+/// Returns the caller's options, or the defaults if the pointer is NULL.
+template <typename Struct>
+Struct read_options(const Struct* given, const Struct& defaults, const char* name) {
+  return given ? read_struct(given, defaults, name) : defaults;
+}
+
+/// Fills in as much as the caller's struct has room for.
+template <typename Struct>
+void write_struct(Struct* given, const Struct& value, const char* name) {
+  require(given, name);
+  check_size(given->size, name);
+  const std::size_t size = given->size;
+  std::memcpy(given, &value, std::min(size, sizeof(Struct)));
+  given->size = size;
+}
+
+template <typename Row>
+meniscus_array table_of(const std::vector<Row>& rows) {
+  return {rows.data(), rows.size(), sizeof(Row)};
+}
+
+// ---- Handles
+
+class Counted {
+ public:
+  void retain() noexcept { holders_.fetch_add(1, std::memory_order_relaxed); }
+  /// True if nobody is left.
+  bool let_go() noexcept { return holders_.fetch_sub(1, std::memory_order_acq_rel) == 1; }
+  /// For one who holds it.
+  bool held_by_one() const noexcept { return holders_.load(std::memory_order_acquire) == 1; }
+
+ private:
+  std::atomic<std::uint32_t> holders_{1};
+};
+
+template <typename Object>
+Object* retain(Object* object) noexcept {
+  if (object) object->retain();
+  return object;
+}
+
+template <typename Object>
+void release(Object* object) noexcept {
+  if (object && object->let_go()) delete object;
 }
 
 }  // namespace meniscus::c_api

@@ -13,9 +13,8 @@
 #include "core/scene/surface_computer.h"
 #include "core/surface/compute_surface.h"
 #include "exporters/bindings/c/c_atoms.h"
-#include "exporters/bindings/c/device.h"
 #include "exporters/bindings/c/c_devices.h"
-#include "exporters/bindings/c/caller_memory.h"
+#include "exporters/bindings/c/c_calls.h"
 #include "exporters/bindings/c/c_surface.h"
 
 namespace meniscus::c_api {
@@ -37,8 +36,7 @@ void check_probe(double radius) {
 }
 
 meniscus_options checked(const meniscus_options* given) {
-  if (!given) return kDefaults;
-  const meniscus_options options = read_struct(given, kDefaults, "meniscus_options");
+  const meniscus_options options = read_options(given, kDefaults, "meniscus_options");
   if (options.kind < MENISCUS_SES || options.kind > MENISCUS_VDW)
     refuse(MENISCUS_USAGE, "kind is {}, none of MENISCUS_SES, _SAS, _VDW", static_cast<std::int32_t>(options.kind));
   check_device(options.device);
@@ -48,11 +46,13 @@ meniscus_options checked(const meniscus_options* given) {
   return options;
 }
 
+SurfaceKind kind_of(meniscus_kind kind) {
+  return kind == MENISCUS_SES ? SurfaceKind::ses : kind == MENISCUS_SAS ? SurfaceKind::sas : SurfaceKind::vdw;
+}
+
 SurfaceRequest request_of(const meniscus_options& options) {
   SurfaceRequest result;
-  result.kind = options.kind == MENISCUS_SES   ? SurfaceKind::ses
-                : options.kind == MENISCUS_SAS ? SurfaceKind::sas
-                                               : SurfaceKind::vdw;
+  result.kind = kind_of(options.kind);
   result.probe_radius = options.probe_radius;
   result.cpu = options.device == MENISCUS_CPU;
   result.gl = gl_of(options.device);
@@ -86,7 +86,7 @@ struct meniscus_computer : meniscus::c_api::Counted {
     else
       run(*here_);
     require_closed(finished->surface);
-    finished->kind = options_.kind;
+    finished->kind = meniscus::c_api::kind_of(options_.kind);
     finished->probe_radius = options_.kind == MENISCUS_VDW ? 0.0 : options_.probe_radius;
     finished->threads = options_.threads;
     return finished;

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Makes triangle meshes of a surface, hands out their tables, and writes them as files.
-#include "exporters/bindings/c/mesh.h"
-
 #include <memory>
 #include <string>
 #include <string_view>
@@ -12,15 +10,22 @@
 #include "core/mesh/mesh_colors.h"
 #include "core/mesh/mesh_objects.h"
 #include "core/mesh/tessellate.h"
+#include "core/mesh/triangle_mesh.h"
 #include "core/scene/outputs.h"
 #include "core/scene/surface_request.h"
 #include "core/structure/structure.h"
-#include "exporters/bindings/c/atom_colors.h"
-#include "exporters/bindings/c/device.h"
+#include "exporters/bindings/c/c_atoms.h"
+#include "exporters/bindings/c/c_devices.h"
 #include "exporters/bindings/c/c_calls.h"
-#include "exporters/bindings/c/caller_memory.h"
+#include "exporters/bindings/c/c_surface.h"
 #include "exporters/mesh_files/file_object.h"
 #include "exporters/mesh_files/mesh_formats.h"
+
+struct meniscus_mesh : meniscus::c_api::Counted {
+  std::shared_ptr<const meniscus::c_api::FinishedSurface> of;
+  meniscus::MeshFineness fineness;
+  meniscus::FineMesh made;
+};
 
 namespace meniscus::c_api {
 
@@ -30,7 +35,7 @@ const meniscus_mesh_options kDefaults{sizeof(meniscus_mesh_options), MENISCUS_ME
                                       MeshOutput{}.density};
 
 meniscus_mesh_options checked(const meniscus_mesh_options* given) {
-  const meniscus_mesh_options options = given ? read_struct(given, kDefaults, "meniscus_mesh_options") : kDefaults;
+  const meniscus_mesh_options options = read_options(given, kDefaults, "meniscus_mesh_options");
   switch (options.method) {
     case MENISCUS_MESH_BY_PATCH:
     case MENISCUS_MESH_EVEN:
@@ -114,22 +119,16 @@ const MeshFormat& format_of(const meniscus_mesh_file& file, const char* path) {
 }
 
 meniscus_mesh_file checked(const meniscus_mesh_file* given) {
-  meniscus_mesh_file file = given ? read_struct(given, kFileDefaults, "meniscus_mesh_file") : kFileDefaults;
+  meniscus_mesh_file file = read_options(given, kFileDefaults, "meniscus_mesh_file");
   check_range("scale", file.scale, kSmallestFileScale, kLargestFileScale);
   if (!file.attributes) file.attributes = kFileDefaults.attributes;
   return file;
 }
 
-SurfaceKind kind_of(const FinishedSurface& finished) {
-  return finished.kind == MENISCUS_SES   ? SurfaceKind::ses
-         : finished.kind == MENISCUS_SAS ? SurfaceKind::sas
-                                         : SurfaceKind::vdw;
-}
-
 /// Balls of an accessible surface are larger by the probe. Atoms are numbered as the caller's arrays have them, their
 /// residues, too, from 1.
 std::vector<Atom> bare_atoms(const FinishedSurface& finished) {
-  const double probe = finished.kind == MENISCUS_SAS ? finished.probe_radius : 0.0;
+  const double probe = finished.kind == SurfaceKind::sas ? finished.probe_radius : 0.0;
   std::vector<Atom> atoms;
   for (const Ball& ball : finished.surface.atoms) {
     Atom& atom = atoms.emplace_back();
@@ -151,7 +150,7 @@ void save(const meniscus_mesh& mesh, const char* path, const meniscus_mesh_file&
   for (std::uint32_t a = 0; a < places.size(); ++a) places[a] = a;
   MeshFileMaker maker(
       {mesh.fineness, format.numbers ? numbers : std::vector<std::string>{}, file.scale, atoms, {}, format.solid},
-      about_line(kind_word(kind_of(finished)), file.scale, mesh.fineness));
+      about_line(kind_word(finished.kind), file.scale, mesh.fineness));
   maker.add({"surface", finished.surface, coloring, places}, mesh.made);
   write_mesh_file(format, path, file.replace ? Existing::replace : Existing::refuse, maker.take());
 }

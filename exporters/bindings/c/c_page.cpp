@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Makes pages in which readers turn a scene or a surface.
-#include "exporters/bindings/c/page.h"
+#include "exporters/bindings/c/c_renderer.h"
 
 #include <string>
 
-#include "exporters/bindings/c/c_renderer.h"
 #include "exporters/bindings/c/c_scene.h"
 #include "exporters/bindings/c/c_structure.h"
 #include "exporters/bindings/c/c_surface.h"

@@ -7,10 +7,8 @@
 
 #include "core/pockets/pockets.h"
 #include "core/surface/compute_surface.h"
-#include "exporters/bindings/c/counted.h"
-#include "exporters/bindings/c/device.h"
 #include "exporters/bindings/c/c_calls.h"
-#include "exporters/bindings/c/caller_memory.h"
+#include "exporters/bindings/c/c_devices.h"
 #include "exporters/bindings/c/c_surface.h"
 
 /// What is behind the handle of pockets: their rows, one after the other.
@@ -28,9 +26,9 @@ const meniscus_pocket_options kDefaults{sizeof(meniscus_pocket_options), PocketR
                                         PocketRequest{}.trim, PocketRequest{}.min_volume, PocketRequest{}.tolerance};
 
 PocketRequest request_of(const FinishedSurface& finished, const meniscus_pocket_options* given) {
-  if (finished.kind != MENISCUS_SES || !(finished.probe_radius > 0.0))
+  if (finished.kind != SurfaceKind::ses || !(finished.probe_radius > 0.0))
     refuse(MENISCUS_USAGE, "pockets need a probe above 0 and a surface of MENISCUS_SES");
-  const meniscus_pocket_options options = given ? read_struct(given, kDefaults, "meniscus_pocket_options") : kDefaults;
+  const meniscus_pocket_options options = read_options(given, kDefaults, "meniscus_pocket_options");
   check_number("pockets.large_probe", "large_probe_radius", options.large_probe_radius, "Å");
   check_number("pockets.trim", "trim", options.trim, "Å");
   check_number("pockets.min_volume", "min_volume", options.min_volume, "Å³");

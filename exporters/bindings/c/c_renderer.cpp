@@ -8,7 +8,7 @@
 #include "core/properties/properties.h"
 #include "core/render/look.h"
 #include "core/scene/scene_lengths.h"
-#include "exporters/bindings/c/atom_colors.h"
+#include "exporters/bindings/c/c_atoms.h"
 #include "exporters/bindings/c/c_scene.h"
 #include "exporters/bindings/c/c_surface.h"
 
@@ -139,5 +139,19 @@ meniscus_status meniscus_render(meniscus_renderer* renderer, const meniscus_surf
       });
     });
     write_pixels(drawn, wanted.scene, rgba);
+  });
+}
+
+meniscus_page* meniscus_page_retain(meniscus_page* page) { return meniscus::c_api::retain(page); }
+void meniscus_page_release(meniscus_page* page) { meniscus::c_api::release(page); }
+
+meniscus_status meniscus_page_html(const meniscus_page* page, const char** html, std::size_t* size) {
+  using namespace meniscus::c_api;
+  return guarded([&] {
+    require(page, "page");
+    require(html, "html");
+    if (size) require(size, "size");
+    *html = page->html.c_str();
+    if (size) *size = page->html.size();
   });
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The object behind the handle of a renderer, and the conversion of its pictures to bytes.
+// The objects behind the handles of a renderer and of a page, and the conversion of pictures to bytes.
 #pragma once
 
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/camera/camera.h"
@@ -13,9 +15,7 @@
 #include "core/image/color_space.h"
 #include "core/render/surface_renderer.h"
 #include "core/scene/scene.h"
-#include "exporters/bindings/c/caller_memory.h"
-#include "exporters/bindings/c/counted.h"
-#include "exporters/bindings/c/device.h"
+#include "exporters/bindings/c/c_calls.h"
 #include "exporters/bindings/c/c_devices.h"
 
 namespace meniscus::c_api {
@@ -88,4 +88,9 @@ struct meniscus_renderer : meniscus::c_api::Counted {
   std::mutex calling_;
   std::unique_ptr<meniscus::SurfaceRenderer> here_;
   std::optional<meniscus::c_api::OnGlThread<meniscus::c_api::Studio>> with_gl_;
+};
+
+struct meniscus_page : meniscus::c_api::Counted {
+  explicit meniscus_page(std::string text) : html(std::move(text)) {}
+  const std::string html;
 };

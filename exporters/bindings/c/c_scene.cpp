@@ -10,7 +10,7 @@
 
 #include "core/base/message.h"
 #include "core/properties/properties.h"
-#include "exporters/bindings/c/caller_memory.h"
+#include "exporters/bindings/c/c_calls.h"
 
 namespace meniscus::c_api {
 namespace {

@@ -9,7 +9,6 @@
 
 #include "core/scene/scene.h"
 #include "core/scene/scene_values.h"
-#include "exporters/bindings/c/counted.h"
 #include "exporters/bindings/c/c_calls.h"
 
 struct meniscus_scene : meniscus::c_api::Counted {

@@ -1,18 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads and writes scenes as JSON, and draws them as `meniscus render` does.
+// Scenes of molecules: reads and writes them as JSON, draws them as `meniscus render` does, and colours atoms by
+// schemes.
 #include "core/scene/scene_picture.h"
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "core/base/text.h"
 #include "core/base/text_file.h"
+#include "core/color/color_atoms.h"
+#include "core/color/color_schemes.h"
+#include "core/color/coloring.h"
 #include "core/mesh/check_by_mesh.h"
 #include "core/scene/scene_json.h"
 #include "core/scene/scene_paths.h"
 #include "exporters/bindings/c/c_renderer.h"
 #include "exporters/bindings/c/c_scene.h"
+#include "exporters/bindings/c/c_structure.h"
 
 namespace meniscus::c_api {
 namespace {
@@ -44,6 +54,17 @@ Scene drawable(const meniscus_scene& scene) {
   if (file == "-") file = "./-";
   drawn.molecule.surface.check = check_by_mesh;
   return drawn;
+}
+
+std::vector<glm::vec3> structure_colors(const Structure& structure, std::string_view scheme) {
+  using By = ColorScheme::By;
+  constexpr std::array kOfMore{By::kind,          By::component, By::buried,       By::rmsf,
+                               By::accessibility, By::file,      By::conservation, By::lipophilicity};
+  const std::optional<ColorScheme> by = parse_color_scheme(scheme);
+  if (!by) refuse(MENISCUS_USAGE, "scheme: {} is not one of {}", in_quotes(scheme), color_scheme_words());
+  if (std::ranges::find(kOfMore, by->by) != kOfMore.end())
+    refuse(MENISCUS_USAGE, "scheme: {} needs more than the atoms of a file; a scene has it", in_quotes(scheme));
+  return color_atoms(structure, *by).atom;
 }
 
 }  // namespace meniscus::c_api

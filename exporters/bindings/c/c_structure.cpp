@@ -9,12 +9,8 @@
 
 #include "core/structure/element_tables.h"
 #include "core/structure/structure.h"
-#include "exporters/bindings/c/counted.h"
 #include "exporters/bindings/c/c_calls.h"
-#include "exporters/bindings/c/read_file.h"
 #include "exporters/bindings/c/c_structure.h"
-#include "exporters/bindings/c/structure_colors.h"
-#include "exporters/bindings/c/caller_memory.h"
 
 namespace meniscus::c_api {
 namespace {

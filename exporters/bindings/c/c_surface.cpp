@@ -11,9 +11,8 @@
 
 #include "core/base/error.h"
 #include "core/surface/gradients.h"
-#include "exporters/bindings/c/device.h"
+#include "exporters/bindings/c/c_devices.h"
 #include "exporters/bindings/c/c_calls.h"
-#include "exporters/bindings/c/caller_memory.h"
 
 namespace meniscus::c_api {
 
@@ -96,7 +95,7 @@ meniscus_array find_table(const FinishedSurface& finished, std::int32_t table) {
     case MENISCUS_ATOM_AREAS:
       return table_of(finished.areas().surface);
     case MENISCUS_ATOM_SAS_AREAS:
-      if (finished.kind != MENISCUS_SES)
+      if (finished.kind != SurfaceKind::ses)
         refuse(MENISCUS_USAGE, "MENISCUS_ATOM_SAS_AREAS are of MENISCUS_SES surfaces; see MENISCUS_ATOM_AREAS");
       return table_of(finished.areas().accessible);
     case MENISCUS_ATOMS:
@@ -180,7 +179,7 @@ void find_distances(const FinishedSurface& finished, std::size_t count, const do
 
 Gradient find_gradient(const FinishedSurface& finished, std::int32_t quantity, const double* given) {
   const Surface& s = finished.surface;
-  const bool is_ses = finished.kind == MENISCUS_SES;
+  const bool is_ses = finished.kind == SurfaceKind::ses;
   const bool by_atom = quantity == (is_ses ? MENISCUS_GRADIENT_SAS_AREA : MENISCUS_GRADIENT_AREA);
   if (quantity < MENISCUS_GRADIENT_AREA || quantity > MENISCUS_GRADIENT_SAS_VOLUME)
     refuse(MENISCUS_USAGE, "a surface has no gradient {}", quantity);

@@ -7,18 +7,18 @@
 #include <optional>
 #include <string>
 
-#include "core/surface/atom_areas.h"
 #include "core/queries/distance.h"
+#include "core/scene/surface_request.h"
+#include "core/surface/atom_areas.h"
 #include "core/surface/primitives.h"
-#include "exporters/bindings/c/counted.h"
-#include "exporters/bindings/c/include/meniscus/meniscus.h"
+#include "exporters/bindings/c/c_calls.h"
 
 namespace meniscus::c_api {
 
 /// A finished surface, and what has been asked of it.
 struct FinishedSurface {
   Surface surface;
-  std::int32_t kind = MENISCUS_SES;
+  SurfaceKind kind = SurfaceKind::ses;
   double probe_radius = 0.0;  ///< as asked
   int threads = 0;            ///< of what is found out later; 0: all
   std::string device;

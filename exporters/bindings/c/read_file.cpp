@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads molecules with the readers of the program and the options of a caller.
-#include "exporters/bindings/c/read_file.h"
+#include "exporters/bindings/c/c_structure.h"
 
 #include <string>
 #include <string_view>
@@ -9,7 +9,7 @@
 #include "core/base/text.h"
 #include "core/structure/formats/read_structure.h"
 #include "core/structure/selection/selection.h"
-#include "exporters/bindings/c/caller_memory.h"
+#include "exporters/bindings/c/c_calls.h"
 
 namespace meniscus::c_api {
 namespace {
@@ -92,8 +92,7 @@ ReadOptions reading_of(const meniscus_read_options& given) {
 }  // namespace
 
 Structure read_file(const char* path, const meniscus_read_options* options) {
-  const ReadOptions reading =
-      reading_of(options ? read_struct(options, kReadDefaults, "meniscus_read_options") : kReadDefaults);
+  const ReadOptions reading = reading_of(read_options(options, kReadDefaults, "meniscus_read_options"));
   // A library leaves the standard input of its process alone.
   return read_structure(std::string_view(path) == "-" ? "./-" : path, reading);
 }

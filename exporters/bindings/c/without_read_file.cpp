@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Refuses molecule files, in builds without gemmi, whose tables of elements and residues all readers need.
 #include "exporters/bindings/c/c_calls.h"
-#include "exporters/bindings/c/read_file.h"
+#include "exporters/bindings/c/c_structure.h"
 
 namespace meniscus::c_api {
 
