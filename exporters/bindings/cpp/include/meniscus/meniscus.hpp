@@ -92,8 +92,21 @@ inline void check(meniscus_status status) {
     case MENISCUS_NOT_CLOSED:
       throw NotClosedError(meniscus_last_error());
   }
-  throw Error(status, meniscus_last_error());  // of a newer library
+  throw Error(status, meniscus_last_error());  // a status of a newer library
 }
+
+namespace detail {
+
+// Calls a C function whose last parameter is its result, and returns the result.
+template <typename Result, typename Function, typename... Arguments>
+Result result(Function* function, const Arguments&... arguments) {
+  Result result{};
+  if constexpr (requires { result.size; }) result.size = sizeof result;
+  check(function(arguments..., &result));
+  return result;
+}
+
+}  // namespace detail
 
 // "0.2.0": of the library that runs, not of this header.
 inline std::string version() { return meniscus_version(); }
@@ -102,9 +115,7 @@ inline std::string version() { return meniscus_version(); }
 
 // The atomic number of "C", "zn", "CL", ... in any case, D and T as hydrogen; 0: none has this symbol.
 inline std::int32_t element_of(const std::string& symbol) {
-  std::int32_t element = 0;
-  check(meniscus_element_of_symbol(symbol.c_str(), &element));
-  return element;
+  return detail::result<std::int32_t>(meniscus_element_of_symbol, symbol.c_str());
 }
 
 struct ElementRadius {
@@ -268,21 +279,13 @@ class Structure {
 
   // What was read and left out. Its texts live as long as this.
   meniscus_read_report report() const {
-    meniscus_read_report report{};
-    report.size = sizeof report;
-    check(meniscus_structure_report(structure_.get(), &report));
-    return report;
+    return detail::result<meniscus_read_report>(meniscus_structure_report, structure_.get());
   }
   // What is odd in the file, a sentence each.
   Texts warnings() const { return Texts(table(MENISCUS_STRUCTURE_WARNINGS)); }
 
   // For Computer::compute(), while this lives.
-  Atoms atoms() const {
-    meniscus_atoms atoms{};
-    atoms.size = sizeof atoms;
-    check(meniscus_structure_atoms(structure_.get(), &atoms));
-    return Atoms(atoms);
-  }
+  Atoms atoms() const { return Atoms(detail::result<meniscus_atoms>(meniscus_structure_atoms, structure_.get())); }
   std::size_t size() const { return table(MENISCUS_STRUCTURE_RADII).count; }
 
   // As meniscus.h describes the columns.
@@ -317,9 +320,7 @@ class Structure {
 
  private:
   meniscus_array table(meniscus_structure_table_id which) const {
-    meniscus_array array{};
-    check(meniscus_structure_table(structure_.get(), which, &array));
-    return array;
+    return detail::result<meniscus_array>(meniscus_structure_table, structure_.get(), which);
   }
   detail::Handle<meniscus_structure, meniscus_structure_release> structure_;
 };
@@ -327,9 +328,7 @@ class Structure {
 // Reads a molecule as the program does. InputError names file, line and what is wrong there; UsageError a selection or
 // an option that cannot be.
 inline Structure read(const std::string& path, const ReadOptions& options = {}) {
-  meniscus_structure* structure = nullptr;
-  check(meniscus_read(path.c_str(), &options, &structure));
-  return Structure(structure);
+  return Structure(detail::result<meniscus_structure*>(meniscus_read, path.c_str(), &options));
 }
 
 // ---- Meshes ----
@@ -378,9 +377,7 @@ class Mesh {
  private:
   template <typename Row>
   std::span<const Row> table(meniscus_mesh_table_id which) const {
-    meniscus_array array{};
-    check(meniscus_mesh_table(mesh_.get(), which, &array));
-    return detail::numbers<Row>(array);
+    return detail::numbers<Row>(detail::result<meniscus_array>(meniscus_mesh_table, mesh_.get(), which));
   }
   detail::Handle<meniscus_mesh, meniscus_mesh_release> mesh_;
 };
@@ -404,9 +401,7 @@ class Pockets {
 
  private:
   meniscus_array table(meniscus_pockets_table_id which) const {
-    meniscus_array array{};
-    check(meniscus_pockets_table(pockets_.get(), which, &array));
-    return array;
+    return detail::result<meniscus_array>(meniscus_pockets_table, pockets_.get(), which);
   }
   detail::Handle<meniscus_pockets, meniscus_pockets_release> pockets_;
 };
@@ -420,10 +415,7 @@ class Surface {
 
   // Everything that is one number.
   meniscus_summary summary() const {
-    meniscus_summary summary{};
-    summary.size = sizeof summary;
-    check(meniscus_surface_summary(surface_.get(), &summary));
-    return summary;
+    return detail::result<meniscus_summary>(meniscus_surface_summary, surface_.get());
   }
   // Å^2, of all components.
   double area() const { return summary().area; }
@@ -486,23 +478,16 @@ class Surface {
 
   // What its probe fills of the solid that a large one rolls over; of MENISCUS_SES only, else UsageError.
   Pockets pockets(const PocketOptions& options = {}) const {
-    meniscus_pockets* pockets = nullptr;
-    check(meniscus_surface_pockets(surface_.get(), &options, &pockets));
-    return Pockets(pockets);
+    return Pockets(detail::result<meniscus_pockets*>(meniscus_surface_pockets, surface_.get(), &options));
   }
 
   Mesh mesh(const MeshOptions& options = {}) const {
-    meniscus_mesh* mesh = nullptr;
-    check(meniscus_surface_mesh(surface_.get(), &options, &mesh));
-    return Mesh(mesh);
+    return Mesh(detail::result<meniscus_mesh*>(meniscus_surface_mesh, surface_.get(), &options));
   }
 
   // The camera that shows all atoms in a picture of this width / height.
   Camera camera(double aspect, meniscus_projection projection = MENISCUS_PERSPECTIVE) const {
-    Camera camera{};
-    camera.size = sizeof camera;
-    check(meniscus_surface_camera(surface_.get(), aspect, projection, &camera));
-    return camera;
+    return detail::result<Camera>(meniscus_surface_camera, surface_.get(), aspect, projection);
   }
 
   // For the functions of meniscus.h; owned by this.
@@ -512,9 +497,7 @@ class Surface {
   friend class Computer;
 
   meniscus_array table(meniscus_surface_table_id which) const {
-    meniscus_array array{};
-    check(meniscus_surface_table(surface_.get(), which, &array));
-    return array;
+    return detail::result<meniscus_array>(meniscus_surface_table, surface_.get(), which);
   }
   template <typename Row>
   Rows<Row> rows(meniscus_surface_table_id which) const {
@@ -535,17 +518,12 @@ class Surface {
 // Keeps what is worth keeping from frame to frame: a GL context, its kernels and buffers.
 class Computer {
  public:
-  explicit Computer(const Options& options = {}) {
-    meniscus_computer* computer = nullptr;
-    check(meniscus_computer_new(&options, &computer));
-    computer_.reset(computer);
-  }
+  explicit Computer(const Options& options = {})
+      : computer_(detail::result<meniscus_computer*>(meniscus_computer_new, &options)) {}
 
   // InputError for an atom that cannot be, with its index and value; NotClosedError names atoms.
   Surface compute(const Atoms& atoms) const {
-    meniscus_surface* surface = nullptr;
-    check(meniscus_compute(computer_.get(), &atoms.get(), &surface));
-    return Surface(surface);
+    return Surface(detail::result<meniscus_surface*>(meniscus_compute, computer_.get(), &atoms.get()));
   }
   // The next frame, in the memory of the one before. If it throws the surface stays as it was.
   void recompute(const Atoms& atoms, Surface& surface) const {
@@ -575,16 +553,16 @@ struct Picture {
 class Scene {
  public:
   // With the defaults of the program.
-  Scene() : scene_(made([](meniscus_scene** to) { return meniscus_scene_new(to); })) {}
+  Scene() : scene_(detail::result<meniscus_scene*>(meniscus_scene_new)) {}
   explicit Scene(meniscus_scene* owned) : scene_(owned) {}
 
   // A scene file of the program. InputError names the place in it.
   static Scene read(const std::string& path) {
-    return Scene(made([&](meniscus_scene** to) { return meniscus_scene_read(path.c_str(), to); }));
+    return Scene(detail::result<meniscus_scene*>(meniscus_scene_read, path.c_str()));
   }
   // The text of one. Paths are seen from the working directory.
   static Scene parse(const std::string& json) {
-    return Scene(made([&](meniscus_scene** to) { return meniscus_scene_parse(json.c_str(), to); }));
+    return Scene(detail::result<meniscus_scene*>(meniscus_scene_parse, json.c_str()));
   }
 
   // Sets a value, or adds it where there may be several. UsageError begins with the name.
@@ -599,21 +577,16 @@ class Scene {
   }
   // The n-th value of a name; nothing where it is the default.
   std::optional<std::string> get(const std::string& name, std::size_t n = 0) const {
-    const char* value = nullptr;
-    check(meniscus_scene_get(scene_.get(), name.c_str(), n, &value));
+    const char* const value = detail::result<const char*>(meniscus_scene_get, scene_.get(), name.c_str(), n);
     return value ? std::optional<std::string>(value) : std::nullopt;
   }
   // As its file has it. folder: from which paths are seen; empty: the working directory.
   std::string json(const std::string& folder = {}) const {
-    const char* json = nullptr;
-    check(meniscus_scene_json(scene_.get(), folder.empty() ? nullptr : folder.c_str(), &json));
-    return json;
+    return detail::result<const char*>(meniscus_scene_json, scene_.get(), folder.empty() ? nullptr : folder.c_str());
   }
   // What can be set.
   static Rows<meniscus_property> properties() {
-    meniscus_array array{};
-    check(meniscus_scene_properties(&array));
-    return Rows<meniscus_property>(array);
+    return Rows<meniscus_property>(detail::result<meniscus_array>(meniscus_scene_properties));
   }
 
   // A transparent picture of its size.
@@ -631,12 +604,6 @@ class Scene {
   meniscus_scene* get() const noexcept { return scene_.get(); }
 
  private:
-  template <typename Make>
-  static meniscus_scene* made(const Make& make) {
-    meniscus_scene* scene = nullptr;
-    check(make(&scene));
-    return scene;
-  }
   detail::Handle<meniscus_scene, meniscus_scene_release> scene_;
 };
 
@@ -657,11 +624,8 @@ class Renderer {
  public:
   // MENISCUS_AUTO (a hardware GPU if one works, else the CPU), MENISCUS_CPU, MENISCUS_GPU or MENISCUS_SOFTWARE.
   // GpuError where GL is asked for and there is no GL 4.5.
-  explicit Renderer(meniscus_device device = MENISCUS_AUTO) {
-    meniscus_renderer* renderer = nullptr;
-    check(meniscus_renderer_new(device, &renderer));
-    renderer_.reset(renderer);
-  }
+  explicit Renderer(meniscus_device device = MENISCUS_AUTO)
+      : renderer_(detail::result<meniscus_renderer*>(meniscus_renderer_new, device)) {}
 
   // As `meniscus render` draws it: its molecule is read and computed here.
   Picture render(const Scene& scene) const {
@@ -694,16 +658,14 @@ inline Picture Scene::render(meniscus_device device) const { return Renderer(dev
 class Page {
  public:
   // As `meniscus export page` makes it. UsageError for what pages do not show.
-  explicit Page(const Scene& scene)
-      : page_(made([&](meniscus_page** to) { return meniscus_scene_page(scene.get(), to); })) {}
+  explicit Page(const Scene& scene) : page_(detail::result<meniscus_page*>(meniscus_scene_page, scene.get())) {}
   // Of an exact surface, with the look of a scene. structure: nullptr, or what names its atoms, in the same order. The
   // rest as for Renderer::render().
   explicit Page(const Surface& surface, const Structure* structure = nullptr, const Scene& scene = {},
                 const Camera* camera = nullptr, std::span<const float> atom_colors = {})
-      : page_(made([&](meniscus_page** to) {
-          return meniscus_surface_page(surface.get(), structure ? structure->get() : nullptr, scene.get(), camera,
-                                       detail::channels(surface, atom_colors), to);
-        })) {}
+      : page_(detail::result<meniscus_page*>(meniscus_surface_page, surface.get(),
+                                             structure ? structure->get() : nullptr, scene.get(), camera,
+                                             detail::channels(surface, atom_colors))) {}
 
   // Its text, which ends with it.
   std::string_view html() const {
@@ -717,12 +679,6 @@ class Page {
   meniscus_page* get() const noexcept { return page_.get(); }
 
  private:
-  template <typename Make>
-  static meniscus_page* made(const Make& make) {
-    meniscus_page* page = nullptr;
-    check(make(&page));
-    return page;
-  }
   detail::Handle<meniscus_page, meniscus_page_release> page_;
 };
 
