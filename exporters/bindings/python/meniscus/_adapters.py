@@ -95,8 +95,8 @@ def from_biotite(array: Any, *, radii: Optional[Any] = None, **options: Unpack[S
 
 
 def from_biopython(entity: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Surface:
-    """Returns the surface of the first model of a Bio.PDB Structure, of a Model, Chain or Residue, or of a list of atoms.
-    The atoms are in the order of get_atoms(), and have their selected alternate location.
+    """Returns the surface of the first model of a Bio.PDB Structure, of a Model, Chain or Residue, or of a list of
+    atoms. The atoms are in the order of get_atoms(), and have their selected alternate location.
 
     >>> import Bio.PDB
     >>> structure = Bio.PDB.PDBParser().get_structure("helix", "helix.pdb")
@@ -128,8 +128,8 @@ def from_rdkit(molecule: Any, *, radii: Optional[Any] = None, **options: Unpack[
 
 def from_openmm(source: Any, positions: Optional[Any] = None, *, radii: Optional[Any] = None,
                 **options: Unpack[SurfaceOptions]) -> Surface:
-    """Returns the surface of a PDBFile, PDBxFile or Modeller, of the current state of a Simulation, or of a Topology and its
-    positions, (n, 3), which must have a unit.
+    """Returns the surface of a PDBFile, PDBxFile or Modeller, of the current state of a Simulation, or of a Topology
+    and its positions, (n, 3), which must have a unit.
 
     >>> import openmm.app
     >>> file = openmm.app.PDBFile("helix.pdb")
@@ -141,8 +141,8 @@ def from_openmm(source: Any, positions: Optional[Any] = None, *, radii: Optional
 
 
 def from_gemmi(part: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Surface:
-    """Returns the surface of the first model of a gemmi.Structure, or of a Model, Chain, Residue or span of residues. The
-    atoms are in the order of Model.all(). All alternate locations are included, with a warning;
+    """Returns the surface of the first model of a gemmi.Structure, or of a Model, Chain, Residue or span of residues.
+    The atoms are in the order of Model.all(). All alternate locations are included, with a warning;
     remove_alternative_conformations() removes them.
 
     >>> import gemmi
@@ -155,8 +155,8 @@ def from_gemmi(part: Any, *, radii: Optional[Any] = None, **options: Unpack[Surf
 
 def series(source: Any, *, radii: Optional[Any] = None, **options: Unpack[SurfaceOptions]) -> Rows:
     """Returns a structured array with a row for each frame of what frames() takes: area (Å²), volume (Å³), components,
-    cavities, cavity_area (Å²) and cavity_volume (Å³, positive); for kind "ses" also sas_area (Å²). Only one surface is in
-    memory at a time. Errors are those of frames().
+    cavities, cavity_area (Å²) and cavity_volume (Å³, positive); for kind "ses" also sas_area (Å²). Only one surface is
+    in memory at a time. Errors are those of frames().
 
     >>> import Bio.PDB
     >>> structure = Bio.PDB.PDBParser().get_structure("two", "models.pdb")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks the arguments of callers, and converts values with units to plain numbers in Å without importing their packages."""
+"""Checks the arguments of callers, and converts values with units to plain numbers in Å without importing their
+packages."""
 from __future__ import annotations
 
 import numbers
@@ -47,8 +48,8 @@ def _converted(values: Any, power: int) -> Any:
 def plain(values: Any, name: str, power: Optional[int]) -> Any:
     """Returns values with a unit as plain numbers in Å to this power, and other values as they are.
 
-    power: None if the values must not have a unit. name: what messages call the values. Raises InputError for values in a
-    unit of another kind."""
+    power: None if the values must not have a unit. name: what messages call the values. Raises InputError for values in
+    a unit of another kind."""
     if isinstance(values, (list, tuple)) and any(has_unit(value) for value in values):
         return [plain(value, name, power) for value in values]
     if has_unit(values):
@@ -84,8 +85,8 @@ def warn_of_nanometres(positions: AnyArray) -> None:
 
 
 def whole_number(name: str, value: Any) -> int:
-    """Returns the value as an int. Raises InputError for other types, and for numbers beyond 32 bits, which ctypes would
-    truncate."""
+    """Returns the value as an int. Raises InputError for other types, and for numbers beyond 32 bits, which ctypes
+    would truncate."""
     try:
         number = int(value) if isinstance(value, np.bool_) else operator.index(value)
     except TypeError:
@@ -104,8 +105,8 @@ def positive(name: str, value: Any) -> int:
 
 
 def number(name: str, value: Any) -> float:
-    """Returns the value as a float. A value with a unit is converted to the unit of the field of this name in meniscus.h.
-    Raises InputError for anything but a single real number."""
+    """Returns the value as a float. A value with a unit is converted to the unit of the field of this name in
+    meniscus.h. Raises InputError for anything but a single real number."""
     plain_value = plain(value, name, _POWERS.get(name))
     single = isinstance(plain_value, numbers.Real) or getattr(plain_value, "ndim", None) == 0
     try:
@@ -144,8 +145,8 @@ def file_name(name: str, path: Path) -> bytes:
 
 
 def text(name: str, value: Optional[str]) -> Optional[bytes]:
-    """Returns a text as a C string in UTF-8, and None as None. Raises InputError for other types, and for a text with a zero
-    byte."""
+    """Returns a text as a C string in UTF-8, and None as None. Raises InputError for other types, and for a text with a
+    zero byte."""
     if value is None:
         return None
     if not isinstance(value, str) or "\0" in value:
@@ -154,8 +155,8 @@ def text(name: str, value: Optional[str]) -> Optional[bytes]:
 
 
 class Struct(Structure):
-    """The base class of the structs of meniscus.h. It checks numbers that are assigned to fields, which ctypes would truncate
-    or convert."""
+    """The base class of the structs of meniscus.h. It checks numbers that are assigned to fields, which ctypes would
+    truncate or convert."""
 
     def __setattr__(self, name: str, value: Any) -> None:
         kind = next((field[1] for field in self._fields_ if field[0] == name), None)

@@ -21,8 +21,8 @@ _LETTERS = (header.STRUCTURE_INSERTION_CODES, header.STRUCTURE_ALTLOCS)
 
 
 class _Rows:
-    """The array interface of the rows of a table. An array that numpy makes of it keeps this object alive, and this object
-    keeps the owner of the memory alive."""
+    """The array interface of the rows of a table. An array that numpy makes of it keeps this object alive, and this
+    object keeps the owner of the memory alive."""
 
     def __init__(self, owner: Handle, array: header.Array, dtype: Any, columns: tuple[int, ...]) -> None:
         self.owner = owner
@@ -53,7 +53,8 @@ def view(owner: Handle, function: str, table: int, row: Any, columns: int = 0) -
 
 
 def texts(owner: Handle, function: str, table: int) -> Texts:
-    """Returns a table of texts or letters as an array of str, (n,). Bytes that are not UTF-8 become surrogate escapes."""
+    """Returns a table of texts or letters as an array of str, (n,). Bytes that are not UTF-8 become surrogate
+    escapes."""
     array = header.Array()
     call(function, owner.pointer, table, ctypes.byref(array))
     if array.count == 0:
@@ -93,8 +94,8 @@ def real_array(values: Any, name: str, power: Optional[int] = None) -> AnyArray:
 
 
 def numbers(values: Any, name: str, columns: int = 0, power: Optional[int] = None) -> tuple[AnyArray, int]:
-    """Returns an array that the library can read, and its meniscus_number_type. The array is the given one if it is aligned,
-    has floats or doubles, and each row is contiguous; otherwise it is a copy.
+    """Returns an array that the library can read, and its meniscus_number_type. The array is the given one if it is
+    aligned, has floats or doubles, and each row is contiguous; otherwise it is a copy.
 
     Raises InputError if the shape is not (n,), or (n, columns) if there are columns."""
     array = real_array(values, name, power)

@@ -27,7 +27,8 @@ class UsageError(Error, ValueError):
 
 
 class InputError(Error, ValueError):
-    """An impossible position, radius, colour or camera, or a file that cannot be read. The text has the index and the value.
+    """An impossible position, radius, colour or camera, or a file that cannot be read. The text has the index and the
+    value.
 
     >>> meniscus.surface([[0, 0, float("nan")]], 1.7)
     Traceback (most recent call last):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The constants, structs and functions of meniscus.h, written by scripts/check/python_header.py. Names have no "meniscus_"."""
+"""The constants, structs and functions of meniscus.h without "meniscus_", written by scripts/check/python_header.py."""
 from __future__ import annotations
 
 from ctypes import POINTER, c_char_p, c_double, c_float, c_int32, c_size_t, c_uint8, c_uint32, c_uint64, c_void_p

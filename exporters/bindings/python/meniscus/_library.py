@@ -71,8 +71,8 @@ def why_not_loaded(file: str, error: OSError) -> str:
 
 
 def _place() -> str:
-    """Returns the path or name of the library: MENISCUS_LIBRARY if it is set, else the file in the package's folder, else the
-    library of the system."""
+    """Returns the path or name of the library: MENISCUS_LIBRARY if it is set, else the file in the package's folder,
+    else the library of the system."""
     named = os.environ.get("MENISCUS_LIBRARY")
     if named:
         return named
@@ -123,8 +123,8 @@ class Handle:
     """One reference to an object of the library, which is released when this object is deleted."""
 
     def __init__(self, kind: str, make: str, *arguments: Any) -> None:
-        """kind: as in meniscus_KIND_release. make: the function meniscus_MAKE that creates the object. arguments: those of
-        meniscus_MAKE but for the last, which returns the object."""
+        """kind: as in meniscus_KIND_release. make: the function meniscus_MAKE that creates the object. arguments: those
+        of meniscus_MAKE but for the last, which returns the object."""
         self.pointer: ctypes.c_void_p = ctypes.c_void_p()
         self._release: Callable[[ctypes.c_void_p], None] = getattr(_library(), f"meniscus_{kind}_release")
         call(make, *arguments, ctypes.byref(self.pointer))

@@ -158,15 +158,16 @@ class Mesh:
         single precision are welded in the file.
 
         format: "stl", "3mf", "obj", "off", "glb", "vtp", "smesh", "dms", "ply", "ply-ascii", "usda", "usdz" or "py", a
-        script for PyMOL; None for that of the path's extension. colors: sRGB in [0, 1], (3,) or one per atom. attributes:
-        numbers of vertices in GLB, PLY, VTP and USD files, separated by commas. "usual" means "vdw_radii", "atom_index",
-        "ses_kind" and "ses_component"; the others are "mean_curvature", "gaussian_curvature", "smooth_mean_curvature",
-        "smooth_gaussian_curvature", "atom_area", "accessible_area", "patch_area", "open_sky" and "atom_open_sky". "all"
-        means all but the last two, and "none" none. scale: the length of 1 Å in the file. replace: whether an existing file
-        is replaced.
+        script for PyMOL; None for that of the path's extension. colors: sRGB in [0, 1], (3,) or one per atom.
+        attributes: numbers of vertices in GLB, PLY, VTP and USD files, separated by commas. "usual" means "vdw_radii",
+        "atom_index", "ses_kind" and "ses_component"; the others are "mean_curvature", "gaussian_curvature",
+        "smooth_mean_curvature", "smooth_gaussian_curvature", "atom_area", "accessible_area", "patch_area", "open_sky"
+        and "atom_open_sky". "all" means all but the last two, and "none" none. scale: the length of 1 Å in the file.
+        replace: whether an existing file is replaced.
 
-        Raises OutputError if the file cannot be written, or exists and is not replaced; UsageError for an unknown format or
-        attribute; InputError for impossible colours; NotClosedError if "smesh" finds no point inside a component.
+        Raises OutputError if the file cannot be written, or exists and is not replaced; UsageError for an unknown
+        format or attribute; InputError for impossible colours; NotClosedError if "smesh" finds no point inside a
+        component.
 
         >>> mesh.save("pair.ply", colors=(0.9, 0.6, 0.3))
         """

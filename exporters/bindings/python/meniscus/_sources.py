@@ -18,8 +18,8 @@ TAKEN_BY = {"MDAnalysis": "from_mdanalysis", "mdtraj": "from_mdtraj", "prody": "
 class Source(NamedTuple):
     """The atoms of a molecule of another package.
 
-    elements: symbols or atomic numbers, (n,), or None. frames: positions, (n, 3), in Å or with a unit, of one frame after
-    the other. altlocs: the letters of alternate locations, if several may be present."""
+    elements: symbols or atomic numbers, (n,), or None. frames: positions, (n, 3), in Å or with a unit, of one frame
+    after the other. altlocs: the letters of alternate locations, if several may be present."""
     elements: Any
     frames: Iterator[Any]
     altlocs: Any = ()
@@ -121,7 +121,8 @@ _READERS: dict[str, Callable[[Any, bool], Source]] = {
 
 
 def package_of(value: Any) -> str:
-    """Returns the package that defines an object, or the first object of a list; "" for packages that are not supported."""
+    """Returns the package that defines an object, or the first object of a list; "" for packages that are not
+    supported."""
     if isinstance(value, (list, tuple)):
         return package_of(value[0]) if value else ""
     names = (kind.__module__.split(".")[0] for kind in type(value).__mro__)

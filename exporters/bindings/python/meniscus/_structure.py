@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Molecules from files, read as the program reads them."""
+"""Molecules from files, and van der Waals radii by element."""
 from __future__ import annotations
 
 import ctypes
@@ -16,7 +16,8 @@ from ._arrays import texts, view
 from ._errors import InputError
 from ._types import AnyArray, Bytes, Floats, Hydrogens, Indices, Numbers, Path, RadiiSet, Singles, Texts, UnknownElement
 
-_NUMBERS: dict[int, Any] = {  # what a row is; other columns are texts
+#: The dtype of the rows of each column, and its number of columns. All other columns are texts.
+_NUMBERS: dict[int, Any] = {
     header.STRUCTURE_POSITIONS: (np.float64, 3), header.STRUCTURE_RADII: (np.float64,), header.STRUCTURE_ELEMENTS: (np.uint8,),
     header.STRUCTURE_INDICES: (np.uint32,), header.STRUCTURE_RESIDUE_NUMBERS: (np.int32,),
     header.STRUCTURE_RESIDUES: (np.uint32,), header.STRUCTURE_MODELS: (np.int32,), header.STRUCTURE_COPIES: (np.uint32,),
@@ -28,6 +29,7 @@ _UNKNOWN_ELEMENTS = {"halt": header.UNKNOWN_HALT, "guess": header.UNKNOWN_GUESS,
 
 
 class _Report(NamedTuple):
+    """The fields of meniscus_read_report that Structure has."""
     file: str
     format: str
     radii_set: str
@@ -37,8 +39,9 @@ class _Report(NamedTuple):
 
 
 class Structure:
-    """The atoms of a file that a surface is made of; read() makes it, and it never changes. Arrays have one row per atom,
-    (n,) or (n, 3); of numbers they are read-only views.
+    """The atoms of a file from which a surface is computed, which read() returns. It never changes, and all threads may
+    use it at once. Arrays have one row per atom, (n,) unless their description has another shape; arrays of numbers are
+    read-only views.
 
     >>> molecule = meniscus.read("helix.pdb")
     >>> molecule
@@ -47,7 +50,7 @@ class Structure:
     __slots__ = ("_columns", "_handle", "_report", "__weakref__")
 
     def __init__(self, handle: Optional[lib.Handle], report: _Report, columns: dict[int, AnyArray]) -> None:
-        """columns: those that were looked at already; without a handle all."""
+        """columns: the columns that are known already, which are all of them if handle is None."""
         self._handle, self._report, self._columns = handle, report, columns
 
     def _column(self, column: int) -> AnyArray:
@@ -59,22 +62,22 @@ class Structure:
         return self._columns[column]
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickles hold what was read, so that the file is not needed again."""
+        """Pickles have all columns. Unpickling does not read the file again."""
         columns = range(header.STRUCTURE_POSITIONS, header.STRUCTURE_HYDROPATHIES + 1)
         return _unpacked, (self._report, {column: self._column(column) for column in columns})
 
     def __copy__(self) -> Structure:
-        """Itself, for it never changes."""
+        """Returns this object, because it never changes."""
         return self
 
     def __deepcopy__(self, memo: Any) -> Structure:
         return self
 
-    # ---- what was read
+    # ---- the file
 
     @property
     def file(self) -> str:
-        """The path as given.
+        """The path that was passed to read().
 
         >>> molecule.file
         'helix.pdb'"""
@@ -82,7 +85,7 @@ class Structure:
 
     @property
     def format(self) -> str:
-        """"PDB", "mmCIF", ...
+        """The format of the file, such as "PDB" or "mmCIF".
 
         >>> molecule.format
         'PDB'"""
@@ -90,7 +93,7 @@ class Structure:
 
     @property
     def radii_set(self) -> str:
-        """"bondi", "united", "protor", "file", or files and overrides.
+        """The set of radii: "bondi", "united", "protor" or "file", with files and overrides.
 
         >>> molecule.radii_set
         'bondi'"""
@@ -98,7 +101,7 @@ class Structure:
 
     @property
     def report(self) -> str:
-        """"5,684 atoms read; 215 water left out; 5,469 used".
+        """A sentence about the atoms that were read, left out and used.
 
         >>> molecule.report
         '65 atoms read; 1 water left out; 64 used'"""
@@ -106,7 +109,7 @@ class Structure:
 
     @property
     def model_count(self) -> int:
-        """Models in the file, used or not.
+        """The number of models in the file, both used and unused.
 
         >>> molecule.model_count
         1"""
@@ -114,7 +117,7 @@ class Structure:
 
     @property
     def warnings(self) -> list[str]:
-        """What is odd in the file, a sentence each.
+        """Sentences about unusual things in the file.
 
         >>> molecule.warnings
         []"""
@@ -130,7 +133,7 @@ class Structure:
 
     @property
     def positions(self) -> Floats:
-        """(n, 3) Å.
+        """The positions in Å, (n, 3).
 
         >>> molecule.positions[:2].tolist()
         [[3.1, 0.0, 0.0], [1.927, 2.428, 0.55]]"""
@@ -138,7 +141,7 @@ class Structure:
 
     @property
     def radii(self) -> Floats:
-        """Å, van der Waals.
+        """The van der Waals radii in Å.
 
         >>> molecule.radii[:4].tolist()
         [1.55, 1.7, 1.7, 1.52]"""
@@ -146,7 +149,7 @@ class Structure:
 
     @property
     def elements(self) -> Bytes:
-        """Atomic numbers; 0 where it is unknown.
+        """The atomic numbers; 0 for unknown elements.
 
         >>> molecule.elements[:4].tolist()
         [7, 6, 6, 8]"""
@@ -154,7 +157,7 @@ class Structure:
 
     @property
     def indices(self) -> Indices:
-        """Places in the file, from 0, as the program's tables and meshes have them.
+        """The indices of the atoms among all atoms of the file, from 0, as in tables and meshes of the program.
 
         >>> molecule.indices[-3:].tolist()
         [61, 62, 63]"""
@@ -162,7 +165,7 @@ class Structure:
 
     @property
     def names(self) -> Texts:
-        """"CA".
+        """The names of the atoms, such as "CA".
 
         >>> molecule.names[:4].tolist()
         ['N', 'CA', 'C', 'O']"""
@@ -170,7 +173,7 @@ class Structure:
 
     @property
     def residue_names(self) -> Texts:
-        """"ALA".
+        """The names of the residues, such as "ALA".
 
         >>> molecule.residue_names[::8].tolist()[:2]
         ['ALA', 'ALA']"""
@@ -178,7 +181,7 @@ class Structure:
 
     @property
     def chains(self) -> Texts:
-        """"A"; of the second copy in an assembly "A-2".
+        """The chains, such as "A"; "A-2" in the second copy of an assembly.
 
         >>> molecule.chains[[0, -1]].tolist()
         ['A', 'B']"""
@@ -186,7 +189,7 @@ class Structure:
 
     @property
     def segments(self) -> Texts:
-        """Segment identifiers of molecular dynamics programs.
+        """The segment identifiers of molecular dynamics programs.
 
         >>> set(molecule.segments.tolist())
         {''}"""
@@ -194,7 +197,7 @@ class Structure:
 
     @property
     def residue_numbers(self) -> Numbers:
-        """As the file has them.
+        """The residue numbers of the file.
 
         >>> molecule.residue_numbers[::8].tolist()
         [1, 3, 5, 7, 9, 11, 13, 15]"""
@@ -202,7 +205,7 @@ class Structure:
 
     @property
     def insertion_codes(self) -> Texts:
-        """A letter after the residue's number, or nothing.
+        """The letters after residue numbers; "" where there is none.
 
         >>> set(molecule.insertion_codes.tolist())
         {''}"""
@@ -210,7 +213,7 @@ class Structure:
 
     @property
     def altlocs(self) -> Texts:
-        """The letter of the alternate location, or nothing.
+        """The letters of alternate locations; "" where there is none.
 
         >>> set(molecule.altlocs.tolist())
         {''}"""
@@ -218,7 +221,7 @@ class Structure:
 
     @property
     def residues(self) -> Indices:
-        """Running number of the residue in the file, from 0.
+        """The indices of the residues in the file, from 0.
 
         >>> molecule.residues[::8].tolist()
         [0, 2, 4, 6, 8, 10, 12, 14]"""
@@ -226,7 +229,7 @@ class Structure:
 
     @property
     def models(self) -> Numbers:
-        """Which model of the file, from 1.
+        """The numbers of the models, from 1.
 
         >>> set(molecule.models.tolist())
         {1}"""
@@ -234,7 +237,7 @@ class Structure:
 
     @property
     def copies(self) -> Indices:
-        """Which copy of an assembly, from 0.
+        """The indices of the copies in an assembly, from 0.
 
         >>> set(molecule.copies.tolist())
         {0}"""
@@ -242,7 +245,7 @@ class Structure:
 
     @property
     def charges(self) -> Singles:
-        """Partial charges in e; NaN where the file has none.
+        """The partial charges in e; NaN where the file has none.
 
         >>> bool(np.isnan(molecule.charges).all())
         True"""
@@ -250,7 +253,7 @@ class Structure:
 
     @property
     def b_factors(self) -> Singles:
-        """Å²; NaN where the file has none.
+        """The B-factors in Å²; NaN where the file has none.
 
         >>> molecule.b_factors[:3].tolist()
         [0.0, 1.0, 2.0]"""
@@ -258,7 +261,7 @@ class Structure:
 
     @property
     def occupancies(self) -> Singles:
-        """NaN where the file has none.
+        """The occupancies, 0 to 1; NaN where the file has none.
 
         >>> molecule.occupancies[:3].tolist()
         [1.0, 1.0, 1.0]"""
@@ -266,7 +269,7 @@ class Structure:
 
     @property
     def classes(self) -> Texts:
-        """"polymer", "ligand", "water", "ion"; "unclassified" where the format does not say.
+        """The classes of the atoms: "polymer", "ligand", "water" or "ion"; "unclassified" if the format has none.
 
         >>> set(molecule.classes.tolist())
         {'polymer'}"""
@@ -275,17 +278,19 @@ class Structure:
 
     @property
     def hydropathies(self) -> Floats:
-        """(n,) of the residue (Kyte & Doolittle 1982); NaN where it is not an amino acid.
+        """The hydropathies of the residues (Kyte & Doolittle 1982); NaN for residues that are not amino acids.
 
         >>> molecule.hydropathies[:3].tolist()
         [1.8, 1.8, 1.8]"""
         return self._column(header.STRUCTURE_HYDROPATHIES)
 
     def colors(self, scheme: str = "element") -> Singles:
-        """(n, 3) sRGB in [0, 1], as the program colours atoms and as render() and save() take them. scheme: "chain",
-        "bfactor" or another word of `meniscus colors` that means atoms by what the file says of them, a name such as "red",
-        or "#rrggbb"; UsageError for others, InputError where a scheme is of numbers that no atom has, and for a structure
-        from a pickle.
+        """Returns the colours of the atoms by one of the program's schemes: sRGB in [0, 1], (n, 3), as render() and
+        save() take them.
+
+        scheme: "chain", "bfactor" or another word of `meniscus colors` that colours atoms by data of the file, a name
+        such as "red", or "#rrggbb". Raises UsageError for other schemes, and InputError if no atom has the number that
+        the scheme needs, or if the structure was unpickled.
 
         >>> molecule.colors("red")[0].tolist()
         [1.0, 0.0, 0.0]
@@ -312,6 +317,7 @@ def _opened(handle: lib.Handle) -> Structure:
 
 
 def _overrides(radius: Union[Mapping[str, float], Iterable[str], None]) -> list[str]:
+    """Returns the overrides of radii as texts "EXPR=R"."""
     if radius is None:
         return []
     if isinstance(radius, str):
@@ -321,8 +327,8 @@ def _overrides(radius: Union[Mapping[str, float], Iterable[str], None]) -> list[
     return listed("radius", radius, "texts such as 'element Zn=1.1'")
 
 
-def _list_of(given: Sequence[bytes]) -> Any:
-    return (ctypes.c_char_p * len(given))(*given)
+def _c_array(texts: Sequence[bytes]) -> Any:
+    return (ctypes.c_char_p * len(texts))(*texts)
 
 
 def read(path: Path, *, select: Optional[str] = None, assembly: Union[str, int, None] = None,
@@ -330,16 +336,20 @@ def read(path: Path, *, select: Optional[str] = None, assembly: Union[str, int, 
          radii: Optional[RadiiSet] = None, radii_files: Union[Path, Sequence[Path]] = (),
          radius: Union[Mapping[str, float], Iterable[str], None] = None, keep_water: bool = False,
          keep_ions: bool = False, unknown_element: UnknownElement = "halt") -> Structure:
-    """The atoms of a PDB, mmCIF, BinaryCIF, SDF, MOL2, PDBQT, PQR, GRO, XYZ or XYZR file, plain or packed with gzip, as
-    the program takes them: polymers and ligands of the first model, of each residue the most occupied conformer, without water and free ions.
-    What is odd in the file is a UserWarning.
+    """Reads a molecule from a PDB, mmCIF, BinaryCIF, SDF, MOL2, PDBQT, PQR, GRO, XYZ or XYZR file, which may be
+    compressed with gzip. By default it uses the polymers and ligands of the first model, with the most occupied
+    conformer of each residue, but neither water nor free ions. Unusual things in the file are UserWarnings.
 
-    select: an expression, "chain A and resid 10-50". assembly: build this biological assembly. model: from 1, or "all"
-    as one molecule. altloc: "best", "first", "all" or a letter. hydrogens: "keep", "drop", or as the radii need it.
-    radii: "bondi", "united", "protor" or "file"; by default those of the file if it has any, else "bondi".
-    radii_files: tables by residue and atom, before that set. radius: of what expressions select, Å, as in
-    {"element Zn": 1.1}. unknown_element: what becomes of atoms of unknown element. InputError where the file
-    cannot be read, UsageError where an option or an expression is not valid.
+    select: a selection such as "chain A and resid 10-50". assembly: the biological assembly to build. model: the number
+    of the model, from 1, or "all" for all models as one molecule. altloc: the alternate location of each residue:
+    "best", "first", "all" or a letter. hydrogens: "keep", "drop", or "auto", which keeps them unless the radii of heavy
+    atoms include them. radii: the set of radii, "bondi", "united", "protor" or "file"; None for those of the file if it
+    has any, else "bondi". radii_files: paths of tables by residue and atom, which override the set. radius: radii in Å
+    by selection, such as {"element Zn": 1.1}. keep_water, keep_ions: whether water and free ions are used, too.
+    unknown_element: what happens to atoms of unknown element: "halt" raises InputError, "guess" gives them a radius of
+    2.0 Å, "skip" ignores them.
+
+    Raises InputError if the file cannot be read, and UsageError for an invalid option or selection.
 
     >>> len(meniscus.read("helix.pdb", select="chain A", radius={"element N": 1.6}))
     32
@@ -357,8 +367,8 @@ def read(path: Path, *, select: Optional[str] = None, assembly: Union[str, int, 
     options.keep_water, options.keep_ions = flag("keep_water", keep_water), flag("keep_ions", keep_ions)
     files = ([radii_files] if isinstance(radii_files, (str, bytes, os.PathLike)) else
              listed("radii_files", radii_files, "files"))
-    tables = _list_of([file_name("radii_files", file) for file in files])
-    overrides = _list_of([text("radius", override) or b"" for override in _overrides(radius)])
+    tables = _c_array([file_name("radii_files", file) for file in files])
+    overrides = _c_array([text("radius", override) or b"" for override in _overrides(radius)])
     options.radii_files, options.radii_file_count = tables, len(tables)
     options.radius, options.radius_count = overrides, len(overrides)
     structure = _opened(lib.Handle("structure", "read", file_name("path", path), ctypes.byref(options)))
@@ -380,8 +390,10 @@ def _radius(element: int) -> float:
 
 
 def radii_of(elements: Iterable[Union[str, int]]) -> Floats:
-    """Å, one per symbol or atomic number: Bondi (1964, 1966), then Mantina et al. (2009), 2.0 for metals that neither
-    has. InputError where a symbol is not an element's.
+    """Returns the van der Waals radii of elements in Å, (n,), by Bondi (1964, 1966) or Mantina et al. (2009); 2.0 for
+    metals without a published value.
+
+    elements: symbols or atomic numbers. Raises InputError for a symbol or number of no element.
 
     >>> meniscus.radii_of(["C", "Zn", 8]).tolist()
     [1.7, 1.39, 1.52]
@@ -389,15 +401,15 @@ def radii_of(elements: Iterable[Union[str, int]]) -> Floats:
     Traceback (most recent call last):
         ...
     meniscus.InputError: atom 0: 'Qq' is not an element; give radii"""
-    given = listed("elements", elements, "symbols or atomic numbers")
-    given = [element if isinstance(element, str) else whole_number(f"atom {n}: the element", element)
-             for n, element in enumerate(given)]
+    checked: list[Union[str, int]] = [
+        element if isinstance(element, str) else whole_number(f"atom {n}: the element", element)
+        for n, element in enumerate(listed("elements", elements, "symbols or atomic numbers"))]
     known: dict[Union[str, int], float] = {}
-    for n, element in enumerate(given):
+    for n, element in enumerate(checked):
         if element in known:
             continue
         number = _element(element) if isinstance(element, str) else element
         if number == 0:
             raise InputError(f"atom {n}: {str(element)!r} is not an element; give radii")
         known[element] = _radius(number)
-    return np.array([known[element] for element in given], dtype=np.float64)
+    return np.array([known[element] for element in checked], dtype=np.float64)

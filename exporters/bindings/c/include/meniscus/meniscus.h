@@ -185,8 +185,8 @@ typedef struct meniscus_atoms {
 
 /* ---- Surfaces ------------------------------------------------------------------------------------------------ */
 
-/* A closed surface. It has passed its certificate: every border has two faces, and areas and volumes agree with sums
- * that are computed independently (see docs/explanation/theory.md). */
+/* A closed surface: every border has two faces. It has passed its certificate, which checks the topology, the areas and
+ * the volumes (see docs/explanation/theory.md). */
 typedef struct meniscus_surface meniscus_surface;
 
 /* Computes a surface.
