@@ -33,7 +33,7 @@
  * MENISCUS_USAGE for an impossible size. For a caller compiled against an older header, the fields that it does not
  * know have their defaults. If a field of a newer header that this library does not know is not zero, a function
  * returns MENISCUS_USAGE. Enumerations have 32 bits in C and C++; a function returns MENISCUS_USAGE for a number that
- * is none of the constants. Comments give defaults in brackets. A struct with defaults is initialized by its
+ * is not one of the constants. Comments give defaults in brackets. A struct with defaults is initialized by its
  * MENISCUS_..._INIT or its meniscus_default_...() function, because zeros are not the defaults.
  *
  * Ownership. A function that creates an object returns one reference. _retain adds a reference and returns its
