@@ -152,14 +152,14 @@ meniscus_array table_of(const std::vector<Row>& rows) {
 
 class Counted {
  public:
-  void retain() noexcept { holders_.fetch_add(1, std::memory_order_relaxed); }
+  void retain() noexcept { references_.fetch_add(1, std::memory_order_relaxed); }
   /// True if nobody is left.
-  bool let_go() noexcept { return holders_.fetch_sub(1, std::memory_order_acq_rel) == 1; }
+  bool remove_reference() noexcept { return references_.fetch_sub(1, std::memory_order_acq_rel) == 1; }
   /// For one who holds it.
-  bool held_by_one() const noexcept { return holders_.load(std::memory_order_acquire) == 1; }
+  bool has_one_reference() const noexcept { return references_.load(std::memory_order_acquire) == 1; }
 
  private:
-  std::atomic<std::uint32_t> holders_{1};
+  std::atomic<std::uint32_t> references_{1};
 };
 
 template <typename Object>
@@ -170,7 +170,7 @@ Object* retain(Object* object) noexcept {
 
 template <typename Object>
 void release(Object* object) noexcept {
-  if (object && object->let_go()) delete object;
+  if (object && object->remove_reference()) delete object;
 }
 
 }  // namespace meniscus::c_api

@@ -67,24 +67,26 @@ SurfaceRequest request_of(const meniscus_options& options) {
 struct meniscus_computer : meniscus::c_api::Counted {
  public:
   explicit meniscus_computer(const meniscus_options& options) : options_(options) {
-    const auto make = [&] { return std::make_unique<meniscus::SurfaceComputer>(meniscus::c_api::request_of(options)); };
+    const auto create = [&] {
+      return std::make_unique<meniscus::SurfaceComputer>(meniscus::c_api::request_of(options));
+    };
     if (options.device == MENISCUS_CPU && !options.verify)
-      here_ = make();
+      cpu_computer_ = create();
     else
-      with_gl_.emplace(make);
+      gl_computer_.emplace(create);
   }
 
   std::unique_ptr<const meniscus::c_api::FinishedSurface> compute(const std::vector<meniscus::Ball>& balls) {
-    const std::lock_guard one_caller(calling_);
+    const std::lock_guard lock(mutex_);
     auto finished = std::make_unique<meniscus::c_api::FinishedSurface>();
     const auto run = [&](meniscus::SurfaceComputer& computer) {
       meniscus::c_api::run_on_threads(options_.threads, [&] { finished->surface = computer.compute(balls); });
       finished->device = computer.device();
     };
-    if (with_gl_)
-      with_gl_->run(run);
+    if (gl_computer_)
+      gl_computer_->run(run);
     else
-      run(*here_);
+      run(*cpu_computer_);
     require_closed(finished->surface);
     finished->kind = meniscus::c_api::kind_of(options_.kind);
     finished->probe_radius = options_.kind == MENISCUS_VDW ? 0.0 : options_.probe_radius;
@@ -94,9 +96,9 @@ struct meniscus_computer : meniscus::c_api::Counted {
 
  private:
   const meniscus_options options_;
-  std::mutex calling_;
-  std::unique_ptr<meniscus::SurfaceComputer> here_;
-  std::optional<meniscus::c_api::OnGlThread<meniscus::SurfaceComputer>> with_gl_;
+  std::mutex mutex_;
+  std::unique_ptr<meniscus::SurfaceComputer> cpu_computer_;
+  std::optional<meniscus::c_api::OnGlThread<meniscus::SurfaceComputer>> gl_computer_;
 };
 
 meniscus_status meniscus_default_options(meniscus_options* options) {
@@ -134,7 +136,7 @@ meniscus_status meniscus_recompute(meniscus_computer* computer, const meniscus_a
     require(surface, "surface");
     require(*surface, "*surface");
     auto finished = computer->compute(read_atoms(atoms));
-    if ((*surface)->held_by_one()) {
+    if ((*surface)->has_one_reference()) {
       (*surface)->finished = std::move(finished);
       return;
     }

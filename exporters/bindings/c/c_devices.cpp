@@ -41,10 +41,10 @@ struct GlThread::Worker {
     thread.join();
   }
 
-  void run(const std::function<void()>& wanted) {
-    const std::lock_guard one_caller(callers);
+  void run(const std::function<void()>& function) {
+    const std::lock_guard one_call(calls);
     std::unique_lock lock(mutex);
-    work = &wanted;
+    work = &function;
     changed.notify_all();
     changed.wait(lock, [&] { return !work; });
     if (error) std::rethrow_exception(std::exchange(error, nullptr));
@@ -69,7 +69,7 @@ struct GlThread::Worker {
     }
   }
 
-  std::mutex callers;  // one at a time
+  std::mutex calls;
   std::mutex mutex;
   std::condition_variable changed;
   const std::function<void()>* work = nullptr;

@@ -22,9 +22,9 @@
 #include "exporters/mesh_files/mesh_formats.h"
 
 struct meniscus_mesh : meniscus::c_api::Counted {
-  std::shared_ptr<const meniscus::c_api::FinishedSurface> of;
+  std::shared_ptr<const meniscus::c_api::FinishedSurface> surface;
   meniscus::MeshFineness fineness;
-  meniscus::FineMesh made;
+  meniscus::FineMesh fine_mesh;
 };
 
 namespace meniscus::c_api {
@@ -58,20 +58,20 @@ meniscus_mesh_options checked(const meniscus_mesh_options* given) {
   return options;
 }
 
-MeshFineness fineness_of(const meniscus_mesh_options& wanted) {
-  return {wanted.tolerance, {}, wanted.density, wanted.method == MENISCUS_MESH_EVEN};
+MeshFineness fineness_of(const meniscus_mesh_options& options) {
+  return {options.tolerance, {}, options.density, options.method == MENISCUS_MESH_EVEN};
 }
 
-FineMesh make_mesh(const Surface& surface, const meniscus_mesh_options& wanted, const MeshFineness& fineness) {
-  if (wanted.method != MENISCUS_MESH_BY_PATCH || wanted.split_colors != 0) return fine_mesh(surface, fineness);
-  FineMesh made{tessellate(surface, {wanted.tolerance, false}), {}, {}};
-  made.vertex_face = vertex_faces(made.mesh);
-  made.vertex_atom = vertex_atoms(made.mesh);
-  return made;
+FineMesh make_mesh(const Surface& surface, const meniscus_mesh_options& options, const MeshFineness& fineness) {
+  if (options.method != MENISCUS_MESH_BY_PATCH || options.split_colors != 0) return fine_mesh(surface, fineness);
+  FineMesh result{tessellate(surface, {options.tolerance, false}), {}, {}};
+  result.vertex_face = vertex_faces(result.mesh);
+  result.vertex_atom = vertex_atoms(result.mesh);
+  return result;
 }
 
-meniscus_array find_table(const meniscus_mesh& made, std::int32_t table) {
-  const TriangleMesh& mesh = made.made.mesh;
+meniscus_array find_table(const FineMesh& fine_mesh, std::int32_t table) {
+  const TriangleMesh& mesh = fine_mesh.mesh;
   switch (table) {
     case MENISCUS_MESH_POSITIONS:
       return table_of(mesh.positions);
@@ -94,7 +94,7 @@ meniscus_array find_table(const meniscus_mesh& made, std::int32_t table) {
     case MENISCUS_MESH_SHARP_NORMALS:
       return table_of(mesh.sharp_corner_normals);
     case MENISCUS_MESH_VERTEX_ATOMS:
-      return table_of(made.made.vertex_atom);
+      return table_of(fine_mesh.vertex_atom);
     default:
       refuse(MENISCUS_USAGE, "a mesh has no table {}", table);
   }
@@ -141,7 +141,7 @@ std::vector<Atom> bare_atoms(const FinishedSurface& finished) {
 }
 
 void save(const meniscus_mesh& mesh, const char* path, const meniscus_mesh_file& file) {
-  const FinishedSurface& finished = *mesh.of;
+  const FinishedSurface& finished = *mesh.surface;
   const MeshFormat& format = format_of(file, path);
   const std::vector<std::string> numbers = parse_vertex_numbers(file.attributes, AtomSource::bare);
   const std::vector<Atom> atoms = bare_atoms(finished);
@@ -151,7 +151,7 @@ void save(const meniscus_mesh& mesh, const char* path, const meniscus_mesh_file&
   MeshFileMaker maker(
       {mesh.fineness, format.numbers ? numbers : std::vector<std::string>{}, file.scale, atoms, {}, format.solid},
       about_line(kind_word(finished.kind), file.scale, mesh.fineness));
-  maker.add({"surface", finished.surface, coloring, places}, mesh.made);
+  maker.add({"surface", finished.surface, coloring, places}, mesh.fine_mesh);
   write_mesh_file(format, path, file.replace ? Existing::replace : Existing::refuse, maker.take());
 }
 
@@ -170,12 +170,14 @@ meniscus_status meniscus_surface_mesh(const meniscus_surface* surface, const men
   return guarded([&] {
     require(surface, "surface");
     require(mesh, "mesh");
-    const meniscus_mesh_options wanted = checked(options);
-    auto made = std::make_unique<meniscus_mesh>();
-    made->of = surface->finished;
-    made->fineness = fineness_of(wanted);
-    run_on_threads(made->of->threads, [&] { made->made = make_mesh(made->of->surface, wanted, made->fineness); });
-    *mesh = made.release();
+    const meniscus_mesh_options complete = checked(options);
+    auto result = std::make_unique<meniscus_mesh>();
+    const FinishedSurface& finished = *surface->finished;
+    result->surface = surface->finished;
+    result->fineness = fineness_of(complete);
+    run_on_threads(finished.threads,
+                   [&] { result->fine_mesh = make_mesh(finished.surface, complete, result->fineness); });
+    *mesh = result.release();
   });
 }
 
@@ -187,7 +189,7 @@ meniscus_status meniscus_mesh_table(const meniscus_mesh* mesh, meniscus_mesh_tab
   return guarded([&] {
     require(mesh, "mesh");
     require(array, "array");
-    *array = find_table(*mesh, table);
+    *array = find_table(mesh->fine_mesh, table);
   });
 }
 
@@ -201,7 +203,7 @@ meniscus_status meniscus_mesh_save(const meniscus_mesh* mesh, const char* path, 
   return guarded([&] {
     require(mesh, "mesh");
     require(path, "path");
-    const meniscus_mesh_file wanted = checked(file);
-    run_on_threads(mesh->of->threads, [&] { save(*mesh, path, wanted); });
+    const meniscus_mesh_file complete = checked(file);
+    run_on_threads(mesh->surface->threads, [&] { save(*mesh, path, complete); });
   });
 }

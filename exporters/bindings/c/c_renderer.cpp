@@ -85,14 +85,14 @@ SurfacePicture surface_picture(const meniscus_surface* surface, const meniscus_s
                                const meniscus_camera* camera, const float* atom_colors) {
   require(surface, "surface");
   if (scene) require(scene, "scene");
-  const meniscus_scene usual;
-  SurfacePicture wanted{completed(scene ? *scene : usual), {}, {}};
-  check_of_surface(wanted.scene);
+  const meniscus_scene defaults;
+  SurfacePicture picture{completed(scene ? *scene : defaults), {}, {}};
+  check_of_surface(picture.scene);
   const std::vector<Ball>& atoms = surface->finished->surface.atoms;
-  wanted.camera = camera ? camera_from(camera)
-                         : frame_camera(atoms, wanted.scene.picture.aspect(), wanted.scene.picture.projection);
-  wanted.coloring = coloring_for(wanted.scene, atom_colors, atoms.size());
-  return wanted;
+  picture.camera = camera ? camera_from(camera)
+                          : frame_camera(atoms, picture.scene.picture.aspect(), picture.scene.picture.projection);
+  picture.coloring = coloring_for(picture.scene, atom_colors, atoms.size());
+  return picture;
 }
 
 }  // namespace meniscus::c_api
@@ -129,16 +129,16 @@ meniscus_status meniscus_render(meniscus_renderer* renderer, const meniscus_surf
   using namespace meniscus::c_api;
   return guarded([&] {
     require(renderer, "renderer");
-    const SurfacePicture wanted = surface_picture(surface, scene, camera, atom_colors);
-    require_room(wanted.scene, rgba, rgba_size);
+    const SurfacePicture picture = surface_picture(surface, scene, camera, atom_colors);
+    require_room(picture.scene, rgba, rgba_size);
     const FinishedSurface& finished = *surface->finished;
     meniscus::Framebuffer drawn;
-    renderer->run([&](meniscus::SurfaceRenderer& draws, const meniscus::EglContext*) {
+    renderer->run([&](meniscus::SurfaceRenderer& surface_renderer, const meniscus::EglContext*) {
       run_on_threads(finished.threads, [&] {
-        drawn = draws.render(finished.surface, wanted.coloring, wanted.camera, settings_of(wanted.scene));
+        drawn = surface_renderer.render(finished.surface, picture.coloring, picture.camera, settings_of(picture.scene));
       });
     });
-    write_pixels(drawn, wanted.scene, rgba);
+    write_pixels(drawn, picture.scene, rgba);
   });
 }
 

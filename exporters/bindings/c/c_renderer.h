@@ -21,8 +21,8 @@
 namespace meniscus::c_api {
 
 /// A context and what draws in it.
-struct Studio {
-  explicit Studio(std::int32_t device) : context(gl_of(device)), renderer(make_gl_renderer(context)) {}
+struct GlRenderer {
+  explicit GlRenderer(std::int32_t device) : context(gl_of(device)), renderer(make_gl_renderer(context)) {}
   EglContext context;
   std::unique_ptr<SurfaceRenderer> renderer;
 };
@@ -60,34 +60,35 @@ SurfacePicture surface_picture(const meniscus_surface* surface, const meniscus_s
 
 struct meniscus_renderer : meniscus::c_api::Counted {
   explicit meniscus_renderer(std::int32_t device) {
-    if (device != MENISCUS_CPU) find_gl(device);
-    if (!with_gl_) here_ = meniscus::make_cpu_renderer();
+    if (device != MENISCUS_CPU) use_gl(device);
+    if (!gl_renderer_) cpu_renderer_ = meniscus::make_cpu_renderer();
   }
 
   /// use(renderer, context), where they live; one caller after the other. context: nullptr on the CPU.
   template <typename Use>
   void run(const Use& use) {
-    if (with_gl_)
-      return with_gl_->run([&](meniscus::c_api::Studio& studio) { use(*studio.renderer, &studio.context); });
-    const std::lock_guard one_caller(calling_);
-    use(*here_, static_cast<const meniscus::EglContext*>(nullptr));
+    if (gl_renderer_)
+      return gl_renderer_->run([&](meniscus::c_api::GlRenderer& gl) { use(*gl.renderer, &gl.context); });
+    const std::lock_guard lock(mutex_);
+    use(*cpu_renderer_, static_cast<const meniscus::EglContext*>(nullptr));
   }
 
  private:
   /// Automatic takes a hardware GPU or nothing: the CPU is faster than software GL.
-  void find_gl(std::int32_t device) {
+  void use_gl(std::int32_t device) {
     const bool automatic = device == MENISCUS_AUTO;
     try {
-      with_gl_.emplace([&] { return std::make_unique<meniscus::c_api::Studio>(automatic ? MENISCUS_GPU : device); });
+      gl_renderer_.emplace(
+          [&] { return std::make_unique<meniscus::c_api::GlRenderer>(automatic ? MENISCUS_GPU : device); });
     } catch (const meniscus::GpuError&) {
       if (!automatic) throw;
-      with_gl_.reset();
+      gl_renderer_.reset();
     }
   }
 
-  std::mutex calling_;
-  std::unique_ptr<meniscus::SurfaceRenderer> here_;
-  std::optional<meniscus::c_api::OnGlThread<meniscus::c_api::Studio>> with_gl_;
+  std::mutex mutex_;
+  std::unique_ptr<meniscus::SurfaceRenderer> cpu_renderer_;
+  std::optional<meniscus::c_api::OnGlThread<meniscus::c_api::GlRenderer>> gl_renderer_;
 };
 
 struct meniscus_page : meniscus::c_api::Counted {

@@ -3,6 +3,7 @@
 #include "exporters/bindings/c/c_scene.h"
 
 #include <algorithm>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -37,15 +38,17 @@ const Property& property_named(const char* name) {
 }
 
 /// Named by its key such a flag has the meaning of scene files: true is the same as nothing.
-bool is_turned(const Property& property, const char* name) { return property.has(negated) && property.key == name; }
+bool is_negated_key(const Property& property, const char* name) {
+  return property.has(negated) && property.key == name;
+}
 
 /// The text as set_value() takes it; nothing where it means the default.
-std::optional<std::string> wanted_text(const Property& property, const char* name, const char* text) {
+std::optional<std::string> value_text(const Property& property, const char* name, const char* text) {
   if (!text) return {};
   const bool is_true = std::string_view(text) == "true", is_false = std::string_view(text) == "false";
   if (property.type == ValueType::flag) {
     if (!is_true && !is_false) refuse(MENISCUS_USAGE, "{}: {} is neither true nor false", name, in_quotes(text));
-    if (is_false != is_turned(property, name)) return {};
+    if (is_false != is_negated_key(property, name)) return {};
     return "true";
   }
   if (property.has(value_optional) && is_false) return {};
@@ -70,20 +73,19 @@ struct PropertyTexts {
 
 const std::vector<meniscus_property>& property_rows() {
   static const std::vector<meniscus_property> rows = [] {
-    static std::vector<PropertyTexts> texts;
-    std::vector<const Property*> held;
-    for (const Property* property : properties())
-      if (is_scene_value(*property)) held.push_back(property);
-    for (const Property* property : held)
-      texts.push_back({value_name(*property), std::string(property->key), std::string(property->value),
-                       with_options(property->help), std::string(property->words), with_options(property->initial)});
-    std::vector<meniscus_property> made;
-    for (std::size_t n = 0; n < held.size(); ++n)
-      made.push_back({texts[n].name.c_str(), texts[n].key.c_str(), texts[n].value.c_str(), texts[n].help.c_str(),
-                      texts[n].words.c_str(), texts[n].initial.c_str(), held[n]->lowest, held[n]->highest,
-                      static_cast<meniscus_value_type>(held[n]->type), held[n]->has(repeatable) ? 1 : 0,
-                      is_of_surface(*held[n]) ? 1 : 0, 0});
-    return made;
+    static std::deque<PropertyTexts> texts;  // whose elements are not moved
+    std::vector<meniscus_property> result;
+    for (const Property* property : properties()) {
+      if (!is_scene_value(*property)) continue;
+      const PropertyTexts& text = texts.emplace_back(
+          PropertyTexts{value_name(*property), std::string(property->key), std::string(property->value),
+                        with_options(property->help), std::string(property->words), with_options(property->initial)});
+      result.push_back({text.name.c_str(), text.key.c_str(), text.value.c_str(), text.help.c_str(), text.words.c_str(),
+                        text.initial.c_str(), property->lowest, property->highest,
+                        static_cast<meniscus_value_type>(property->type), property->has(repeatable) ? 1 : 0,
+                        is_of_surface(*property) ? 1 : 0, 0});
+    }
+    return result;
   }();
   return rows;
 }
@@ -143,7 +145,7 @@ meniscus_status meniscus_scene_set(meniscus_scene* scene, const char* name, cons
   return guarded([&] {
     require(scene, "scene");
     const meniscus::Property& property = property_named(name);
-    const std::optional<std::string> text = wanted_text(property, name, value);
+    const std::optional<std::string> text = value_text(property, name, value);
     scene->change([&](meniscus::Scene& changed) {
       if (text)
         set_at(changed, property, {*text}, MENISCUS_USAGE, name);
@@ -160,9 +162,9 @@ meniscus_status meniscus_scene_get(const meniscus_scene* scene, const char* name
     require(value, "value");
     const meniscus::Property& property = property_named(name);
     std::vector<std::string> texts = value_texts(scene->copy(), property);
-    if (is_turned(property, name))
+    if (is_negated_key(property, name))
       for (std::string& text : texts) text = "false";
-    *value = n < texts.size() ? scene->kept(texts[n]) : nullptr;
+    *value = n < texts.size() ? scene->keep(texts[n]) : nullptr;
   });
 }
 

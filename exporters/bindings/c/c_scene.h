@@ -28,7 +28,7 @@ struct meniscus_scene : meniscus::c_api::Counted {
     scene_ = std::move(changed);
   }
   /// The text as a caller may keep it: while this lives.
-  const char* kept(std::string text) const {
+  const char* keep(std::string text) const {
     const std::lock_guard lock(mutex_);
     return texts_.insert(std::move(text)).first->c_str();
   }

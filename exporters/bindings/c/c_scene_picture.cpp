@@ -98,7 +98,7 @@ meniscus_status meniscus_scene_json(const meniscus_scene* scene, const char* fol
     require(json, "json");
     const meniscus::Scene copy = scene->copy();
     if (const std::string fault = meniscus::scene_fault(copy); !fault.empty()) throw meniscus::RequestError(fault);
-    *json = scene->kept(meniscus::scene_text(copy, folder && *folder ? folder : "."));
+    *json = scene->keep(meniscus::scene_text(copy, folder && *folder ? folder : "."));
   });
 }
 
@@ -108,17 +108,17 @@ meniscus_status meniscus_render_scene(meniscus_renderer* renderer, const meniscu
   return guarded([&] {
     require(renderer, "renderer");
     require(scene, "scene");
-    const meniscus::Scene wanted = drawable(*scene);
-    require_room(wanted, rgba, rgba_size);
+    const meniscus::Scene complete = drawable(*scene);
+    require_room(complete, rgba, rgba_size);
     meniscus::Framebuffer drawn;
     renderer->run([&](meniscus::SurfaceRenderer& draws, const meniscus::EglContext* context) {
-      run_on_threads(wanted.molecule.surface.threads, [&] {
+      run_on_threads(complete.molecule.surface.threads, [&] {
         // Volume maps are looked up point by point on the CPU.
-        const bool on_cpu = context && meniscus::picture_request(wanted).cpu;
-        drawn = on_cpu ? scene_picture(wanted, *meniscus::make_cpu_renderer(), nullptr)
-                       : scene_picture(wanted, draws, context);
+        const bool on_cpu = context && meniscus::picture_request(complete).cpu;
+        drawn = on_cpu ? scene_picture(complete, *meniscus::make_cpu_renderer(), nullptr)
+                       : scene_picture(complete, draws, context);
       });
     });
-    write_pixels(drawn, wanted, rgba);
+    write_pixels(drawn, complete, rgba);
   });
 }

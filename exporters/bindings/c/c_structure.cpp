@@ -66,9 +66,9 @@ struct meniscus_structure : meniscus::c_api::Counted {
 namespace meniscus::c_api {
 namespace {
 
-meniscus_array find_column(const meniscus_structure& of, std::int32_t wanted) {
+meniscus_array find_column(const meniscus_structure& of, std::int32_t table) {
   const std::vector<Atom>& atoms = of.structure.atoms;
-  switch (wanted) {
+  switch (table) {
     case MENISCUS_STRUCTURE_POSITIONS:
       return column(atoms, &Atom::position);
     case MENISCUS_STRUCTURE_RADII:
@@ -110,7 +110,7 @@ meniscus_array find_column(const meniscus_structure& of, std::int32_t wanted) {
     case MENISCUS_STRUCTURE_HYDROPATHIES:
       return {of.hydropathies.data(), of.hydropathies.size(), sizeof(double)};
     default:
-      refuse(MENISCUS_USAGE, "a structure has no table {}", wanted);
+      refuse(MENISCUS_USAGE, "a structure has no table {}", table);
   }
 }
 

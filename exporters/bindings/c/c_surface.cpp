@@ -17,13 +17,13 @@
 namespace meniscus::c_api {
 
 const AtomAreas& FinishedSurface::areas() const {
-  const std::lock_guard lock(asking_);
+  const std::lock_guard lock(mutex_);
   if (!areas_) run_on_threads(threads, [&] { areas_ = atom_areas(surface); });
   return *areas_;
 }
 
 const SurfaceDistance& FinishedSurface::distance() const {
-  const std::lock_guard lock(asking_);
+  const std::lock_guard lock(mutex_);
   if (!distance_) distance_.emplace(surface);
   return *distance_;
 }

@@ -28,7 +28,7 @@ struct FinishedSurface {
   const SurfaceDistance& distance() const;
 
  private:
-  mutable std::mutex asking_;
+  mutable std::mutex mutex_;
   mutable std::optional<AtomAreas> areas_;
   mutable std::optional<SurfaceDistance> distance_;
 };
