@@ -13,12 +13,13 @@
 namespace meniscus::c_api {
 namespace {
 
-/// Borders are counted in 31 bits, and an atom has up to a dozen.
+/// The largest number of atoms. An atom has up to a dozen borders, which have indices of 31 bits.
 constexpr std::size_t kMostAtoms = std::size_t{1} << 27;
 
+/// The largest atomic number.
 constexpr std::int32_t kHeaviest = 118;
 
-/// Rows of `width` numbers, of either type, with a stride.
+/// An array of a caller: rows of `width` floats or doubles.
 class Numbers {
  public:
   Numbers(const void* data, std::size_t count, std::size_t width, std::size_t stride, std::int32_t type,

@@ -13,7 +13,8 @@
 
 namespace meniscus::c_api {
 
-/// Throws Refusal, naming the atom and the value, for whatever meniscus.h does not allow.
+/// Returns the atoms of a caller. Refuses numbers that meniscus.h does not allow; the message has the atom and the
+/// value.
 std::vector<Ball> read_atoms(const meniscus_atoms* atoms);
 
 /// The sRGB colour of surfaces and meshes for which the caller gives no colour.

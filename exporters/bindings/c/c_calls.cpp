@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Maps exceptions to codes, and keeps the last message of each thread.
+// Maps exceptions to statuses, stores the last message of each thread, and checks arrays of callers.
 #include "exporters/bindings/c/c_calls.h"
 
 #include <algorithm>
@@ -15,10 +15,10 @@
 namespace meniscus::c_api {
 namespace {
 
-/// In place, so that a text can be kept when there is no memory, and nothing has to end with its thread.
+/// The last message of this thread. It has a fixed size, because it is also written if memory does not suffice.
 thread_local std::array<char, 4096> last_error{};
 
-/// Cut at the start of a character, where it is too long.
+/// Stores a message. A message that is too long is cut between two characters.
 void keep(std::string_view text) noexcept {
   std::size_t length = std::min(text.size(), last_error.size() - 1);
   if (length < text.size())

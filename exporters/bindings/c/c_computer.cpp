@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes surfaces from arrays, on the calling thread or, where GL may be needed, on one with a context.
+// Computes surfaces from arrays, on the calling thread or, if GL may be needed, on a GL thread.
 #include <cmath>
 #include <memory>
 #include <mutex>
@@ -35,6 +35,7 @@ void check_probe(double radius) {
            kDefaults.probe_radius);
 }
 
+/// Returns the options of a caller, or the defaults for NULL. Refuses impossible options.
 meniscus_options checked(const meniscus_options* given) {
   const meniscus_options options = read_options(given, kDefaults, "meniscus_options");
   if (options.kind < MENISCUS_SES || options.kind > MENISCUS_VDW)
@@ -64,6 +65,7 @@ SurfaceRequest request_of(const meniscus_options& options) {
 }  // namespace
 }  // namespace meniscus::c_api
 
+/// The object behind the handle of a computer. It computes on the CPU or on a GL thread.
 struct meniscus_computer : meniscus::c_api::Counted {
  public:
   explicit meniscus_computer(const meniscus_options& options) : options_(options) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the work of a GL context on one thread, one piece at a time.
+// Runs work on the thread of a GL context.
 #include "exporters/bindings/c/c_devices.h"
 
 #include <atomic>
@@ -16,9 +16,11 @@
 namespace meniscus::c_api {
 namespace {
 
-/// The process whose GL driver this is; 0: none yet. That a child has a dead one is a fact about the process.
+/// The process that used GL first; 0: GL was not used. A child has the number of its parent, whose driver does not work
+/// in the child.
 std::atomic<pid_t> process_of_driver{0};
 
+/// Returns the number of this process. Throws GpuError if GL was used before fork().
 pid_t claim_driver() {
   const pid_t self = ::getpid();
   pid_t owner = 0;
@@ -30,6 +32,7 @@ pid_t claim_driver() {
 
 }  // namespace
 
+/// The thread and the function that it runs.
 struct GlThread::Worker {
   Worker() : thread([this] { loop(); }) {}
   ~Worker() {
@@ -81,7 +84,7 @@ struct GlThread::Worker {
 GlThread::GlThread() : process_(claim_driver()), worker_(std::make_unique<Worker>()) {}
 
 GlThread::~GlThread() {
-  // A thread of the parent that waits on the condition would be waited for here.
+  // In a child process the thread does not exist, so that the destructor of the worker would wait forever.
   if (!alive()) static_cast<void>(worker_.release());
 }
 

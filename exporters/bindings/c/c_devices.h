@@ -15,12 +15,13 @@
 
 namespace meniscus::c_api {
 
+/// Refuses a number that is not a device with MENISCUS_USAGE.
 inline void check_device(std::int32_t device) {
   if (device < MENISCUS_CPU || device > MENISCUS_SOFTWARE)
     refuse(MENISCUS_USAGE, "device is {}, none of MENISCUS_CPU, _AUTO, _GPU, _SOFTWARE", device);
 }
 
-/// The GL that a device means.
+/// Returns the GL of a device other than MENISCUS_CPU.
 inline DeviceChoice gl_of(std::int32_t device) {
   DeviceChoice choice;
   choice.kind = device == MENISCUS_GPU    ? DeviceChoice::Kind::gpu
@@ -29,28 +30,30 @@ inline DeviceChoice gl_of(std::int32_t device) {
   return choice;
 }
 
-/// Runs the work in an arena of its own: with so many threads (0: all), and apart from tasks that the caller may have
-/// under way in TBB himself.
+/// Runs work on a number of threads; 0 means all. The work has a separate arena, so that it does not execute TBB tasks
+/// of the calling program.
 template <typename Work>
 void run_on_threads(int threads, const Work& work) {
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
   arena.execute(work);
 }
 
-/// Drivers keep threads and locks that fork() does not copy: in a child of a process that used GL they would wait for
-/// ever. So whatever was made before is refused there, and so are new ones, with a GpuError.
+/// A thread for a GL context. Contexts belong to threads, and the threads of the calling program may have contexts of
+/// their own. fork() does not copy the threads of a GL driver, so that a child of a process that used GL would wait
+/// forever. Therefore GL is refused in such a child.
 class GlThread {
  public:
-  /// Throws GpuError in such a child, std::system_error if there is no thread.
+  /// Throws GpuError in a child of a process that used GL, and std::system_error if no thread can be created.
   GlThread();
   ~GlThread();
   GlThread(const GlThread&) = delete;
   GlThread& operator=(const GlThread&) = delete;
 
-  /// Runs the work there and waits for it, one after the other. Throws what it throws.
+  /// Runs work on the thread, and returns when it is finished. Calls wait for each other. Throws the exceptions of the
+  /// work, and GpuError in a child of the process.
   void run(const std::function<void()>& work);
 
-  /// False in a child that fork() made: the thread is not there.
+  /// Returns false in a child of the process that created this object, where the thread does not exist.
   bool alive() const;
 
  private:
@@ -60,11 +63,11 @@ class GlThread {
   std::unique_ptr<Worker> worker_;
 };
 
-/// Something made of GL: it is made, used and destroyed on its thread.
+/// An object that uses GL. It is created, used and destroyed on a GL thread.
 template <typename State>
 class OnGlThread {
  public:
-  /// make: -> std::unique_ptr<State>
+  /// make: a function that returns std::unique_ptr<State>.
   template <typename Make>
   explicit OnGlThread(const Make& make) {
     thread_.run([&] { state_ = make(); });
@@ -73,9 +76,9 @@ class OnGlThread {
     if (thread_.alive())
       thread_.run([&] { state_.reset(); });
     else
-      static_cast<void>(state_.release());  // its driver is not there to take anything back
+      static_cast<void>(state_.release());  // its driver does not work in this process
   }
-  /// use(State&), there.
+  /// Calls use(State&) on the thread.
   template <typename Use>
   void run(const Use& use) {
     thread_.run([&] { use(*state_); });

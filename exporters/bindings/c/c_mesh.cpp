@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes triangle meshes of a surface, hands out their tables, and writes them as files.
+// Makes triangle meshes of a surface, returns their tables, and writes them to files.
 #include <memory>
 #include <string>
 #include <string_view>
@@ -21,6 +21,7 @@
 #include "exporters/mesh_files/file_object.h"
 #include "exporters/mesh_files/mesh_formats.h"
 
+/// The object behind the handle of a mesh.
 struct meniscus_mesh : meniscus::c_api::Counted {
   std::shared_ptr<const meniscus::c_api::FinishedSurface> surface;
   meniscus::MeshFineness fineness;
@@ -34,6 +35,7 @@ namespace {
 const meniscus_mesh_options kDefaults{sizeof(meniscus_mesh_options), MENISCUS_MESH_BY_PATCH, 1, MeshOutput{}.tolerance,
                                       MeshOutput{}.density};
 
+/// Returns the options of a caller, or the defaults for NULL. Refuses impossible options.
 meniscus_mesh_options checked(const meniscus_mesh_options* given) {
   const meniscus_mesh_options options = read_options(given, kDefaults, "meniscus_mesh_options");
   switch (options.method) {
@@ -125,8 +127,8 @@ meniscus_mesh_file checked(const meniscus_mesh_file* given) {
   return file;
 }
 
-/// Balls of an accessible surface are larger by the probe. Atoms are numbered as the caller's arrays have them, their
-/// residues, too, from 1.
+/// Returns the atoms of a surface with their van der Waals radii; the balls of a sas surface are larger by the probe.
+/// The indices of atoms are those of the caller's arrays; each atom is a residue, with a number from 1.
 std::vector<Atom> bare_atoms(const FinishedSurface& finished) {
   const double probe = finished.kind == SurfaceKind::sas ? finished.probe_radius : 0.0;
   std::vector<Atom> atoms;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes pages in which readers turn a scene or a surface.
+// Makes web pages of scenes and surfaces.
 #include "exporters/bindings/c/c_renderer.h"
 
 #include <string>

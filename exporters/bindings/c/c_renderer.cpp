@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ray casts pictures on the CPU, or on GL in a context of its own.
+// Draws pictures of computed surfaces, on the CPU or on a GL thread, and returns the text of pages.
 #include "exporters/bindings/c/c_renderer.h"
 
 #include <string_view>
@@ -27,6 +27,7 @@ Projection projection_of(std::int32_t word) {
   return word == MENISCUS_PERSPECTIVE ? Projection::perspective : Projection::orthographic;
 }
 
+/// Returns the camera of a caller. Refuses an impossible camera.
 Camera camera_from(const meniscus_camera* given) {
   const meniscus_camera from = read_struct(given, meniscus_camera{}, "meniscus_camera");
   require_zero(from.reserved, "meniscus_camera.reserved");
@@ -54,7 +55,7 @@ meniscus_camera struct_of(const Camera& camera) {
   return result;
 }
 
-/// Refuses what a picture of a caller's surface would leave out of a scene.
+/// Refuses a scene with properties that a picture of a computed surface does not have.
 void check_of_surface(const Scene& scene) {
   for (const Property* property : properties())
     if (is_scene_value(*property) && !is_of_surface(*property) && !value_texts(scene, *property).empty())

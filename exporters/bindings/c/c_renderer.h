@@ -20,14 +20,14 @@
 
 namespace meniscus::c_api {
 
-/// A context and what draws in it.
+/// A GL context and its renderer.
 struct GlRenderer {
   explicit GlRenderer(std::int32_t device) : context(gl_of(device)), renderer(make_gl_renderer(context)) {}
   EglContext context;
   std::unique_ptr<SurfaceRenderer> renderer;
 };
 
-/// Refuses memory of the caller's that has no room for a picture of the scene.
+/// Refuses memory of the caller that is too small for the picture of a scene with MENISCUS_USAGE.
 inline void require_room(const Scene& scene, const std::uint8_t* rgba, std::size_t rgba_size) {
   require(rgba, "rgba");
   require_numbers(rgba, rgba_size, 1, "rgba");
@@ -37,7 +37,7 @@ inline void require_room(const Scene& scene, const std::uint8_t* rgba, std::size
            scene.picture.height, size);
 }
 
-/// The bytes that the program's PNG files have, with an alpha always.
+/// Writes the bytes of the program's PNG files to the caller's memory, always with alpha.
 inline void write_pixels(const Framebuffer& drawn, const Scene& scene, std::uint8_t* rgba) {
   if (scene.image.background || scene.look.has_linear_alpha())
     display_bytes(drawn.color, scene.image.background, 4, rgba);
@@ -45,26 +45,29 @@ inline void write_pixels(const Framebuffer& drawn, const Scene& scene, std::uint
     layout_bytes(drawn.color, rgba);
 }
 
-/// What a caller asks of a picture of a surface of its own.
+/// The settings of a picture of a computed surface.
 struct SurfacePicture {
   Scene scene;
   Camera camera;
   Coloring coloring;
 };
 
-/// As meniscus_render() takes it. Refuses what such a picture cannot have.
+/// Returns the settings from the arguments of meniscus_render(). Refuses impossible arguments, and scenes with other
+/// properties than such a picture has.
 SurfacePicture surface_picture(const meniscus_surface* surface, const meniscus_scene* scene,
                                const meniscus_camera* camera, const float* atom_colors);
 
 }  // namespace meniscus::c_api
 
+/// The object behind the handle of a renderer. It draws on the CPU or on a GL thread.
 struct meniscus_renderer : meniscus::c_api::Counted {
   explicit meniscus_renderer(std::int32_t device) {
     if (device != MENISCUS_CPU) use_gl(device);
     if (!gl_renderer_) cpu_renderer_ = meniscus::make_cpu_renderer();
   }
 
-  /// use(renderer, context), where they live; one caller after the other. context: nullptr on the CPU.
+  /// Calls use(renderer, context), on the GL thread if there is one. Calls wait for each other. context: nullptr on the
+  /// CPU.
   template <typename Use>
   void run(const Use& use) {
     if (gl_renderer_)
@@ -74,7 +77,8 @@ struct meniscus_renderer : meniscus::c_api::Counted {
   }
 
  private:
-  /// Automatic takes a hardware GPU or nothing: the CPU is faster than software GL.
+  /// Creates the GL renderer. MENISCUS_AUTO takes a hardware GPU only, because the CPU is faster than software GL.
+  /// Throws GpuError for another device without GL.
   void use_gl(std::int32_t device) {
     const bool automatic = device == MENISCUS_AUTO;
     try {
@@ -91,6 +95,7 @@ struct meniscus_renderer : meniscus::c_api::Counted {
   std::optional<meniscus::c_api::OnGlThread<meniscus::c_api::GlRenderer>> gl_renderer_;
 };
 
+/// The object behind the handle of a page.
 struct meniscus_page : meniscus::c_api::Counted {
   explicit meniscus_page(std::string text) : html(std::move(text)) {}
   const std::string html;

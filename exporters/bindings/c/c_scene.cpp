@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sets and gets the values of scenes by their keys in the table of properties.
+// Sets and returns the values of scenes by the names and keys of properties.
 #include "exporters/bindings/c/c_scene.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace meniscus::c_api {
 namespace {
 
-/// Spells an option in messages as callers of meniscus_scene_set() and meniscus_read() do: "keep_water", "frames=all".
+/// Returns the spelling of an option in messages of the library, such as "keep_water" and "frames=all".
 std::string spelled(std::string_view option) {
   const std::size_t end = std::min(option.find(' '), option.size());
   const std::string name = "--" + std::string(option.substr(0, end));
@@ -28,6 +28,7 @@ std::string spelled(std::string_view option) {
 
 [[maybe_unused]] const bool kSpelled = (spell_options(spelled), true);
 
+/// Returns the property of a name or key. Refuses an unknown name.
 const Property& property_named(const char* name) {
   require(name, "name");
   try {
@@ -37,12 +38,13 @@ const Property& property_named(const char* name) {
   }
 }
 
-/// Named by its key such a flag has the meaning of scene files: true is the same as nothing.
+/// Returns true if the value of a flag by this name is the opposite of the option: a key means the value of scene
+/// files, which for some flags is "true" by default.
 bool is_negated_key(const Property& property, const char* name) {
   return property.has(negated) && property.key == name;
 }
 
-/// The text as set_value() takes it; nothing where it means the default.
+/// Returns a value as the text that set_value() takes; nothing if the text means the default.
 std::optional<std::string> value_text(const Property& property, const char* name, const char* text) {
   if (!text) return {};
   const bool is_true = std::string_view(text) == "true", is_false = std::string_view(text) == "false";
@@ -55,7 +57,7 @@ std::optional<std::string> value_text(const Property& property, const char* name
   return property.has(value_optional) && is_true ? std::string() : std::string(text);
 }
 
-/// The scene with the default of one property.
+/// Returns a copy of a scene, in which one property has its default.
 Scene without(const Scene& scene, const Property& left_out) {
   Scene rest;
   for (const Property* property : properties()) {
@@ -66,11 +68,12 @@ Scene without(const Scene& scene, const Property& left_out) {
   return rest;
 }
 
-/// What the callers of scenes are told of each property; texts live as long as the library.
+/// The texts of a meniscus_property.
 struct PropertyTexts {
   std::string name, key, value, help, words, initial;
 };
 
+/// Returns the rows of meniscus_scene_properties(), which are never freed.
 const std::vector<meniscus_property>& property_rows() {
   static const std::vector<meniscus_property> rows = [] {
     static std::deque<PropertyTexts> texts;  // whose elements are not moved

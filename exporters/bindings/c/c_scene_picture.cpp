@@ -34,7 +34,8 @@ bool names_file(const SceneSetting& setting, const std::string& text) {
   return type == ValueType::file || (type == ValueType::camera && !text.starts_with('{'));
 }
 
-/// trust: of a file; nothing: paths are those of the caller.
+/// Reads a scene from JSON. file: the path or name in messages. trust: the rules for paths in a file; none for a text
+/// of the caller, whose paths may lead anywhere.
 Scene scene_of(std::string_view json, const std::string& file, const std::optional<SceneTrust>& trust) {
   Scene scene;
   for (SceneSetting& setting : parse_scene(json, file)) {
@@ -113,7 +114,7 @@ meniscus_status meniscus_render_scene(meniscus_renderer* renderer, const meniscu
     meniscus::Framebuffer drawn;
     renderer->run([&](meniscus::SurfaceRenderer& draws, const meniscus::EglContext* context) {
       run_on_threads(complete.molecule.surface.threads, [&] {
-        // Volume maps are looked up point by point on the CPU.
+        // Volume maps are sampled on the CPU only.
         const bool on_cpu = context && meniscus::picture_request(complete).cpu;
         drawn = on_cpu ? scene_picture(complete, *meniscus::make_cpu_renderer(), nullptr)
                        : scene_picture(complete, draws, context);

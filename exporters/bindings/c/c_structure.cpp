@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Molecules of the C interface: their atoms as columns, without a copy.
+// Molecules from files: their atoms as tables without a copy.
 #include <algorithm>
 #include <cstring>
 #include <memory>
@@ -15,10 +15,10 @@
 namespace meniscus::c_api {
 namespace {
 
-/// Texts of one length, each ended and filled with zeros.
+/// A table of texts, which are padded with zeros to the same length, with at least one zero.
 class TextColumn {
  public:
-  /// text(n): of row n
+  /// text: a function that returns the text of row n.
   template <typename Text>
   TextColumn(std::size_t count, const Text& text) : count_(count) {
     for (std::size_t n = 0; n < count; ++n) stride_ = std::max(stride_, text(n).size() + 1);
@@ -32,6 +32,7 @@ class TextColumn {
   std::vector<char> bytes_;
 };
 
+/// Returns a view of a field of the atoms.
 template <typename Field>
 meniscus_array column(const std::vector<Atom>& atoms, Field Atom::*field) {
   return {&(atoms.front().*field), atoms.size(), sizeof(Atom)};
@@ -44,6 +45,7 @@ TextColumn text_column(const std::vector<Atom>& atoms, std::string Atom::*field)
 }  // namespace
 }  // namespace meniscus::c_api
 
+/// The object behind the handle of a molecule.
 struct meniscus_structure : meniscus::c_api::Counted {
   explicit meniscus_structure(meniscus::Structure from)
       : structure(std::move(from)),

@@ -12,12 +12,14 @@
 
 namespace meniscus::c_api {
 
-/// Refuses what is no such handle.
+/// Returns the molecule of a handle. Refuses NULL.
 const Structure& structure_of(const meniscus_structure* structure);
 
-/// Throws Refusal and what read_structure throws; everything where this build has no readers. path: not NULL.
+/// Reads a molecule with the options of a caller, or the defaults for NULL. path: not NULL. Refuses impossible options;
+/// throws the exceptions of read_structure(). Builds without readers refuse every call.
 Structure read_file(const char* path, const meniscus_read_options* options);
 
+/// The defaults of meniscus_read_options.
 const meniscus_read_options kReadDefaults{sizeof(meniscus_read_options),
                                           nullptr,
                                           nullptr,
@@ -34,8 +36,8 @@ const meniscus_read_options kReadDefaults{sizeof(meniscus_read_options),
                                           0,
                                           0};
 
-/// sRGB, one an atom. Throws Refusal for what is no scheme of single atoms, InputError as color_atoms does; everything
-/// where this build has no schemes.
+/// Returns the sRGB colours of the atoms. Refuses an unknown scheme, and one that needs more than the atoms; throws the
+/// exceptions of color_atoms(). Builds without schemes refuse every call.
 std::vector<glm::vec3> structure_colors(const Structure& structure, std::string_view scheme);
 
 }  // namespace meniscus::c_api

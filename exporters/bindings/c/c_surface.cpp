@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads a surface: its numbers, its tables without a copy, and distances to it.
+// Reads a surface: its numbers, tables, distances and gradients.
 #include "exporters/bindings/c/c_surface.h"
 
 #include <cmath>
@@ -30,7 +30,7 @@ const SurfaceDistance& FinishedSurface::distance() const {
 
 namespace {
 
-// The rows that callers see are those of the library itself; what is no longer equal no longer compiles.
+// The rows of meniscus.h are those of core/surface/primitives.h. These assertions fail if their layout differs.
 #define MENISCUS_SAME(ours, our_field, theirs, their_field)                   \
   static_assert(offsetof(ours, our_field) == offsetof(theirs, their_field) && \
                     sizeof(ours::our_field) == sizeof(theirs::their_field),   \

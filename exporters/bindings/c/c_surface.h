@@ -15,15 +15,15 @@
 
 namespace meniscus::c_api {
 
-/// A finished surface, and what has been asked of it.
+/// A computed surface, with results that are computed when they are first needed.
 struct FinishedSurface {
   Surface surface;
   SurfaceKind kind = SurfaceKind::ses;
-  double probe_radius = 0.0;  ///< as asked
-  int threads = 0;            ///< of what is found out later; 0: all
+  double probe_radius = 0.0;  ///< Å; 0 for vdw
+  int threads = 0;            ///< for later computations; 0: all
   std::string device;
 
-  /// Found out by the first who asks, from any thread.
+  /// The first call computes the result. Any thread may call these functions.
   const AtomAreas& areas() const;
   const SurfaceDistance& distance() const;
 
@@ -35,6 +35,7 @@ struct FinishedSurface {
 
 }  // namespace meniscus::c_api
 
+/// The object behind the handle of a surface.
 struct meniscus_surface : meniscus::c_api::Counted {
-  std::shared_ptr<const meniscus::c_api::FinishedSurface> finished;  ///< with its meshes
+  std::shared_ptr<const meniscus::c_api::FinishedSurface> finished;  ///< shared with the meshes of the surface
 };

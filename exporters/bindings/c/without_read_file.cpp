@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Refuses molecule files, in builds without gemmi, whose tables of elements and residues all readers need.
+// Replaces read_file.cpp in builds without gemmi, which all readers need, and refuses every call.
 #include "exporters/bindings/c/c_calls.h"
 #include "exporters/bindings/c/c_structure.h"
 
