@@ -15,7 +15,6 @@ pythons=("$@")
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 unset MENISCUS_LIBRARY MENISCUS_PACKAGE
-export MENISCUS_HEADER=$PWD/exporters/bindings/c/include/meniscus/meniscus.h
 
 # CPU time, the least of several runs.
 import_time='import subprocess, sys

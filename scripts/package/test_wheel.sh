@@ -5,7 +5,6 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 export CMAKE_BUILD_PARALLEL_LEVEL=${MENISCUS_JOBS:-$(nproc)}
 tests=$PWD/tests/python
-export MENISCUS_HEADER=$PWD/exporters/bindings/c/include/meniscus/meniscus.h
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 

@@ -9,9 +9,9 @@
 
 #include "core/scene/scene.h"
 #include "core/scene/scene_values.h"
-#include "exporters/bindings/c/counted.h"
-#include "exporters/bindings/c/guard.h"
+#include "exporters/bindings/c/c_calls.h"
 
+/// The object behind the handle of a scene.
 struct meniscus_scene : meniscus::c_api::Counted {
   meniscus_scene() = default;
   explicit meniscus_scene(meniscus::Scene scene) : scene_(std::move(scene)) {}
@@ -20,7 +20,7 @@ struct meniscus_scene : meniscus::c_api::Counted {
     const std::lock_guard lock(mutex_);
     return scene_;
   }
-  /// change(meniscus::Scene&): as a whole, or not at all.
+  /// Calls change(meniscus::Scene&). The scene is unchanged if it throws.
   template <typename Change>
   void change(const Change& change) {
     const std::lock_guard lock(mutex_);
@@ -28,8 +28,8 @@ struct meniscus_scene : meniscus::c_api::Counted {
     change(changed);
     scene_ = std::move(changed);
   }
-  /// The text as a caller may keep it: while this lives.
-  const char* kept(std::string text) const {
+  /// Stores a text, and returns a pointer that is valid as long as this object.
+  const char* keep(std::string text) const {
     const std::lock_guard lock(mutex_);
     return texts_.insert(std::move(text)).first->c_str();
   }
@@ -42,18 +42,18 @@ struct meniscus_scene : meniscus::c_api::Counted {
 
 namespace meniscus::c_api {
 
-/// Sets a value; a fault of it is refused with the status, after the place where it was said.
+/// Sets the values of a property. Refuses an invalid value with the status; the message begins with the place.
 void set_at(Scene& scene, const Property& property, const std::vector<std::string>& texts, meniscus_status status,
             const std::string& place);
 
-/// Whether a picture of a caller's surface can have it: one of the look and of the picture itself.
+/// Returns true if a picture of a computed surface has the property.
 bool is_of_surface(const Property& property);
 
-/// A copy with all values that depend on each other. Refuses those that contradict each other.
+/// Returns a copy, in which the values that depend on each other are completed. Refuses values that contradict each
+/// other.
 Scene completed(const meniscus_scene& scene);
 
-/// The same of a molecule from a file, which is not the standard input of the caller's process. Where this build has
-/// readers.
+/// Returns a completed copy for drawing. Refuses a scene without a molecule. Defined in builds with scene files only.
 Scene drawable(const meniscus_scene& scene);
 
 }  // namespace meniscus::c_api

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes surfaces from arrays, on the calling thread or, where GL may be needed, on one with a context.
+// Computes surfaces from arrays, on the calling thread or, if GL may be needed, on a GL thread.
 #include <cmath>
 #include <memory>
 #include <mutex>
@@ -12,11 +12,10 @@
 #include "core/mesh/compare_mesh.h"
 #include "core/scene/surface_computer.h"
 #include "core/surface/compute_surface.h"
-#include "exporters/bindings/c/atoms.h"
-#include "exporters/bindings/c/device.h"
-#include "exporters/bindings/c/gl_thread.h"
-#include "exporters/bindings/c/caller_memory.h"
-#include "exporters/bindings/c/surface.h"
+#include "exporters/bindings/c/c_atoms.h"
+#include "exporters/bindings/c/c_devices.h"
+#include "exporters/bindings/c/c_calls.h"
+#include "exporters/bindings/c/c_surface.h"
 
 namespace meniscus::c_api {
 namespace {
@@ -36,9 +35,9 @@ void check_probe(double radius) {
            kDefaults.probe_radius);
 }
 
+/// Returns the options of a caller, or the defaults for NULL. Refuses impossible options.
 meniscus_options checked(const meniscus_options* given) {
-  if (!given) return kDefaults;
-  const meniscus_options options = read_struct(given, kDefaults, "meniscus_options");
+  const meniscus_options options = read_options(given, kDefaults, "meniscus_options");
   if (options.kind < MENISCUS_SES || options.kind > MENISCUS_VDW)
     refuse(MENISCUS_USAGE, "kind is {}, none of MENISCUS_SES, _SAS, _VDW", static_cast<std::int32_t>(options.kind));
   check_device(options.device);
@@ -48,11 +47,13 @@ meniscus_options checked(const meniscus_options* given) {
   return options;
 }
 
+SurfaceKind kind_of(meniscus_kind kind) {
+  return kind == MENISCUS_SES ? SurfaceKind::ses : kind == MENISCUS_SAS ? SurfaceKind::sas : SurfaceKind::vdw;
+}
+
 SurfaceRequest request_of(const meniscus_options& options) {
   SurfaceRequest result;
-  result.kind = options.kind == MENISCUS_SES   ? SurfaceKind::ses
-                : options.kind == MENISCUS_SAS ? SurfaceKind::sas
-                                               : SurfaceKind::vdw;
+  result.kind = kind_of(options.kind);
   result.probe_radius = options.probe_radius;
   result.cpu = options.device == MENISCUS_CPU;
   result.gl = gl_of(options.device);
@@ -64,29 +65,32 @@ SurfaceRequest request_of(const meniscus_options& options) {
 }  // namespace
 }  // namespace meniscus::c_api
 
+/// The object behind the handle of a computer. It computes on the CPU or on a GL thread.
 struct meniscus_computer : meniscus::c_api::Counted {
  public:
   explicit meniscus_computer(const meniscus_options& options) : options_(options) {
-    const auto make = [&] { return std::make_unique<meniscus::SurfaceComputer>(meniscus::c_api::request_of(options)); };
+    const auto create = [&] {
+      return std::make_unique<meniscus::SurfaceComputer>(meniscus::c_api::request_of(options));
+    };
     if (options.device == MENISCUS_CPU && !options.verify)
-      here_ = make();
+      cpu_computer_ = create();
     else
-      with_gl_.emplace(make);
+      gl_computer_.emplace(create);
   }
 
   std::unique_ptr<const meniscus::c_api::FinishedSurface> compute(const std::vector<meniscus::Ball>& balls) {
-    const std::lock_guard one_caller(calling_);
+    const std::lock_guard lock(mutex_);
     auto finished = std::make_unique<meniscus::c_api::FinishedSurface>();
     const auto run = [&](meniscus::SurfaceComputer& computer) {
       meniscus::c_api::run_on_threads(options_.threads, [&] { finished->surface = computer.compute(balls); });
       finished->device = computer.device();
     };
-    if (with_gl_)
-      with_gl_->run(run);
+    if (gl_computer_)
+      gl_computer_->run(run);
     else
-      run(*here_);
+      run(*cpu_computer_);
     require_closed(finished->surface);
-    finished->kind = options_.kind;
+    finished->kind = meniscus::c_api::kind_of(options_.kind);
     finished->probe_radius = options_.kind == MENISCUS_VDW ? 0.0 : options_.probe_radius;
     finished->threads = options_.threads;
     return finished;
@@ -94,9 +98,9 @@ struct meniscus_computer : meniscus::c_api::Counted {
 
  private:
   const meniscus_options options_;
-  std::mutex calling_;
-  std::unique_ptr<meniscus::SurfaceComputer> here_;
-  std::optional<meniscus::c_api::OnGlThread<meniscus::SurfaceComputer>> with_gl_;
+  std::mutex mutex_;
+  std::unique_ptr<meniscus::SurfaceComputer> cpu_computer_;
+  std::optional<meniscus::c_api::OnGlThread<meniscus::SurfaceComputer>> gl_computer_;
 };
 
 meniscus_status meniscus_default_options(meniscus_options* options) {
@@ -134,7 +138,7 @@ meniscus_status meniscus_recompute(meniscus_computer* computer, const meniscus_a
     require(surface, "surface");
     require(*surface, "*surface");
     auto finished = computer->compute(read_atoms(atoms));
-    if ((*surface)->held_by_one()) {
+    if ((*surface)->has_one_reference()) {
       (*surface)->finished = std::move(finished);
       return;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the work of a GL context on one thread, one piece at a time.
-#include "exporters/bindings/c/gl_thread.h"
+// Runs work on the thread of a GL context.
+#include "exporters/bindings/c/c_devices.h"
 
 #include <atomic>
 #include <condition_variable>
@@ -16,9 +16,11 @@
 namespace meniscus::c_api {
 namespace {
 
-/// The process whose GL driver this is; 0: none yet. That a child has a dead one is a fact about the process.
+/// The process that used GL first; 0: GL was not used. A child has the number of its parent, whose driver does not work
+/// in the child.
 std::atomic<pid_t> process_of_driver{0};
 
+/// Returns the number of this process. Throws GpuError if GL was used before fork().
 pid_t claim_driver() {
   const pid_t self = ::getpid();
   pid_t owner = 0;
@@ -30,6 +32,7 @@ pid_t claim_driver() {
 
 }  // namespace
 
+/// The thread and the function that it runs.
 struct GlThread::Worker {
   Worker() : thread([this] { loop(); }) {}
   ~Worker() {
@@ -41,10 +44,10 @@ struct GlThread::Worker {
     thread.join();
   }
 
-  void run(const std::function<void()>& wanted) {
-    const std::lock_guard one_caller(callers);
+  void run(const std::function<void()>& function) {
+    const std::lock_guard one_call(calls);
     std::unique_lock lock(mutex);
-    work = &wanted;
+    work = &function;
     changed.notify_all();
     changed.wait(lock, [&] { return !work; });
     if (error) std::rethrow_exception(std::exchange(error, nullptr));
@@ -69,7 +72,7 @@ struct GlThread::Worker {
     }
   }
 
-  std::mutex callers;  // one at a time
+  std::mutex calls;
   std::mutex mutex;
   std::condition_variable changed;
   const std::function<void()>* work = nullptr;
@@ -81,7 +84,7 @@ struct GlThread::Worker {
 GlThread::GlThread() : process_(claim_driver()), worker_(std::make_unique<Worker>()) {}
 
 GlThread::~GlThread() {
-  // A thread of the parent that waits on the condition would be waited for here.
+  // In a child process the thread does not exist, so that the destructor of the worker would wait forever.
   if (!alive()) static_cast<void>(worker_.release());
 }
 

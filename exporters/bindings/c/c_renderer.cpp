@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ray casts pictures on the CPU, or on GL in a context of its own.
-#include "exporters/bindings/c/renderer.h"
+// Draws pictures of computed surfaces, on the CPU or on a GL thread, and returns the text of pages.
+#include "exporters/bindings/c/c_renderer.h"
 
 #include <string_view>
 
@@ -8,9 +8,9 @@
 #include "core/properties/properties.h"
 #include "core/render/look.h"
 #include "core/scene/scene_lengths.h"
-#include "exporters/bindings/c/atom_colors.h"
-#include "exporters/bindings/c/scene.h"
-#include "exporters/bindings/c/surface.h"
+#include "exporters/bindings/c/c_atoms.h"
+#include "exporters/bindings/c/c_scene.h"
+#include "exporters/bindings/c/c_surface.h"
 
 namespace meniscus::c_api {
 namespace {
@@ -27,6 +27,7 @@ Projection projection_of(std::int32_t word) {
   return word == MENISCUS_PERSPECTIVE ? Projection::perspective : Projection::orthographic;
 }
 
+/// Returns the camera of a caller. Refuses an impossible camera.
 Camera camera_from(const meniscus_camera* given) {
   const meniscus_camera from = read_struct(given, meniscus_camera{}, "meniscus_camera");
   require_zero(from.reserved, "meniscus_camera.reserved");
@@ -54,7 +55,7 @@ meniscus_camera struct_of(const Camera& camera) {
   return result;
 }
 
-/// Refuses what a picture of a caller's surface would leave out of a scene.
+/// Refuses a scene with properties that a picture of a computed surface does not have.
 void check_of_surface(const Scene& scene) {
   for (const Property* property : properties())
     if (is_scene_value(*property) && !is_of_surface(*property) && !value_texts(scene, *property).empty())
@@ -85,14 +86,14 @@ SurfacePicture surface_picture(const meniscus_surface* surface, const meniscus_s
                                const meniscus_camera* camera, const float* atom_colors) {
   require(surface, "surface");
   if (scene) require(scene, "scene");
-  const meniscus_scene usual;
-  SurfacePicture wanted{completed(scene ? *scene : usual), {}, {}};
-  check_of_surface(wanted.scene);
+  const meniscus_scene defaults;
+  SurfacePicture picture{completed(scene ? *scene : defaults), {}, {}};
+  check_of_surface(picture.scene);
   const std::vector<Ball>& atoms = surface->finished->surface.atoms;
-  wanted.camera = camera ? camera_from(camera)
-                         : frame_camera(atoms, wanted.scene.picture.aspect(), wanted.scene.picture.projection);
-  wanted.coloring = coloring_for(wanted.scene, atom_colors, atoms.size());
-  return wanted;
+  picture.camera = camera ? camera_from(camera)
+                          : frame_camera(atoms, picture.scene.picture.aspect(), picture.scene.picture.projection);
+  picture.coloring = coloring_for(picture.scene, atom_colors, atoms.size());
+  return picture;
 }
 
 }  // namespace meniscus::c_api
@@ -129,15 +130,29 @@ meniscus_status meniscus_render(meniscus_renderer* renderer, const meniscus_surf
   using namespace meniscus::c_api;
   return guarded([&] {
     require(renderer, "renderer");
-    const SurfacePicture wanted = surface_picture(surface, scene, camera, atom_colors);
-    require_room(wanted.scene, rgba, rgba_size);
+    const SurfacePicture picture = surface_picture(surface, scene, camera, atom_colors);
+    require_room(picture.scene, rgba, rgba_size);
     const FinishedSurface& finished = *surface->finished;
     meniscus::Framebuffer drawn;
-    renderer->run([&](meniscus::SurfaceRenderer& draws, const meniscus::EglContext*) {
+    renderer->run([&](meniscus::SurfaceRenderer& surface_renderer, const meniscus::EglContext*) {
       run_on_threads(finished.threads, [&] {
-        drawn = draws.render(finished.surface, wanted.coloring, wanted.camera, settings_of(wanted.scene));
+        drawn = surface_renderer.render(finished.surface, picture.coloring, picture.camera, settings_of(picture.scene));
       });
     });
-    write_pixels(drawn, wanted.scene, rgba);
+    write_pixels(drawn, picture.scene, rgba);
+  });
+}
+
+meniscus_page* meniscus_page_retain(meniscus_page* page) { return meniscus::c_api::retain(page); }
+void meniscus_page_release(meniscus_page* page) { meniscus::c_api::release(page); }
+
+meniscus_status meniscus_page_html(const meniscus_page* page, const char** html, std::size_t* size) {
+  using namespace meniscus::c_api;
+  return guarded([&] {
+    require(page, "page");
+    require(html, "html");
+    if (size) require(size, "size");
+    *html = page->html.c_str();
+    if (size) *size = page->html.size();
   });
 }

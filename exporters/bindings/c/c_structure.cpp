@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Molecules of the C interface: their atoms as columns, without a copy.
+// Molecules from files: their atoms as tables without a copy.
 #include <algorithm>
 #include <cstring>
 #include <memory>
@@ -9,20 +9,16 @@
 
 #include "core/structure/element_tables.h"
 #include "core/structure/structure.h"
-#include "exporters/bindings/c/counted.h"
-#include "exporters/bindings/c/guard.h"
-#include "exporters/bindings/c/read_file.h"
-#include "exporters/bindings/c/structure.h"
-#include "exporters/bindings/c/structure_colors.h"
-#include "exporters/bindings/c/caller_memory.h"
+#include "exporters/bindings/c/c_calls.h"
+#include "exporters/bindings/c/c_structure.h"
 
 namespace meniscus::c_api {
 namespace {
 
-/// Texts of one length, each ended and filled with zeros.
+/// A table of texts, which are padded with zeros to the same length, with at least one zero.
 class TextColumn {
  public:
-  /// text(n): of row n
+  /// text: a function that returns the text of row n.
   template <typename Text>
   TextColumn(std::size_t count, const Text& text) : count_(count) {
     for (std::size_t n = 0; n < count; ++n) stride_ = std::max(stride_, text(n).size() + 1);
@@ -36,6 +32,7 @@ class TextColumn {
   std::vector<char> bytes_;
 };
 
+/// Returns a view of a field of the atoms.
 template <typename Field>
 meniscus_array column(const std::vector<Atom>& atoms, Field Atom::*field) {
   return {&(atoms.front().*field), atoms.size(), sizeof(Atom)};
@@ -48,6 +45,7 @@ TextColumn text_column(const std::vector<Atom>& atoms, std::string Atom::*field)
 }  // namespace
 }  // namespace meniscus::c_api
 
+/// The object behind the handle of a molecule.
 struct meniscus_structure : meniscus::c_api::Counted {
   explicit meniscus_structure(meniscus::Structure from)
       : structure(std::move(from)),
@@ -70,9 +68,9 @@ struct meniscus_structure : meniscus::c_api::Counted {
 namespace meniscus::c_api {
 namespace {
 
-meniscus_array find_column(const meniscus_structure& of, std::int32_t wanted) {
+meniscus_array find_column(const meniscus_structure& of, std::int32_t table) {
   const std::vector<Atom>& atoms = of.structure.atoms;
-  switch (wanted) {
+  switch (table) {
     case MENISCUS_STRUCTURE_POSITIONS:
       return column(atoms, &Atom::position);
     case MENISCUS_STRUCTURE_RADII:
@@ -114,7 +112,7 @@ meniscus_array find_column(const meniscus_structure& of, std::int32_t wanted) {
     case MENISCUS_STRUCTURE_HYDROPATHIES:
       return {of.hydropathies.data(), of.hydropathies.size(), sizeof(double)};
     default:
-      refuse(MENISCUS_USAGE, "a structure has no table {}", wanted);
+      refuse(MENISCUS_USAGE, "a structure has no table {}", table);
   }
 }
 

@@ -1,21 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks every number before anything is computed from it.
-#include "exporters/bindings/c/atoms.h"
+// Checks the atoms that callers pass, and looks up van der Waals radii by element.
+#include "exporters/bindings/c/c_atoms.h"
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 
 #include "core/base/parse_number.h"
-#include "exporters/bindings/c/caller_memory.h"
+#include "core/structure/element_tables.h"
+#include "exporters/bindings/c/c_calls.h"
 
 namespace meniscus::c_api {
 namespace {
 
-/// Borders are counted in 31 bits, and an atom has up to a dozen.
+/// The largest number of atoms. An atom has up to a dozen borders, which have indices of 31 bits.
 constexpr std::size_t kMostAtoms = std::size_t{1} << 27;
 
-/// Rows of `width` numbers, of either type, with a stride.
+/// The largest atomic number.
+constexpr std::int32_t kHeaviest = 118;
+
+/// An array of a caller: rows of `width` floats or doubles.
 class Numbers {
  public:
   Numbers(const void* data, std::size_t count, std::size_t width, std::size_t stride, std::int32_t type,
@@ -80,4 +84,41 @@ std::vector<Ball> read_atoms(const meniscus_atoms* given) {
   return balls;
 }
 
+Coloring coloring_of(const glm::vec3& color, const float* of_atoms, std::size_t atoms) {
+  for (int n = 0; n < 3; ++n) check_range("color", color[n], 0, 1);
+  Coloring coloring;
+  coloring.atom.assign(atoms, color);
+  if (!of_atoms) return coloring;
+  require_numbers(of_atoms, atoms, 3, "atom_colors");
+  for (std::size_t n = 0; n < 3 * atoms; ++n) {
+    const float channel = of_atoms[n];
+    if (!(channel >= 0.0f && channel <= 1.0f))
+      refuse(MENISCUS_INPUT, "channel {} of the colour of atom {} is {}; it has to be 0 to 1", n % 3, n / 3, channel);
+    coloring.atom[n / 3][static_cast<int>(n % 3)] = channel;
+  }
+  return coloring;
+}
+
 }  // namespace meniscus::c_api
+
+meniscus_status meniscus_element_of_symbol(const char* symbol, std::int32_t* element) {
+  using namespace meniscus;
+  return c_api::guarded([&] {
+    c_api::require(symbol, "symbol");
+    c_api::require(element, "element");
+    *element = element_of_symbol(symbol);
+  });
+}
+
+meniscus_status meniscus_element_radius(std::int32_t element, double* radius, const char** source) {
+  using namespace meniscus;
+  return c_api::guarded([&] {
+    c_api::require(radius, "radius");
+    if (source) c_api::require(source, "source");
+    if (element < 0 || element > c_api::kHeaviest)
+      c_api::refuse(MENISCUS_INPUT, "there is no element {}; atomic numbers go to {}", element, c_api::kHeaviest);
+    const ElementRadius found = bondi_radius(static_cast<std::uint8_t>(element));
+    *radius = found.radius;
+    if (source) *source = source_name(found.source);
+  });
+}

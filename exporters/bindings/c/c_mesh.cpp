@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes triangle meshes of a surface, hands out their tables, and writes them as files.
-#include "exporters/bindings/c/mesh.h"
-
+// Makes triangle meshes of a surface, returns their tables, and writes them to files.
 #include <memory>
 #include <string>
 #include <string_view>
@@ -12,15 +10,23 @@
 #include "core/mesh/mesh_colors.h"
 #include "core/mesh/mesh_objects.h"
 #include "core/mesh/tessellate.h"
+#include "core/mesh/triangle_mesh.h"
 #include "core/scene/outputs.h"
 #include "core/scene/surface_request.h"
 #include "core/structure/structure.h"
-#include "exporters/bindings/c/atom_colors.h"
-#include "exporters/bindings/c/device.h"
-#include "exporters/bindings/c/guard.h"
-#include "exporters/bindings/c/caller_memory.h"
+#include "exporters/bindings/c/c_atoms.h"
+#include "exporters/bindings/c/c_devices.h"
+#include "exporters/bindings/c/c_calls.h"
+#include "exporters/bindings/c/c_surface.h"
 #include "exporters/mesh_files/file_object.h"
 #include "exporters/mesh_files/mesh_formats.h"
+
+/// The object behind the handle of a mesh.
+struct meniscus_mesh : meniscus::c_api::Counted {
+  std::shared_ptr<const meniscus::c_api::FinishedSurface> surface;
+  meniscus::MeshFineness fineness;
+  meniscus::FineMesh fine_mesh;
+};
 
 namespace meniscus::c_api {
 
@@ -29,8 +35,9 @@ namespace {
 const meniscus_mesh_options kDefaults{sizeof(meniscus_mesh_options), MENISCUS_MESH_BY_PATCH, 1, MeshOutput{}.tolerance,
                                       MeshOutput{}.density};
 
+/// Returns the options of a caller, or the defaults for NULL. Refuses impossible options.
 meniscus_mesh_options checked(const meniscus_mesh_options* given) {
-  const meniscus_mesh_options options = given ? read_struct(given, kDefaults, "meniscus_mesh_options") : kDefaults;
+  const meniscus_mesh_options options = read_options(given, kDefaults, "meniscus_mesh_options");
   switch (options.method) {
     case MENISCUS_MESH_BY_PATCH:
     case MENISCUS_MESH_EVEN:
@@ -53,20 +60,20 @@ meniscus_mesh_options checked(const meniscus_mesh_options* given) {
   return options;
 }
 
-MeshFineness fineness_of(const meniscus_mesh_options& wanted) {
-  return {wanted.tolerance, {}, wanted.density, wanted.method == MENISCUS_MESH_EVEN};
+MeshFineness fineness_of(const meniscus_mesh_options& options) {
+  return {options.tolerance, {}, options.density, options.method == MENISCUS_MESH_EVEN};
 }
 
-FineMesh make_mesh(const Surface& surface, const meniscus_mesh_options& wanted, const MeshFineness& fineness) {
-  if (wanted.method != MENISCUS_MESH_BY_PATCH || wanted.split_colors != 0) return fine_mesh(surface, fineness);
-  FineMesh made{tessellate(surface, {wanted.tolerance, false}), {}, {}};
-  made.vertex_face = vertex_faces(made.mesh);
-  made.vertex_atom = vertex_atoms(made.mesh);
-  return made;
+FineMesh make_mesh(const Surface& surface, const meniscus_mesh_options& options, const MeshFineness& fineness) {
+  if (options.method != MENISCUS_MESH_BY_PATCH || options.split_colors != 0) return fine_mesh(surface, fineness);
+  FineMesh result{tessellate(surface, {options.tolerance, false}), {}, {}};
+  result.vertex_face = vertex_faces(result.mesh);
+  result.vertex_atom = vertex_atoms(result.mesh);
+  return result;
 }
 
-meniscus_array find_table(const meniscus_mesh& made, std::int32_t table) {
-  const TriangleMesh& mesh = made.made.mesh;
+meniscus_array find_table(const FineMesh& fine_mesh, std::int32_t table) {
+  const TriangleMesh& mesh = fine_mesh.mesh;
   switch (table) {
     case MENISCUS_MESH_POSITIONS:
       return table_of(mesh.positions);
@@ -89,7 +96,7 @@ meniscus_array find_table(const meniscus_mesh& made, std::int32_t table) {
     case MENISCUS_MESH_SHARP_NORMALS:
       return table_of(mesh.sharp_corner_normals);
     case MENISCUS_MESH_VERTEX_ATOMS:
-      return table_of(made.made.vertex_atom);
+      return table_of(fine_mesh.vertex_atom);
     default:
       refuse(MENISCUS_USAGE, "a mesh has no table {}", table);
   }
@@ -114,22 +121,16 @@ const MeshFormat& format_of(const meniscus_mesh_file& file, const char* path) {
 }
 
 meniscus_mesh_file checked(const meniscus_mesh_file* given) {
-  meniscus_mesh_file file = given ? read_struct(given, kFileDefaults, "meniscus_mesh_file") : kFileDefaults;
+  meniscus_mesh_file file = read_options(given, kFileDefaults, "meniscus_mesh_file");
   check_range("scale", file.scale, kSmallestFileScale, kLargestFileScale);
   if (!file.attributes) file.attributes = kFileDefaults.attributes;
   return file;
 }
 
-SurfaceKind kind_of(const FinishedSurface& finished) {
-  return finished.kind == MENISCUS_SES   ? SurfaceKind::ses
-         : finished.kind == MENISCUS_SAS ? SurfaceKind::sas
-                                         : SurfaceKind::vdw;
-}
-
-/// Balls of an accessible surface are larger by the probe. Atoms are numbered as the caller's arrays have them, their
-/// residues, too, from 1.
+/// Returns the atoms of a surface with their van der Waals radii; the balls of a sas surface are larger by the probe.
+/// The indices of atoms are those of the caller's arrays; each atom is a residue, with a number from 1.
 std::vector<Atom> bare_atoms(const FinishedSurface& finished) {
-  const double probe = finished.kind == MENISCUS_SAS ? finished.probe_radius : 0.0;
+  const double probe = finished.kind == SurfaceKind::sas ? finished.probe_radius : 0.0;
   std::vector<Atom> atoms;
   for (const Ball& ball : finished.surface.atoms) {
     Atom& atom = atoms.emplace_back();
@@ -142,7 +143,7 @@ std::vector<Atom> bare_atoms(const FinishedSurface& finished) {
 }
 
 void save(const meniscus_mesh& mesh, const char* path, const meniscus_mesh_file& file) {
-  const FinishedSurface& finished = *mesh.of;
+  const FinishedSurface& finished = *mesh.surface;
   const MeshFormat& format = format_of(file, path);
   const std::vector<std::string> numbers = parse_vertex_numbers(file.attributes, AtomSource::bare);
   const std::vector<Atom> atoms = bare_atoms(finished);
@@ -151,8 +152,8 @@ void save(const meniscus_mesh& mesh, const char* path, const meniscus_mesh_file&
   for (std::uint32_t a = 0; a < places.size(); ++a) places[a] = a;
   MeshFileMaker maker(
       {mesh.fineness, format.numbers ? numbers : std::vector<std::string>{}, file.scale, atoms, {}, format.solid},
-      about_line(kind_word(kind_of(finished)), file.scale, mesh.fineness));
-  maker.add({"surface", finished.surface, coloring, places}, mesh.made);
+      about_line(kind_word(finished.kind), file.scale, mesh.fineness));
+  maker.add({"surface", finished.surface, coloring, places}, mesh.fine_mesh);
   write_mesh_file(format, path, file.replace ? Existing::replace : Existing::refuse, maker.take());
 }
 
@@ -171,12 +172,14 @@ meniscus_status meniscus_surface_mesh(const meniscus_surface* surface, const men
   return guarded([&] {
     require(surface, "surface");
     require(mesh, "mesh");
-    const meniscus_mesh_options wanted = checked(options);
-    auto made = std::make_unique<meniscus_mesh>();
-    made->of = surface->finished;
-    made->fineness = fineness_of(wanted);
-    run_on_threads(made->of->threads, [&] { made->made = make_mesh(made->of->surface, wanted, made->fineness); });
-    *mesh = made.release();
+    const meniscus_mesh_options complete = checked(options);
+    auto result = std::make_unique<meniscus_mesh>();
+    const FinishedSurface& finished = *surface->finished;
+    result->surface = surface->finished;
+    result->fineness = fineness_of(complete);
+    run_on_threads(finished.threads,
+                   [&] { result->fine_mesh = make_mesh(finished.surface, complete, result->fineness); });
+    *mesh = result.release();
   });
 }
 
@@ -188,7 +191,7 @@ meniscus_status meniscus_mesh_table(const meniscus_mesh* mesh, meniscus_mesh_tab
   return guarded([&] {
     require(mesh, "mesh");
     require(array, "array");
-    *array = find_table(*mesh, table);
+    *array = find_table(mesh->fine_mesh, table);
   });
 }
 
@@ -202,7 +205,7 @@ meniscus_status meniscus_mesh_save(const meniscus_mesh* mesh, const char* path, 
   return guarded([&] {
     require(mesh, "mesh");
     require(path, "path");
-    const meniscus_mesh_file wanted = checked(file);
-    run_on_threads(mesh->of->threads, [&] { save(*mesh, path, wanted); });
+    const meniscus_mesh_file complete = checked(file);
+    run_on_threads(mesh->surface->threads, [&] { save(*mesh, path, complete); });
   });
 }

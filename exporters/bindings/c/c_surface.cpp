@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads a surface: its numbers, its tables without a copy, and distances to it.
-#include "exporters/bindings/c/surface.h"
+// Reads a surface: its numbers, tables, distances and gradients.
+#include "exporters/bindings/c/c_surface.h"
 
 #include <cmath>
 #include <cstddef>
@@ -11,27 +11,26 @@
 
 #include "core/base/error.h"
 #include "core/surface/gradients.h"
-#include "exporters/bindings/c/device.h"
-#include "exporters/bindings/c/guard.h"
-#include "exporters/bindings/c/caller_memory.h"
+#include "exporters/bindings/c/c_devices.h"
+#include "exporters/bindings/c/c_calls.h"
 
 namespace meniscus::c_api {
 
 const AtomAreas& FinishedSurface::areas() const {
-  const std::lock_guard lock(asking_);
+  const std::lock_guard lock(mutex_);
   if (!areas_) run_on_threads(threads, [&] { areas_ = atom_areas(surface); });
   return *areas_;
 }
 
 const SurfaceDistance& FinishedSurface::distance() const {
-  const std::lock_guard lock(asking_);
+  const std::lock_guard lock(mutex_);
   if (!distance_) distance_.emplace(surface);
   return *distance_;
 }
 
 namespace {
 
-// The rows that callers see are those of the library itself; what is no longer equal no longer compiles.
+// The rows of meniscus.h are those of core/surface/primitives.h. These assertions fail if their layout differs.
 #define MENISCUS_SAME(ours, our_field, theirs, their_field)                   \
   static_assert(offsetof(ours, our_field) == offsetof(theirs, their_field) && \
                     sizeof(ours::our_field) == sizeof(theirs::their_field),   \
@@ -96,7 +95,7 @@ meniscus_array find_table(const FinishedSurface& finished, std::int32_t table) {
     case MENISCUS_ATOM_AREAS:
       return table_of(finished.areas().surface);
     case MENISCUS_ATOM_SAS_AREAS:
-      if (finished.kind != MENISCUS_SES)
+      if (finished.kind != SurfaceKind::ses)
         refuse(MENISCUS_USAGE, "MENISCUS_ATOM_SAS_AREAS are of MENISCUS_SES surfaces; see MENISCUS_ATOM_AREAS");
       return table_of(finished.areas().accessible);
     case MENISCUS_ATOMS:
@@ -180,7 +179,7 @@ void find_distances(const FinishedSurface& finished, std::size_t count, const do
 
 Gradient find_gradient(const FinishedSurface& finished, std::int32_t quantity, const double* given) {
   const Surface& s = finished.surface;
-  const bool is_ses = finished.kind == MENISCUS_SES;
+  const bool is_ses = finished.kind == SurfaceKind::ses;
   const bool by_atom = quantity == (is_ses ? MENISCUS_GRADIENT_SAS_AREA : MENISCUS_GRADIENT_AREA);
   if (quantity < MENISCUS_GRADIENT_AREA || quantity > MENISCUS_GRADIENT_SAS_VOLUME)
     refuse(MENISCUS_USAGE, "a surface has no gradient {}", quantity);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sets and gets the values of scenes by their keys in the table of properties.
-#include "exporters/bindings/c/scene.h"
+// Sets and returns the values of scenes by the names and keys of properties.
+#include "exporters/bindings/c/c_scene.h"
 
 #include <algorithm>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -10,12 +11,12 @@
 
 #include "core/base/message.h"
 #include "core/properties/properties.h"
-#include "exporters/bindings/c/caller_memory.h"
+#include "exporters/bindings/c/c_calls.h"
 
 namespace meniscus::c_api {
 namespace {
 
-/// Spells an option in messages as callers of meniscus_scene_set() and meniscus_read() do: "keep_water", "frames=all".
+/// Returns the spelling of an option in messages of the library, such as "keep_water" and "frames=all".
 std::string spelled(std::string_view option) {
   const std::size_t end = std::min(option.find(' '), option.size());
   const std::string name = "--" + std::string(option.substr(0, end));
@@ -27,6 +28,7 @@ std::string spelled(std::string_view option) {
 
 [[maybe_unused]] const bool kSpelled = (spell_options(spelled), true);
 
+/// Returns the property of a name or key. Refuses an unknown name.
 const Property& property_named(const char* name) {
   require(name, "name");
   try {
@@ -36,23 +38,26 @@ const Property& property_named(const char* name) {
   }
 }
 
-/// Named by its key such a flag has the meaning of scene files: true is the same as nothing.
-bool is_turned(const Property& property, const char* name) { return property.has(negated) && property.key == name; }
+/// Returns true if the value of a flag by this name is the opposite of the option: a key means the value of scene
+/// files, which for some flags is "true" by default.
+bool is_negated_key(const Property& property, const char* name) {
+  return property.has(negated) && property.key == name;
+}
 
-/// The text as set_value() takes it; nothing where it means the default.
-std::optional<std::string> wanted_text(const Property& property, const char* name, const char* text) {
+/// Returns a value as the text that set_value() takes; nothing if the text means the default.
+std::optional<std::string> value_text(const Property& property, const char* name, const char* text) {
   if (!text) return {};
   const bool is_true = std::string_view(text) == "true", is_false = std::string_view(text) == "false";
   if (property.type == ValueType::flag) {
     if (!is_true && !is_false) refuse(MENISCUS_USAGE, "{}: {} is neither true nor false", name, in_quotes(text));
-    if (is_false != is_turned(property, name)) return {};
+    if (is_false != is_negated_key(property, name)) return {};
     return "true";
   }
   if (property.has(value_optional) && is_false) return {};
   return property.has(value_optional) && is_true ? std::string() : std::string(text);
 }
 
-/// The scene with the default of one property.
+/// Returns a copy of a scene, in which one property has its default.
 Scene without(const Scene& scene, const Property& left_out) {
   Scene rest;
   for (const Property* property : properties()) {
@@ -63,27 +68,27 @@ Scene without(const Scene& scene, const Property& left_out) {
   return rest;
 }
 
-/// What the callers of scenes are told of each property; texts live as long as the library.
+/// The texts of a meniscus_property.
 struct PropertyTexts {
   std::string name, key, value, help, words, initial;
 };
 
+/// Returns the rows of meniscus_scene_properties(), which are never freed.
 const std::vector<meniscus_property>& property_rows() {
   static const std::vector<meniscus_property> rows = [] {
-    static std::vector<PropertyTexts> texts;
-    std::vector<const Property*> held;
-    for (const Property* property : properties())
-      if (is_scene_value(*property)) held.push_back(property);
-    for (const Property* property : held)
-      texts.push_back({value_name(*property), std::string(property->key), std::string(property->value),
-                       with_options(property->help), std::string(property->words), with_options(property->initial)});
-    std::vector<meniscus_property> made;
-    for (std::size_t n = 0; n < held.size(); ++n)
-      made.push_back({texts[n].name.c_str(), texts[n].key.c_str(), texts[n].value.c_str(), texts[n].help.c_str(),
-                      texts[n].words.c_str(), texts[n].initial.c_str(), held[n]->lowest, held[n]->highest,
-                      static_cast<meniscus_value_type>(held[n]->type), held[n]->has(repeatable) ? 1 : 0,
-                      is_of_surface(*held[n]) ? 1 : 0, 0});
-    return made;
+    static std::deque<PropertyTexts> texts;  // whose elements are not moved
+    std::vector<meniscus_property> result;
+    for (const Property* property : properties()) {
+      if (!is_scene_value(*property)) continue;
+      const PropertyTexts& text = texts.emplace_back(
+          PropertyTexts{value_name(*property), std::string(property->key), std::string(property->value),
+                        with_options(property->help), std::string(property->words), with_options(property->initial)});
+      result.push_back({text.name.c_str(), text.key.c_str(), text.value.c_str(), text.help.c_str(), text.words.c_str(),
+                        text.initial.c_str(), property->lowest, property->highest,
+                        static_cast<meniscus_value_type>(property->type), property->has(repeatable) ? 1 : 0,
+                        is_of_surface(*property) ? 1 : 0, 0});
+    }
+    return result;
   }();
   return rows;
 }
@@ -143,7 +148,7 @@ meniscus_status meniscus_scene_set(meniscus_scene* scene, const char* name, cons
   return guarded([&] {
     require(scene, "scene");
     const meniscus::Property& property = property_named(name);
-    const std::optional<std::string> text = wanted_text(property, name, value);
+    const std::optional<std::string> text = value_text(property, name, value);
     scene->change([&](meniscus::Scene& changed) {
       if (text)
         set_at(changed, property, {*text}, MENISCUS_USAGE, name);
@@ -160,9 +165,9 @@ meniscus_status meniscus_scene_get(const meniscus_scene* scene, const char* name
     require(value, "value");
     const meniscus::Property& property = property_named(name);
     std::vector<std::string> texts = value_texts(scene->copy(), property);
-    if (is_turned(property, name))
+    if (is_negated_key(property, name))
       for (std::string& text : texts) text = "false";
-    *value = n < texts.size() ? scene->kept(texts[n]) : nullptr;
+    *value = n < texts.size() ? scene->keep(texts[n]) : nullptr;
   });
 }
 

@@ -1,18 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads and writes scenes as JSON, and draws them as `meniscus render` does.
+// Scenes of molecules: reads and writes them as JSON, draws them as `meniscus render` does, and colours atoms by
+// schemes.
 #include "core/scene/scene_picture.h"
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "core/base/text.h"
 #include "core/base/text_file.h"
+#include "core/color/color_atoms.h"
+#include "core/color/color_schemes.h"
+#include "core/color/coloring.h"
 #include "core/mesh/check_by_mesh.h"
 #include "core/scene/scene_json.h"
 #include "core/scene/scene_paths.h"
-#include "exporters/bindings/c/renderer.h"
-#include "exporters/bindings/c/scene.h"
+#include "exporters/bindings/c/c_renderer.h"
+#include "exporters/bindings/c/c_scene.h"
+#include "exporters/bindings/c/c_structure.h"
 
 namespace meniscus::c_api {
 namespace {
@@ -24,7 +34,8 @@ bool names_file(const SceneSetting& setting, const std::string& text) {
   return type == ValueType::file || (type == ValueType::camera && !text.starts_with('{'));
 }
 
-/// trust: of a file; nothing: paths are those of the caller.
+/// Reads a scene from JSON. file: the path or name in messages. trust: the rules for paths in a file; none for a text
+/// of the caller, whose paths may lead anywhere.
 Scene scene_of(std::string_view json, const std::string& file, const std::optional<SceneTrust>& trust) {
   Scene scene;
   for (SceneSetting& setting : parse_scene(json, file)) {
@@ -44,6 +55,17 @@ Scene drawable(const meniscus_scene& scene) {
   if (file == "-") file = "./-";
   drawn.molecule.surface.check = check_by_mesh;
   return drawn;
+}
+
+std::vector<glm::vec3> structure_colors(const Structure& structure, std::string_view scheme) {
+  using By = ColorScheme::By;
+  constexpr std::array kOfMore{By::kind,          By::component, By::buried,       By::rmsf,
+                               By::accessibility, By::file,      By::conservation, By::lipophilicity};
+  const std::optional<ColorScheme> by = parse_color_scheme(scheme);
+  if (!by) refuse(MENISCUS_USAGE, "scheme: {} is not one of {}", in_quotes(scheme), color_scheme_words());
+  if (std::ranges::find(kOfMore, by->by) != kOfMore.end())
+    refuse(MENISCUS_USAGE, "scheme: {} needs more than the atoms of a file; a scene has it", in_quotes(scheme));
+  return color_atoms(structure, *by).atom;
 }
 
 }  // namespace meniscus::c_api
@@ -77,7 +99,7 @@ meniscus_status meniscus_scene_json(const meniscus_scene* scene, const char* fol
     require(json, "json");
     const meniscus::Scene copy = scene->copy();
     if (const std::string fault = meniscus::scene_fault(copy); !fault.empty()) throw meniscus::RequestError(fault);
-    *json = scene->kept(meniscus::scene_text(copy, folder && *folder ? folder : "."));
+    *json = scene->keep(meniscus::scene_text(copy, folder && *folder ? folder : "."));
   });
 }
 
@@ -87,17 +109,17 @@ meniscus_status meniscus_render_scene(meniscus_renderer* renderer, const meniscu
   return guarded([&] {
     require(renderer, "renderer");
     require(scene, "scene");
-    const meniscus::Scene wanted = drawable(*scene);
-    require_room(wanted, rgba, rgba_size);
+    const meniscus::Scene complete = drawable(*scene);
+    require_room(complete, rgba, rgba_size);
     meniscus::Framebuffer drawn;
     renderer->run([&](meniscus::SurfaceRenderer& draws, const meniscus::EglContext* context) {
-      run_on_threads(wanted.molecule.surface.threads, [&] {
-        // Volume maps are looked up point by point on the CPU.
-        const bool on_cpu = context && meniscus::picture_request(wanted).cpu;
-        drawn = on_cpu ? scene_picture(wanted, *meniscus::make_cpu_renderer(), nullptr)
-                       : scene_picture(wanted, draws, context);
+      run_on_threads(complete.molecule.surface.threads, [&] {
+        // Volume maps are sampled on the CPU only.
+        const bool on_cpu = context && meniscus::picture_request(complete).cpu;
+        drawn = on_cpu ? scene_picture(complete, *meniscus::make_cpu_renderer(), nullptr)
+                       : scene_picture(complete, draws, context);
       });
     });
-    write_pixels(drawn, wanted, rgba);
+    write_pixels(drawn, complete, rgba);
   });
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Maps exceptions to codes, and keeps the last message of each thread.
-#include "exporters/bindings/c/guard.h"
+// Maps exceptions to statuses, stores the last message of each thread, and checks arrays of callers.
+#include "exporters/bindings/c/c_calls.h"
 
 #include <algorithm>
 #include <array>
@@ -10,15 +10,15 @@
 #include <system_error>
 
 #include "core/base/error.h"
-#include "core/base/version.h"
+#include "core/properties/properties.h"
 
 namespace meniscus::c_api {
 namespace {
 
-/// In place, so that a text can be kept when there is no memory, and nothing has to end with its thread.
+/// The last message of this thread. It has a fixed size, because it is also written if memory does not suffice.
 thread_local std::array<char, 4096> last_error{};
 
-/// Cut at the start of a character, where it is too long.
+/// Stores a message. A message that is too long is cut between two characters.
 void keep(std::string_view text) noexcept {
   std::size_t length = std::min(text.size(), last_error.size() - 1);
   if (length < text.size())
@@ -64,6 +64,39 @@ meniscus_status report(const std::exception_ptr& error) noexcept {
   } catch (...) {
     return kept(MENISCUS_INTERNAL, "an exception without a text");
   }
+}
+
+std::size_t require_rows(const void* data, const CallerRows& rows, const char* name) {
+  const std::size_t row = rows.width * rows.number, stride = rows.stride == 0 ? row : rows.stride;
+  if (rows.count == 0) return stride;
+  require(data, name);
+  const auto address = reinterpret_cast<std::uintptr_t>(data);
+  if (address % rows.number != 0)
+    refuse(MENISCUS_USAGE, "{} is not aligned: its address is not a multiple of {}", name, rows.number);
+  if (stride > kMostBytes)
+    refuse(MENISCUS_USAGE, "{}_stride is {} bytes, which is -{} with a sign; rows must ascend", name, stride,
+           ~stride + 1);
+  if (stride < row || stride % rows.number != 0)
+    refuse(MENISCUS_USAGE, "{}_stride is {} bytes; rows of {} numbers of {} bytes need a multiple of {}, at least {}",
+           name, stride, rows.width, rows.number, rows.number, row);
+  const std::size_t room = std::min<std::size_t>(kMostBytes, std::numeric_limits<std::uintptr_t>::max() - address);
+  if (stride > room / rows.count)
+    refuse(MENISCUS_USAGE, "{}: {} rows, {} bytes from one to the next, do not fit into memory", name, rows.count,
+           stride);
+  return stride;
+}
+
+void require_apart(const void* written, std::size_t written_bytes, const char* written_name, const void* read,
+                   std::size_t read_bytes, const char* read_name) {
+  const auto a = reinterpret_cast<std::uintptr_t>(written), b = reinterpret_cast<std::uintptr_t>(read);
+  if (a < b + read_bytes && b < a + written_bytes)
+    refuse(MENISCUS_USAGE, "{} and {} overlap; what is written needs room of its own", written_name, read_name);
+}
+
+void check_number(std::string_view key, const char* name, double value, const char* unit) {
+  const Property& property = property_of(key);
+  if (!property.is_within(value))
+    refuse(MENISCUS_INPUT, "{} is {} {}; it has to be {} to {}", name, value, unit, property.lowest, property.highest);
 }
 
 }  // namespace meniscus::c_api

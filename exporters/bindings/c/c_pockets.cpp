@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds pockets between the atoms of a surface, and hands them out as tables.
+// Finds the pockets of a surface, and returns them as tables.
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -7,13 +7,11 @@
 
 #include "core/pockets/pockets.h"
 #include "core/surface/compute_surface.h"
-#include "exporters/bindings/c/counted.h"
-#include "exporters/bindings/c/device.h"
-#include "exporters/bindings/c/guard.h"
-#include "exporters/bindings/c/caller_memory.h"
-#include "exporters/bindings/c/surface.h"
+#include "exporters/bindings/c/c_calls.h"
+#include "exporters/bindings/c/c_devices.h"
+#include "exporters/bindings/c/c_surface.h"
 
-/// What is behind the handle of pockets: their rows, one after the other.
+/// The object behind the handle of pockets: the tables, with the rows of one pocket after the other.
 struct meniscus_pockets : meniscus::c_api::Counted {
   std::vector<meniscus_pocket> pockets;
   std::vector<double> mouths;
@@ -27,10 +25,11 @@ namespace {
 const meniscus_pocket_options kDefaults{sizeof(meniscus_pocket_options), PocketRequest{}.large_probe_radius,
                                         PocketRequest{}.trim, PocketRequest{}.min_volume, PocketRequest{}.tolerance};
 
+/// Returns the request for pockets. Refuses a surface without a probe, and impossible options.
 PocketRequest request_of(const FinishedSurface& finished, const meniscus_pocket_options* given) {
-  if (finished.kind != MENISCUS_SES || !(finished.probe_radius > 0.0))
+  if (finished.kind != SurfaceKind::ses || !(finished.probe_radius > 0.0))
     refuse(MENISCUS_USAGE, "pockets need a probe above 0 and a surface of MENISCUS_SES");
-  const meniscus_pocket_options options = given ? read_struct(given, kDefaults, "meniscus_pocket_options") : kDefaults;
+  const meniscus_pocket_options options = read_options(given, kDefaults, "meniscus_pocket_options");
   check_number("pockets.large_probe", "large_probe_radius", options.large_probe_radius, "Å");
   check_number("pockets.trim", "trim", options.trim, "Å");
   check_number("pockets.min_volume", "min_volume", options.min_volume, "Å³");
@@ -41,6 +40,7 @@ PocketRequest request_of(const FinishedSurface& finished, const meniscus_pocket_
   return {finished.probe_radius, options.large_probe_radius, options.trim, options.mouth_tolerance, options.min_volume};
 }
 
+/// Appends rows, and returns the index of the first one.
 template <typename Row>
 std::uint32_t append(std::vector<Row>& all, const std::vector<Row>& more) {
   const auto first = static_cast<std::uint32_t>(all.size());

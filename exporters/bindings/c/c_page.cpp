@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes pages in which readers turn a scene or a surface.
-#include "exporters/bindings/c/page.h"
+// Makes web pages of scenes and surfaces.
+#include "exporters/bindings/c/c_renderer.h"
 
 #include <string>
 
-#include "exporters/bindings/c/renderer.h"
-#include "exporters/bindings/c/scene.h"
-#include "exporters/bindings/c/structure.h"
-#include "exporters/bindings/c/surface.h"
+#include "exporters/bindings/c/c_scene.h"
+#include "exporters/bindings/c/c_structure.h"
+#include "exporters/bindings/c/c_surface.h"
 #include "exporters/page/scene_page.h"
 
 meniscus_status meniscus_scene_page(const meniscus_scene* scene, meniscus_page** page) {
@@ -15,9 +14,9 @@ meniscus_status meniscus_scene_page(const meniscus_scene* scene, meniscus_page**
   return guarded([&] {
     require(scene, "scene");
     require(page, "page");
-    const meniscus::Scene wanted = drawable(*scene);
+    const meniscus::Scene complete = drawable(*scene);
     std::string html;
-    run_on_threads(wanted.molecule.surface.threads, [&] { html = meniscus::page::scene_page(wanted); });
+    run_on_threads(complete.molecule.surface.threads, [&] { html = meniscus::page::scene_page(complete); });
     *page = new meniscus_page(std::move(html));
   });
 }
@@ -28,7 +27,7 @@ meniscus_status meniscus_surface_page(const meniscus_surface* surface, const men
   using namespace meniscus::c_api;
   return guarded([&] {
     require(page, "page");
-    const SurfacePicture wanted = surface_picture(surface, scene, camera, atom_colors);
+    const SurfacePicture picture = surface_picture(surface, scene, camera, atom_colors);
     const FinishedSurface& finished = *surface->finished;
     const meniscus::Structure* const names = structure ? &structure_of(structure) : nullptr;
     if (names && names->atoms.size() != finished.surface.atoms.size())
@@ -36,7 +35,7 @@ meniscus_status meniscus_surface_page(const meniscus_surface* surface, const men
              finished.surface.atoms.size());
     std::string html;
     run_on_threads(finished.threads, [&] {
-      html = meniscus::page::surface_page(finished.surface, wanted.coloring, names, wanted.scene, wanted.camera,
+      html = meniscus::page::surface_page(finished.surface, picture.coloring, names, picture.scene, picture.camera,
                                           meniscus::page::png_still);
     });
     *page = new meniscus_page(std::move(html));
