@@ -289,7 +289,7 @@ void add_preview(CLI::App& command) {
            "through\nEGL; without one the exit code is 4. The page is served on 127.0.0.1 only and opens only with the "
            "token in its\naddress. To open it on another machine, use the ssh line that is printed. SIGINT and SIGTERM "
            "end both.");
-  auto declared = std::make_shared<DeclaredPreview>(command, for_preview);
+  auto declared = std::make_shared<DeclaredPreview>(command, preview_properties());
   add_preview_options(command, *declared);
   command.callback([declared] {
     take_preview(*declared);

@@ -10,6 +10,9 @@
 
 namespace meniscus {
 
+/// Returns what exports for path tracers take.
+TakenProperties traced_properties();
+
 /// A figure's scene, and its fineness.
 struct TracedScene {
   path_tracers::Scene scene;

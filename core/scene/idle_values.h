@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Values of a scene that change nothing, because another one is missing.
+#pragma once
+
+#include <functional>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/scene/scene.h"
+
+namespace meniscus {
+
+/// A scene, and which of its values someone chose.
+struct GivenScene {
+  const Scene& scene;
+  std::function<bool(std::string_view key)> is_given;
+  bool is_live = false;  ///< the scene changes while it is shown, so that a value may have an effect later
+
+  /// Returns true if any of these keys was given.
+  bool any(std::initializer_list<std::string_view> keys) const;
+};
+
+/// What some values need to have an effect.
+struct Need {
+  std::vector<std::string_view> keys;
+  bool (*is_met)(const GivenScene& given);
+  std::string_view missing;  ///< what is not there, and what to do; options are named as in message()
+  bool is_refused = false;   ///< numbers or frames would be taken for others
+};
+
+/// A sentence about values without effect.
+struct IdleValues {
+  std::string sentence;
+  bool is_refused = false;
+};
+
+/// Returns a sentence for each group of values without effect. needs: conditions of the caller, besides those of all
+/// scenes.
+std::vector<IdleValues> idle_values(const GivenScene& given, std::span<const Need> needs);
+
+/// Returns a sentence for each value that is possible, but more likely one of another unit.
+std::vector<std::string> unlikely_values(const GivenScene& given);
+
+}  // namespace meniscus
