@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Properties of farm bundles and of the workers that make their frames.
+#include "app/farm/farm_properties.h"
+
 #include <array>
 
-#include "core/properties/tables.h"
-
-namespace meniscus {
+namespace meniscus::farm {
 namespace {
 
 constexpr auto kTable = std::to_array<Property>({
@@ -23,7 +23,7 @@ constexpr auto kTable = std::to_array<Property>({
         .in("Tasks"),
     count("bundle.task_cores", "--task-cores", "N", "Cores per task, for engines that run several tasks on a machine")
         .from(1, 4096)
-        .initially("--threads after --, else 2")
+        .initially("@threads@ after --, else 2")
         .in("Tasks"),
     count("bundle.task_memory", "--task-memory", "MIB", "Memory per task in MiB")
         .from(1, 1 << 30)
@@ -63,4 +63,4 @@ constexpr auto kTable = std::to_array<Property>({
 
 std::span<const Property> farm_properties() { return kTable; }
 
-}  // namespace meniscus
+}  // namespace meniscus::farm
