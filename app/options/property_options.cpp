@@ -3,7 +3,6 @@
 #include "app/options/property_options.h"
 
 #include <algorithm>
-#include <cstdint>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,7 +10,7 @@
 #include "app/process/program_error.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/base/parse_number.h"
+#include "core/scene/scene_value.h"
 
 namespace meniscus {
 namespace {
@@ -20,16 +19,12 @@ namespace {
 CLI::Validator within(const Property& property) {
   return CLI::Validator(
       [&property](std::string& text) -> std::string {
-        double number = 0.0;
-        std::int64_t whole = 0;
-        const bool is_count = property.type == ValueType::count;
-        if ((is_count ? parse_whole_number(text, whole) : parse_number(text, number)) &&
-            property.is_within(is_count ? static_cast<double>(whole) : number))
+        try {
+          scene_values::number_in_range(property, text);
           return {};
-        const char* const kind = is_count ? "whole number" : "number";
-        if (property.highest >= kUnlimited)
-          return fmt::format("{} is not a {} of at least {}", in_quotes(text), kind, property.lowest);
-        return fmt::format("{} is not a {} from {} to {}", in_quotes(text), kind, property.lowest, property.highest);
+        } catch (const RequestError& error) {
+          return error.what();
+        }
       },
       "");
 }
@@ -66,12 +61,12 @@ CLI::Option* PropertyOptions::add_switch(std::string_view key, const std::functi
   return finish(property, command_.add_flag_callback(std::string(property.option), turn_on));
 }
 
-std::size_t PropertyOptions::place_of_word(const Property& property, const std::vector<std::string>& words,
-                                           const std::vector<std::string>& numbers, const std::string& text) {
-  for (std::size_t place = 0; place < words.size(); ++place)
-    if (text == words[place] || text == numbers[place]) return place;
-  throw CLI::ValidationError(std::string(property.long_option()),
-                             fmt::format("{} is not one of {}", in_quotes(text), fmt::join(words, ", ")));
+std::size_t PropertyOptions::place_of_word(const Property& property, const std::string& text) {
+  try {
+    return scene_values::place_of_word(words_of(property), text);
+  } catch (const RequestError& error) {
+    throw CLI::ValidationError(std::string(property.long_option()), error.what());
+  }
 }
 
 CLI::Option* PropertyOptions::finish(const Property& property, CLI::Option* option) const {
@@ -88,12 +83,11 @@ CLI::Option* PropertyOptions::finish(const Property& property, CLI::Option* opti
 }
 
 std::size_t place_of(const std::string& text, const Property& property) {
-  const std::vector<std::string> words = words_of(property);
-  const auto word = std::ranges::find(words, text);
-  if (word == words.end())
-    throw UsageError(
-        fmt::format("{}: {} is not one of {}", property.long_option(), in_quotes(text), fmt::join(words, ", ")));
-  return static_cast<std::size_t>(word - words.begin());
+  try {
+    return scene_values::place_of_word(words_of(property), text);
+  } catch (const RequestError& error) {
+    throw UsageError(fmt::format("{}: {}", property.long_option(), error.what()));
+  }
 }
 
 Selection parse_selection_option(const std::string& option, const std::string& text) {

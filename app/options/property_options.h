@@ -9,11 +9,9 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 #include "core/properties/properties.h"
 #include "core/structure/selection/selection.h"
@@ -43,18 +41,15 @@ class PropertyOptions {
       return finish(property, command_.add_option(std::string(property.option), target));
   }
 
-  /// One of the property's words; `meanings` in their order. The option's results stay words, which scene files store.
-  /// Scenes of version 0.1.0 have the numbers of enumerators instead; they are understood, too.
+  /// One of the property's words; `meanings` in their order.
   template <typename Target, typename Meaning>
   CLI::Option* add_word(std::string_view key, Target& target, std::initializer_list<Meaning> meanings) {
     const Property& property = property_of(key);
-    const std::vector<std::string> words = words_of(property);
-    if (words.size() != meanings.size()) throw std::logic_error("words and meanings differ: " + std::string(key));
-    const auto take = [&target, values = std::vector<Meaning>(meanings)](std::size_t place) { target = values[place]; };
-    std::vector<std::string> numbers;
-    for (const Meaning& meaning : meanings) numbers.push_back(number_of(meaning));
-    return add_parsed(key, [&property, words, numbers, take](const std::string& text) {
-      take(place_of_word(property, words, numbers, text));
+    if (words_of(property).size() != meanings.size())
+      throw std::logic_error("words and meanings differ: " + std::string(key));
+    return add_parsed(key, [&property, &target, values = std::vector<Meaning>(meanings)](const std::string& text) {
+      const std::size_t place = place_of_word(property, text);
+      target = values[place];
     });
   }
 
@@ -66,16 +61,8 @@ class PropertyOptions {
   CLI::Option* add_switch(std::string_view key, const std::function<void()>& turn_on);
 
  private:
-  template <typename Meaning>
-  static std::string number_of(const Meaning& meaning) {
-    if constexpr (std::is_enum_v<Meaning>)
-      return std::to_string(static_cast<int>(meaning));
-    else
-      return fmt::format("{}", meaning);
-  }
-  /// Throws CLI::ValidationError unless text is one of the words, or one of the numbers.
-  static std::size_t place_of_word(const Property& property, const std::vector<std::string>& words,
-                                   const std::vector<std::string>& numbers, const std::string& text);
+  /// Throws CLI::ValidationError unless text is one of the words.
+  static std::size_t place_of_word(const Property& property, const std::string& text);
   CLI::Option* finish(const Property& property, CLI::Option* option) const;
 
   CLI::App& command_;
