@@ -11,7 +11,6 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/parse_bundled_command.h"
-#include "app/farm/farm_properties.h"
 #include "app/farm/make_bundle.h"
 #include "app/farm/make_frames.h"
 #include "app/farm/verify.h"
@@ -28,8 +27,6 @@
 
 namespace meniscus {
 namespace {
-
-const PropertyTable kFarmProperties(farm::farm_properties());
 
 constexpr std::size_t kFaultsShown = 10;
 

@@ -153,10 +153,10 @@ void run(const SceneCommand& command, const std::string& trajectory_path) {
 }
 
 TakenProperties info_properties() {
-  return TakenProperties{"Input", "Radii", "Assembly", "-molecule.instances"}.needing(
-      {{{"molecule.unknown_element"},
-        [](const GivenScene&) { return false; },
-        "all atoms are listed, with a guessed radius where the element is unknown"}});
+  return {{"Input", "Radii", "Assembly", "-molecule.instances"},
+          {{{"molecule.unknown_element"},
+            [](const GivenScene&) { return false; },
+            "all atoms are listed, with a guessed radius where the element is unknown"}}};
 }
 
 }  // namespace

@@ -69,17 +69,11 @@ void check_request(const PocketsCommand& command) {
 }
 
 TakenProperties pocket_properties() {
-  return run_properties()
-      .with({"surface.show", "-surface.kind", "-surface.verify"})
-      .needing({superposition_need([](const GivenScene& given) {
-                  return given.any({"report.csv_pockets", "report.json"});
-                }),
-                {{"surface.show"},
-                 [](const GivenScene& given) { return given.any({"report.pocket_figure"}); },
-                 "it says what --figure shows; --select takes some of the atoms"},
-                {{"pockets.tolerance"},
-                 [](const GivenScene& given) { return given.any({"report.pocket_mesh"}); },
-                 "it is that of a mesh; add --mesh FILE"}});
+  return run_properties().with(
+      {"surface.show", "-surface.kind", "-surface.verify"},
+      {superposition_need({"report.csv_pockets", "report.json"}),
+       {{"surface.show"}, {"report.pocket_figure"}, "it says what --figure shows; --select takes some of the atoms"},
+       {{"pockets.tolerance"}, {"report.pocket_mesh"}, "it is that of a mesh; add --mesh FILE"}});
 }
 
 }  // namespace

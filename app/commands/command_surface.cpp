@@ -27,19 +27,15 @@ std::vector<std::string> tables_of(const SurfaceCommand& command) {
 }
 
 TakenProperties surface_properties() {
-  return run_properties()
-      .with({"surface.patches", "surface.min_patch", "surface.by", "surface.cavities"})
-      .needing({{{"surface.patches"},
-                 [](const GivenScene& given) {
-                   return !given.scene.frames.asked() || given.any({"report.csv_patches", "report.json"});
-                 },
-                 "of a run, patches are written by --csv-patches FILE or --json; add one of them"},
-                superposition_need([](const GivenScene& given) {
-                  return given.any({"report.csv_cavities", "report.gradients"});
-                }),
-                {{"report.open_sky"},
-                 [](const GivenScene& given) { return given.any({"report.csv_atoms"}); },
-                 "it is a column of --csv FILE; add that"}});
+  return run_properties().with(
+      {"surface.patches", "surface.min_patch", "surface.by", "surface.cavities"},
+      {{{"surface.patches"},
+        [](const GivenScene& given) {
+          return !given.scene.frames.asked() || given.any({"report.csv_patches", "report.json"});
+        },
+        "of a run, patches are written by --csv-patches FILE or --json; add one of them"},
+       superposition_need({"report.csv_cavities", "report.gradients"}),
+       {{"report.open_sky"}, {"report.csv_atoms"}, "it is a column of --csv FILE; add that"}});
 }
 
 }  // namespace

@@ -88,12 +88,12 @@ void declare_mvs(CLI::App& command) {
       "The view has the mesh in the colours of the figure, cut with its caps, what is drawn beside it, and the camera. "
       "Viewers light it\nin their own way, and shade each triangle flat.");
   auto declared = std::make_shared<DeclaredCommand<>>(
-      command, traced_properties().needing({{{"image.width", "image.height"},
-                                             [](const GivenScene& given) {
-                                               return !given.any({"mesh.tolerance"}) ||
-                                                      (given.any({"image.width"}) && given.any({"image.height"}));
-                                             },
-                                             "viewers choose the size, and --tolerance says how fine the mesh is"}}));
+      command, traced_properties().with({}, {{{"image.width", "image.height"},
+                                              [](const GivenScene& given) {
+                                                return !given.any({"mesh.tolerance"}) ||
+                                                       (given.any({"image.width"}) && given.any({"image.height"}));
+                                              },
+                                              "viewers choose the size, and --tolerance says how fine the mesh is"}}));
   declared->options.describe_output("MolViewSpec archive to write (.mvsx)");
   command.callback([declared] {
     declared->options.take();

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/options/taken_properties.h"
+#include "app/options/property_options.h"
 #include "core/math/ball.h"
 #include "core/scene/figure.h"
 #include "core/scene/scene.h"

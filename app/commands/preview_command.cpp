@@ -31,33 +31,30 @@ MoleculeRequest PreviewCommand::read_molecule_request() const {
 }
 
 TakenProperties preview_properties() {
-  return render_properties()
-      .with({"-surface.interface",
-             "-surface.by",
-             "-surface.cavities",
-             "-surface.threads",
-             "-surface.verify",
-             "-frames.only",
-             "-frames.progress",
-             "-Film",
-             "-camera.path",
-             "-camera.turntable",
-             "-camera.follow",
-             "-camera.save",
-             "-image.aovs",
-             "-image.cryptomatte",
-             "-image.color_space",
-             "-image.extent",
-             "-picture.any_cost",
-             "-legend.file",
-             "-annotations.time_stamp",
-             "-annotations.curve",
-             "-annotations.curve_column",
-             "-output.file",
-             "-scene.save"})
-      .needing({{{"output.force"},
-                 [](const GivenScene& given) { return given.any({"preview.record"}); },
-                 "it is only for --record"}});
+  return render_properties().with({"-surface.interface",
+                                   "-surface.by",
+                                   "-surface.cavities",
+                                   "-surface.threads",
+                                   "-surface.verify",
+                                   "-frames.only",
+                                   "-frames.progress",
+                                   "-Film",
+                                   "-camera.path",
+                                   "-camera.turntable",
+                                   "-camera.follow",
+                                   "-camera.save",
+                                   "-image.aovs",
+                                   "-image.cryptomatte",
+                                   "-image.color_space",
+                                   "-image.extent",
+                                   "-picture.any_cost",
+                                   "-legend.file",
+                                   "-annotations.time_stamp",
+                                   "-annotations.curve",
+                                   "-annotations.curve_column",
+                                   "-output.file",
+                                   "-scene.save"},
+                                  {{{"output.force"}, {"preview.record"}, "it is only for --record"}});
 }
 
 void add_preview_options(CLI::App& command, DeclaredPreview& declared) {

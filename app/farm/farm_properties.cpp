@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Properties of farm bundles and of the workers that make their frames.
-#include "app/farm/farm_properties.h"
-
-#include <array>
+#include "core/properties/properties.h"
 
 namespace meniscus::farm {
 namespace {
 
-constexpr auto kTable = std::to_array<Property>({
+constexpr Property kRows[] = {
     text("bundle.engine", "--engine", "WORDS",
          "Engines to write job files for, separated by commas. make, slurm, snakemake, openjd, kubernetes, flamenco, "
          "opencue, or all")
@@ -57,10 +55,9 @@ constexpr auto kTable = std::to_array<Property>({
         .in("Options"),
     flag("work.require_gpu", "--require-gpu", "Fail with exit code 4 if there is no hardware GPU").in("Options"),
     count("work.threads", "--threads", "N", "CPU threads per process").from(1, 4096).initially("all").in("Options"),
-});
+};
+const PropertyTable kFarmProperties(kRows);
 
 }  // namespace
-
-std::span<const Property> farm_properties() { return kTable; }
 
 }  // namespace meniscus::farm

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/film/film_format.h"
 #include "app/process/program_error.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -29,7 +30,81 @@ CLI::Validator within(const Property& property) {
       "");
 }
 
+bool is_film(const GivenScene& given) { return is_film_path(given.scene.output); }
+
+/// Returns what figures take, as pictures or for other programs.
+TakenProperties shown_properties() {
+  return run_properties().with({"Surface", "-surface.patches", "-surface.min_patch", "Colour", "Figure",
+                                "-surface.clip_all", "Beside the surface", "Camera", "image.size", "image.width",
+                                "image.height", "image.dpi", "output.file", "scene.save"});
+}
+
 }  // namespace
+
+void TakenProperties::add(std::initializer_list<std::string_view> names, std::initializer_list<Need> needs) {
+  needs_.insert(needs_.end(), needs);
+  for (std::string_view name : names) {
+    const bool is_left_out = name.starts_with('-');
+    name.remove_prefix(is_left_out ? 1 : 0);
+    bool is_known = false;
+    for (const Property* property : properties()) {
+      if (property->heading != name && property->key != name) continue;
+      is_known = true;
+      if (is_left_out)
+        taken_.erase(property);
+      else
+        taken_.insert(property);
+    }
+    if (!is_known) throw std::logic_error(fmt::format("{} is neither a heading nor a key of properties", name));
+  }
+}
+
+TakenProperties TakenProperties::with(std::initializer_list<std::string_view> names,
+                                      std::initializer_list<Need> needs) const {
+  TakenProperties more = *this;
+  more.add(names, needs);
+  return more;
+}
+
+const TakenProperties& run_properties() {
+  static const TakenProperties taken(
+      {"Input", "Radii", "Assembly", "Frames", "Alignment of frames", "surface.kind", "surface.probe", "Computing",
+       "output.force", "scene.read", "scene.trust", "scene.set"},
+      {{{"frames.jobs", "frames.progress"},
+        [](const GivenScene& given) { return given.scene.frames.asked(); },
+        "there is no run of frames"}});
+  return taken;
+}
+
+const TakenProperties& figure_properties() {
+  static const TakenProperties taken =
+      shown_properties().with({}, {{{"image.dpi"},
+                                    {"image.width", "image.height"},
+                                    "the size is in pixels; add --width or --height with a length, such as 85mm"}});
+  return taken;
+}
+
+const TakenProperties& render_properties() {
+  static const TakenProperties taken = shown_properties().with(
+      {"Surface", "Figure", "Film", "Light", "Lines", "-look.material", "Picture", "Legend", "Labels"},
+      {film_need(), {{"frames.fps"}, is_film, "the output is not a film"}});
+  return taken;
+}
+
+Need film_need() {
+  return {{"frames.codec", "frames.crf", "frames.bits", "frames.chroma"},
+          is_film,
+          "the output is not a film; name one, such as -o a.mp4",
+          true};
+}
+
+Need superposition_need(Condition condition) {
+  return {
+      {"frames.superpose", "frames.center", "frames.reference"},
+      std::move(condition),
+      "areas and volumes stay the same however a frame is turned and moved; places and gradients, which are written "
+      "to files, do not"};
+}
 
 CLI::Validator proposes(const std::vector<std::string>& words) {
   return CLI::Validator([](std::string&) { return std::string(); }, "", CLI::detail::join(words, "|"));

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Adds options to a command as the table of properties declares them; the caller only binds their values.
+// The properties that a command takes, and its options as the table of properties declares them; the caller only binds
+// their values.
 #pragma once
 
 #include <concepts>
 #include <functional>
 #include <initializer_list>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -14,9 +16,47 @@
 #include <CLI/CLI.hpp>
 
 #include "core/properties/properties.h"
+#include "core/scene/idle_values.h"
 #include "core/structure/selection/selection.h"
 
 namespace meniscus {
+
+/// The scene's properties for which a command has options, and conditions of their effect. Each command declares its
+/// own: those of a common set below, and more or fewer. Options that no scene has are added by the command itself.
+class TakenProperties {
+ public:
+  /// names: headings of the help, such as "Colour", and keys, such as "molecule.quiet"; one that begins with a minus is
+  /// left out. The last one that names a property decides. Throws std::logic_error for a name that is neither. needs:
+  /// conditions that this command adds to those of all scenes.
+  TakenProperties(std::initializer_list<std::string_view> names, std::initializer_list<Need> needs = {}) {
+    add(names, needs);
+  }
+
+  /// Returns a copy with more and fewer properties, and more conditions.
+  TakenProperties with(std::initializer_list<std::string_view> names, std::initializer_list<Need> needs = {}) const;
+
+  bool has(const Property& property) const { return taken_.contains(&property); }
+  bool has(std::string_view key) const { return has(property_of(key)); }
+  const std::vector<Need>& needs() const { return needs_; }
+
+ private:
+  void add(std::initializer_list<std::string_view> names, std::initializer_list<Need> needs);
+
+  std::set<const Property*> taken_;
+  std::vector<Need> needs_;
+};
+
+/// Returns what every command takes that computes surfaces of a molecule or of a run of frames.
+const TakenProperties& run_properties();
+/// Returns what every export of a figure takes.
+const TakenProperties& figure_properties();
+/// Returns what `meniscus render` takes.
+const TakenProperties& render_properties();
+
+/// Returns the condition of options for films: the output is one.
+Need film_need();
+/// Returns the condition of options that turn and move frames. condition: a table of places or directions is written.
+Need superposition_need(Condition condition);
 
 /// Lets any value pass, and proposes these. The name of a check is where command_tree() finds its words.
 CLI::Validator proposes(const std::vector<std::string>& words);

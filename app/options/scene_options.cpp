@@ -16,15 +16,17 @@
 #include <fmt/ranges.h>
 
 #include "app/options/command_tree.h"
+#include "app/options/named_files.h"
 #include "app/options/property_options.h"
-#include "app/options/scene_trust.h"
 #include "app/options/usage_faults.h"
 #include "app/process/program_error.h"
 #include "core/base/binary_file.h"
 #include "core/base/error.h"
 #include "core/base/system_file.h"
 #include "core/base/text.h"
+#include "core/base/text_file.h"
 #include "core/color/color_maps.h"
+#include "core/image/png_file.h"
 #include "core/mesh/check_by_mesh.h"
 #include "core/scene/scene_paths.h"
 #include "core/scene/scene_values.h"
@@ -252,6 +254,20 @@ void SceneOptions::check_inputs() const {
   }
 }
 
+/// Throws where an output, of an option or of a setting, would replace what the command reads or another output.
+void SceneOptions::guard_files(std::span<const SceneSetting> settings) const {
+  NamedFiles files(command_);
+  if (!file_.empty()) files.read(file_);
+  for (const SceneSetting& setting : settings)
+    for (const std::string& text : setting.texts) {
+      if (setting.property->type == ValueType::new_file)
+        files.write(std::string(setting.property->long_option()), text);
+      else if (setting.property->type == ValueType::file || setting.property->type == ValueType::camera)
+        files.read(text);
+    }
+  files.check();
+}
+
 /// Of --set, in the form of a scene file's settings.
 std::vector<SceneSetting> SceneOptions::typed_settings() const {
   std::vector<SceneSetting> settings;
@@ -324,7 +340,7 @@ void SceneOptions::take(const std::vector<std::string>& named) {
     refuse(error.key(), error.what());
   }
   settings.insert(settings.end(), typed_by_key.begin(), typed_by_key.end());
-  guard_files(command_, file_, settings);
+  guard_files(settings);
   std::vector<std::string> sentences = idle_sentences();
   if (std::string left_out = told_left_out(); !left_out.empty()) sentences.push_back(std::move(left_out));
   for (const std::string& sentence : sentences)
@@ -417,6 +433,17 @@ void SceneOutput::commit() {
 std::string scene_text_beside(const Scene& scene, const std::string& path, std::span<const AddedFile> added) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
   return scene_text(scene, folder.empty() ? "." : folder, added);
+}
+
+std::string read_scene_text(const std::string& file) {
+  constexpr std::size_t kLargestScene = std::size_t{16} << 20;  // bytes
+  std::string text = png_note(file, kSceneNote).value_or("");
+  if (!text.empty()) return text;
+  if (is_png(file))
+    throw InputError(file, 0,
+                     "is a picture that carries no scene; pictures made with --no-provenance, frames of runs and "
+                     "pictures of other programs have none");
+  return std::string(read_text_file(file, kLargestScene).text);
 }
 
 std::string cache_folder() {

@@ -14,7 +14,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/options/taken_properties.h"
+#include "app/options/property_options.h"
 #include "core/base/output_file.h"
 #include "core/properties/properties.h"
 #include "core/scene/scene.h"
@@ -107,6 +107,7 @@ class SceneOptions {
   void add_own_option(const Property& property);
   std::vector<SceneSetting> read_scene_file(const std::vector<std::string>& named);
   std::vector<SceneSetting> typed_settings() const;
+  void guard_files(std::span<const SceneSetting> settings) const;
   void take_setting(const SceneSetting& setting);
   bool has_option(const Property& property) const;
   std::vector<std::string> idle_sentences() const;
@@ -154,6 +155,9 @@ class SceneOutput {
 
 /// The scene with paths as seen from the folder of `path`, where it is to be saved. added: as for scene_text().
 std::string scene_text_beside(const Scene& scene, const std::string& path, std::span<const AddedFile> added = {});
+
+/// Returns the JSON of a scene file, or of the picture that carries it. Throws InputError.
+std::string read_scene_text(const std::string& file);
 
 /// Where indices of frames and compiled kernels are kept: beside other caches of the user, or nowhere.
 std::string cache_folder();

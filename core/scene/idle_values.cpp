@@ -53,13 +53,11 @@ const std::vector<Need>& needs_of_scenes() {
        has_patches,
        "there are no patches; add @patches EXPR@"},
       {{"frames.reference"},
-       [](const GivenScene& given) {
-         return given.any({"frames.superpose", "frames.center"});
-       },
+       {"frames.superpose", "frames.center"},
        "it is the frame that @superpose@ and @center@ refer to; add one of them",
        true},
       {{"frames.trajectory_atoms", "frames.trust_atom_order"},
-       [](const GivenScene& given) { return given.any({"frames.trajectory"}); },
+       {"frames.trajectory"},
        "the frames are models of FILE itself; add @trajectory FILE@",
        true},
       {{"surface.film_opacity", "surface.patches"},
@@ -69,21 +67,13 @@ const std::vector<Need>& needs_of_scenes() {
        [](const GivenScene& given) { return !given.any({"surface.shown"}) || given.any({"surface.clip_all"}); },
        "the surface is hidden; add @clip-all@ to cut what is beside it"},
       {{"surface.cap_color", "surface.cap_hatching", "surface.clip_all"},
-       [](const GivenScene& given) {
-         return given.any({"surface.clip", "camera.look_into"});
-       },
+       {"surface.clip", "camera.look_into"},
        "nothing is cut; add @clip PLANE@"},
-      {{"surface.film_opacity"},
-       [](const GivenScene& given) { return given.any({"surface.opacity"}); },
-       "all of the surface is opaque; add @opacity@"},
+      {{"surface.film_opacity"}, {"surface.opacity"}, "all of the surface is opaque; add @opacity@"},
       {{"shapes.stick_radius"},
-       [](const GivenScene& given) {
-         return given.any({"figure.sticks", "figure.balls", "figure.bases", "figure.glycans"});
-       },
+       {"figure.sticks", "figure.balls", "figure.bases", "figure.glycans"},
        "there are no sticks; add @sticks EXPR@, @balls EXPR@ or @bases EXPR@"},
-      {{"shapes.tube_radius"},
-       [](const GivenScene& given) { return given.any({"figure.tube"}); },
-       "there is no tube; add @tube EXPR@"},
+      {{"shapes.tube_radius"}, {"figure.tube"}, "there is no tube; add @tube EXPR@"},
       {{"legend.title", "legend.size", "legend.place", "legend.names"}, has_legend, "there is no legend; add @legend@"},
       {{"annotations.letter_size", "annotations.letter_color"},
        has_letters,
@@ -119,7 +109,10 @@ std::string name_of(std::string_view key) { return option_name(property_of(key).
 
 }  // namespace
 
-bool GivenScene::any(std::initializer_list<std::string_view> keys) const { return std::ranges::any_of(keys, is_given); }
+bool GivenScene::any(const std::vector<std::string_view>& keys) const { return std::ranges::any_of(keys, is_given); }
+
+Condition::Condition(std::initializer_list<std::string_view> keys)
+    : is_met([any = std::vector(keys)](const GivenScene& given) { return given.any(any); }) {}
 
 std::vector<IdleValues> idle_values(const GivenScene& given, std::span<const Need> needs) {
   std::vector<IdleValues> sentences;
@@ -127,7 +120,7 @@ std::vector<IdleValues> idle_values(const GivenScene& given, std::span<const Nee
     std::vector<std::string> idle;
     for (const std::string_view key : need.keys)
       if (given.is_given(key)) idle.push_back(name_of(key));
-    if (idle.empty() || need.is_met(given)) return;
+    if (idle.empty() || need.condition.is_met(given)) return;
     sentences.push_back({fmt::format("{} {} no effect: {}", fmt::join(idle, ", "), idle.size() == 1 ? "has" : "have",
                                      with_options(need.missing)),
                          need.is_refused});

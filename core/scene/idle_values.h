@@ -2,6 +2,7 @@
 // Values of a scene that change nothing, because another one is missing.
 #pragma once
 
+#include <concepts>
 #include <functional>
 #include <initializer_list>
 #include <span>
@@ -20,13 +21,22 @@ struct GivenScene {
   bool is_live = false;  ///< the scene changes while it is shown, so that a value may have an effect later
 
   /// Returns true if any of these keys was given.
-  bool any(std::initializer_list<std::string_view> keys) const;
+  bool any(const std::vector<std::string_view>& keys) const;
+};
+
+/// What a value needs: any of some keys, or whatever a function finds in the scene.
+struct Condition {
+  std::function<bool(const GivenScene& given)> is_met;
+
+  Condition(std::initializer_list<std::string_view> keys);
+  template <std::predicate<const GivenScene&> Function>
+  Condition(Function function) : is_met(function) {}
 };
 
 /// What some values need to have an effect.
 struct Need {
   std::vector<std::string_view> keys;
-  bool (*is_met)(const GivenScene& given);
+  Condition condition;
   std::string_view missing;  ///< what is not there, and what to do; options are named as in message()
   bool is_refused = false;   ///< numbers or frames would be taken for others
 };
