@@ -341,22 +341,15 @@ void SceneOptions::take(const std::vector<std::string>& named) {
   }
   settings.insert(settings.end(), typed_by_key.begin(), typed_by_key.end());
   guard_files(settings);
-  std::vector<std::string> sentences = idle_sentences();
+  const GivenScene given{into_.scene, [this](std::string_view key) { return is_given(key); }, is_live_};
+  std::vector<std::string> sentences;
+  for (SceneNote& note : idle_values(given, taken_.needs())) {
+    if (note.is_refused) throw UsageError(note.text);
+    sentences.push_back(std::move(note.text));
+  }
   if (std::string left_out = told_left_out(); !left_out.empty()) sentences.push_back(std::move(left_out));
   for (const std::string& sentence : sentences)
     if (!into_.reporting.quiet) std::cerr << "meniscus: " << escaped(sentence) << std::endl;
-}
-
-/// Throws UsageError where a value without effect is refused.
-std::vector<std::string> SceneOptions::idle_sentences() const {
-  const GivenScene given{into_.scene, [this](std::string_view key) { return is_given(key); }, is_live_};
-  std::vector<std::string> sentences;
-  for (const IdleValues& idle : idle_values(given, taken_.needs())) {
-    if (idle.is_refused) throw UsageError(idle.sentence);
-    sentences.push_back("note: " + idle.sentence);
-  }
-  for (const std::string& sentence : unlikely_values(given)) sentences.push_back("warning: " + sentence);
-  return sentences;
 }
 
 /// What the scene file says of the picture and this command, which shows the molecule, does not show: a sentence.

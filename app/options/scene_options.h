@@ -110,7 +110,6 @@ class SceneOptions {
   void guard_files(std::span<const SceneSetting> settings) const;
   void take_setting(const SceneSetting& setting);
   bool has_option(const Property& property) const;
-  std::vector<std::string> idle_sentences() const;
   std::string told_left_out() const;
   void set(const Property& property, const std::vector<std::string>& texts);
   void check_table() const;

@@ -107,6 +107,22 @@ std::string text_of(const GivenScene& given, std::string_view key) {
 /// Returns how messages name an option, "@stick-radius@".
 std::string name_of(std::string_view key) { return option_name(property_of(key).long_option().substr(2)); }
 
+void add_unlikely_values(const GivenScene& given, std::vector<SceneNote>& notes) {
+  constexpr double kSmallestUsualProbe = 0.5, kSmallestUsualSide = 200.0;  // Å, pixels
+  double number = 0.0;
+  if (const std::string probe = text_of(given, "surface.probe");
+      parse_number(probe, number) && number > 0.0 && number < kSmallestUsualProbe)
+    notes.push_back({message("warning: @probe {}@ is in Å, and no solvent is so small; {} nm would be @probe {:g}@",
+                             probe, probe, 10.0 * number)});
+  for (const std::string_view side : {"image.width", "image.height"}) {
+    const std::string length = text_of(given, side), name = name_of(side);
+    if (parse_number(length, number) && number < kSmallestUsualSide)
+      notes.push_back(
+          {fmt::format("warning: {} {} is in pixels, which makes a small picture; in millimetres it is {} {}mm", name,
+                       length, name, length)});
+  }
+}
+
 }  // namespace
 
 bool GivenScene::any(const std::vector<std::string_view>& keys) const { return std::ranges::any_of(keys, is_given); }
@@ -114,37 +130,21 @@ bool GivenScene::any(const std::vector<std::string_view>& keys) const { return s
 Condition::Condition(std::initializer_list<std::string_view> keys)
     : is_met([any = std::vector(keys)](const GivenScene& given) { return given.any(any); }) {}
 
-std::vector<IdleValues> idle_values(const GivenScene& given, std::span<const Need> needs) {
-  std::vector<IdleValues> sentences;
+std::vector<SceneNote> idle_values(const GivenScene& given, std::span<const Need> needs) {
+  std::vector<SceneNote> notes;
   const auto add = [&](const Need& need) {
     std::vector<std::string> idle;
     for (const std::string_view key : need.keys)
       if (given.is_given(key)) idle.push_back(name_of(key));
     if (idle.empty() || need.condition.is_met(given)) return;
-    sentences.push_back({fmt::format("{} {} no effect: {}", fmt::join(idle, ", "), idle.size() == 1 ? "has" : "have",
-                                     with_options(need.missing)),
-                         need.is_refused});
+    notes.push_back({fmt::format("{}{} {} no effect: {}", need.is_refused ? "" : "note: ", fmt::join(idle, ", "),
+                                 idle.size() == 1 ? "has" : "have", with_options(need.missing)),
+                     need.is_refused});
   };
   std::ranges::for_each(needs_of_scenes(), add);
   std::ranges::for_each(needs, add);
-  return sentences;
-}
-
-std::vector<std::string> unlikely_values(const GivenScene& given) {
-  constexpr double kSmallestUsualProbe = 0.5, kSmallestUsualSide = 200.0;  // Å, pixels
-  std::vector<std::string> sentences;
-  double number = 0.0;
-  if (const std::string probe = text_of(given, "surface.probe");
-      parse_number(probe, number) && number > 0.0 && number < kSmallestUsualProbe)
-    sentences.push_back(message("@probe {}@ is in Å, and no solvent is so small; {} nm would be @probe {:g}@", probe,
-                                probe, 10.0 * number));
-  for (const std::string_view side : {"image.width", "image.height"}) {
-    const std::string length = text_of(given, side), name = name_of(side);
-    if (parse_number(length, number) && number < kSmallestUsualSide)
-      sentences.push_back(fmt::format("{} {} is in pixels, which makes a small picture; in millimetres it is {} {}mm",
-                                      name, length, name, length));
-  }
-  return sentences;
+  add_unlikely_values(given, notes);
+  return notes;
 }
 
 }  // namespace meniscus

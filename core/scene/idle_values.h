@@ -41,17 +41,14 @@ struct Need {
   bool is_refused = false;   ///< numbers or frames would be taken for others
 };
 
-/// A sentence about values without effect.
-struct IdleValues {
-  std::string sentence;
+/// A sentence about values without effect; of those that are refused it is the message of the error.
+struct SceneNote {
+  std::string text;  ///< begins with "note: " or "warning: " unless it is refused
   bool is_refused = false;
 };
 
-/// Returns a sentence for each group of values without effect. needs: conditions of the caller, besides those of all
-/// scenes.
-std::vector<IdleValues> idle_values(const GivenScene& given, std::span<const Need> needs);
-
-/// Returns a sentence for each value that is possible, but more likely one of another unit.
-std::vector<std::string> unlikely_values(const GivenScene& given);
+/// Returns a note for each group of values without effect, and for each value that is more likely one of another unit.
+/// needs: conditions of the caller, besides those of all scenes.
+std::vector<SceneNote> idle_values(const GivenScene& given, std::span<const Need> needs);
 
 }  // namespace meniscus
