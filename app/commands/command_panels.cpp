@@ -49,8 +49,7 @@ std::vector<std::string> words_of_panels(const DeclaredPanels& page) {
 SceneCommand read_panel(const std::string& path, const std::vector<std::string>& words, const SceneCommand& page) {
   SceneCommand command = read_scene_file(path, words, page.reporting);
   command.scene = readied(command.scene);
-  settle_selections(command.scene.molecule, command.scene.frames,
-                    {.figure = &command.scene.figure, .view = &command.scene.picture});
+  settle_selections(command.scene);
   return command;
 }
 

@@ -73,9 +73,11 @@ Shown read_run(PreviewCommand& command) {
     reading.scene.molecule = command.read_molecule_request();
     return {std::move(scene), read_and_tell(reading), {}, {}};
   }
-  MoleculeRequest molecule = scene.molecule;
-  settle_selections(molecule, scene.frames, {.figure = &scene.figure, .view = &scene.picture});
-  const auto frames = std::make_shared<FrameRun>(molecule, scene.frames);
+  Scene settled = scene;
+  settle_selections(settled);
+  const auto frames = std::make_shared<FrameRun>(settled.molecule, scene.frames);
+  scene.figure = settled.figure;
+  scene.picture = settled.picture;
   tell_run(command, *frames);
   if (scene.molecule.division.instances != InstanceMode::none && frames->atoms_change())
     throw UsageError(

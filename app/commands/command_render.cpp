@@ -225,7 +225,7 @@ bool leave_missing(RenderCommand& command) {
   std::vector<std::uint64_t> frames;
   if (is_run) {
     Scene scene = readied(command.scene);
-    settle_selections(scene.molecule, scene.frames, {});
+    settle_selections(scene);
     frames = FrameRun(scene.molecule, scene.frames).chunk();
     paths.clear();
     for (const std::uint64_t frame : frames) paths.push_back(pictures->at(frame));

@@ -45,7 +45,7 @@ void export_atoms(const SceneCommand& asked) {
     throw UsageError("--instances separate: of the atoms in the file one surface is made; leave it out");
   std::unique_ptr<FrameRun> run;
   if (command.scene.frames.asked()) {
-    settle_selections(command.scene.molecule, command.scene.frames);
+    settle_selections(command.scene);
     run = std::make_unique<FrameRun>(command.scene.molecule, command.scene.frames);
     if (run->atoms_change())
       throw UsageError(

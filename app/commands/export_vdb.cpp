@@ -51,7 +51,7 @@ void export_to_vdb(const VdbCommand& asked) {
   if (scene.frames.asked() && !numbered)
     throw UsageError(fmt::format("-o {}: each frame needs a file of its own; put # where its number goes, as in {}",
                                  in_quotes(scene.output), in_quotes(numbered_name(scene.output))));
-  settle_selections(command.scene.molecule, command.scene.frames);
+  settle_selections(command.scene);
   NumberRun run(command);
   const auto make_worker = [&](const std::shared_ptr<MoleculeBuilder>& builder) -> NumberRun::Worker {
     return [&, builder](NumberedStructure numbered_structure) -> FinishFrame {

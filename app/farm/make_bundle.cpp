@@ -228,7 +228,7 @@ Bundle described(const BundleOptions& options, const BundledCommand& asked, Bund
   SceneCommand command = asked.command;
   command.scene = readied(command.scene);
   Scene& scene = command.scene;
-  settle_selections(scene.molecule, scene.frames, {.view = &scene.picture, .motion = &scene.run_camera});
+  settle_selections(scene);
   check_picture(scene);
   if (!scene.legend.file.empty()) check_image_path(scene.legend.file);
   const GivenCameras cameras = given_cameras(scene.picture, scene.run_camera);
