@@ -12,8 +12,7 @@ constexpr std::string_view kLegend = "Legend", kLabels = "Labels";
 
 constexpr auto kTable = std::to_array<Property>({
     flag("legend.shown", "--legend", "Show a legend of the colours, at the right or, in tall pictures, below")
-        .in(kLegend, kShared | live)
-        .in_short_help(),
+        .in(kLegend, kShared | live | in_short_help),
     new_file("legend.file", "--legend-file", "FILE", "Write the legend as a separate picture").in(kLegend, in_scene),
     text("legend.title", "--legend-title", "TEXT", "Title of the legend; '' for none")
         .initially("by the colours")
@@ -31,24 +30,20 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kLegend, kShared | live | rare),
 
     text("annotations.panel", "--panel", "TEXT", "Letter of the panel, such as a, at the top left")
-        .in(kLabels, kShared)
-        .in_short_help(),
+        .in(kLabels, kShared | in_short_help),
     text("annotations.title", "--title", "TEXT", "Title of the picture, at the top")
-        .in(kLabels, kShared)
-        .in_short_help(),
+        .in(kLabels, kShared | in_short_help),
     text("annotations.scale_bar", "--scale-bar", "Å",
          "Draw a scale bar of this length, or of a round one (auto). With a perspective camera it is true at the "
          "camera's target")
         .proposes("auto")
         .initially("auto")
-        .in(kLabels, kShared | value_optional)
-        .in_short_help(),
+        .in(kLabels, kShared | value_optional | in_short_help),
     text("annotations.letter_size", "--letter-size", "SIZE",
          "Height of all letters that have no size of their own: pixels, 8pt or 3mm")
         .from(6, 1000)
         .initially("by the size of the picture")
-        .in(kLabels, kShared)
-        .in_short_help(),
+        .in(kLabels, kShared | in_short_help),
     text("annotations.label_size", "--label-size", "SIZE", "Height of the letters of labels")
         .from(6, 1000)
         .initially("that of @letter-size@")
@@ -69,12 +64,10 @@ constexpr auto kTable = std::to_array<Property>({
          "if it is transparent")
         .proposes("auto|white|black")
         .initially("auto")
-        .in(kLabels, kShared)
-        .in_short_help(),
+        .in(kLabels, kShared | in_short_help),
     text("annotations.labels", "--label", "EXPR=TEXT",
          "Write TEXT at these atoms, with a line to their centre. Repeatable")
-        .in(kLabels, kShared | repeatable)
-        .in_short_help(),
+        .in(kLabels, kShared | repeatable | in_short_help),
     flag("annotations.time_stamp", "--time-stamp", "Write the time of each frame in ps, ns or µs, or else its number")
         .in(kLabels, kShared),
     file("annotations.curve", "--curve", "FILE.csv",

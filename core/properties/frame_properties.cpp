@@ -15,8 +15,7 @@ constexpr auto kTable = std::to_array<Property>({
     file("frames.trajectory", "--trajectory", "PATH",
          "Trajectory: coordinates of the atoms of FILE, frame by frame. Repeatable: one after the other. Without "
          "it the models of FILE are the frames; meniscus formats lists the formats")
-        .in(kFrames, kShared | repeatable)
-        .in_short_help(),
+        .in(kFrames, kShared | repeatable | in_short_help),
     text("frames.trajectory_atoms", "--trajectory-atoms", "EXPR",
          "Atoms of FILE that the trajectory contains, such as 'not water'")
         .in(kFrames, kShared),
@@ -25,8 +24,7 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kFrames, kShared),
     text("frames.frames", "--frames", "LIST",
          "Frames of the run: all, or a list such as 0-99:10,250,last. Frames count from 0; -10- means the last ten")
-        .in(kFrames, kShared)
-        .in_short_help(),
+        .in(kFrames, kShared | in_short_help),
     count("frames.stride", "--stride", "N", "Use every Nth frame")
         .from(1, kUnlimited)
         .initially("1")
@@ -45,8 +43,7 @@ constexpr auto kTable = std::to_array<Property>({
           "files are numbered as with @repeat@")
         .from(1, 1e6)
         .initially("1")
-        .in(kFrames, kShared)
-        .in_short_help()
+        .in(kFrames, kShared | in_short_help)
         .excludes("frames.repeat"),
     text("frames.only", "--only", "LIST",
          "Make only these frames, as one part of the whole run. Camera, colours and scene stay those of the whole "
@@ -63,8 +60,7 @@ constexpr auto kTable = std::to_array<Property>({
         .initially("bonds")
         .in(kMotion, kShared | value_optional),
     text("frames.superpose", "--superpose", "EXPR", "Superpose each frame on the reference frame by these atoms")
-        .in(kMotion, kShared)
-        .in_short_help(),
+        .in(kMotion, kShared | in_short_help),
     text("frames.center", "--center", "EXPR", "Move each frame so that the centre of these atoms stays fixed")
         .in(kMotion, kShared),
     text("frames.reference", "--reference", "N", "Reference frame of @superpose@ and @center@: a number, or last")

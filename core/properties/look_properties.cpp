@@ -19,8 +19,7 @@ constexpr auto kTable = std::to_array<Property>({
          "a legend explains them, light changes only their lightness")
         .one_of("publication|cover|flat|soft|classic")
         .initially("publication")
-        .in(kLight, kLook)
-        .in_short_help(),
+        .in(kLight, kLook | in_short_help),
     text("look.light", "--light", "X,Y,Z", "Direction towards the lamp, as X,Y,Z: right, up, to the viewer")
         .initially("-0.45,0.65,0.75")
         .in(kLight, kLook),
@@ -47,8 +46,7 @@ constexpr auto kTable = std::to_array<Property>({
            "Shade in pockets and clefts, 0 (none) to 1. Only what the picture shows casts shade")
         .from(0, 1)
         .slider("Shade", 1)
-        .in(kLight, kLook)
-        .in_short_help(),
+        .in(kLight, kLook | in_short_help),
     number("look.ambient_occlusion_radius", "--ambient-occlusion-radius", "Å",
            "Largest distance at which shade is cast, in Å")
         .from(0.1, 1000)
@@ -64,8 +62,7 @@ constexpr auto kTable = std::to_array<Property>({
         .from(0, 1)
         .initially("0")
         .slider("Shadows", 1)
-        .in(kLight, kLook)
-        .in_short_help(),
+        .in(kLight, kLook | in_short_help),
     number("look.shadow_softness", "--shadow-softness", "DEGREES",
            "Half the angle at which the lamp is seen, 0 (sharp shadows) to 45")
         .from(0, 45)
@@ -76,8 +73,7 @@ constexpr auto kTable = std::to_array<Property>({
          "front, and between chains")
         .from(0, 16)
         .slider("Lines", 6)
-        .in(kLines, kLook)
-        .in_short_help(),
+        .in(kLines, kLook | in_short_help),
     text("look.outer_lines", "--outer-lines", "WIDTH", "Width of the outline around the whole molecule")
         .from(0, 16)
         .initially("@silhouettes@")

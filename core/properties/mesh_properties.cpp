@@ -12,8 +12,7 @@ constexpr std::string_view kMesh = "Mesh", kOutput = "Output", kScene = "Scene";
 constexpr auto kTable = std::to_array<Property>({
     number("mesh.tolerance", "--tolerance", "Å", "Largest distance between mesh and surface, in Å")
         .from(1e-5, 1)
-        .in(kMesh, in_scene | in_bundle)
-        .in_short_help(),
+        .in(kMesh, in_scene | in_bundle | in_short_help),
     number("mesh.tolerance_pixels", "--tolerance-pixels", "PIXELS",
            "Largest distance between mesh and surface, in pixels, such as 0.25")
         .from(1e-3, 100)
@@ -22,14 +21,12 @@ constexpr auto kTable = std::to_array<Property>({
     number("mesh.density", "--density", "NUMBER",
            "Vertices per Å², instead of a tolerance. 0.02 gives about one triangle per atom; triangles are even")
         .from(0.005, 1000)
-        .in(kMesh, in_scene | in_bundle)
-        .in_short_help()
+        .in(kMesh, in_scene | in_bundle | in_short_help)
         .excludes("mesh.tolerance|mesh.tolerance_pixels"),
     flag("mesh.even", "--even", "Make nearly equilateral triangles. They cross the borders of patches")
         .in(kMesh, in_scene | in_bundle),
     text("mesh.format", "--format", "WORD", "Format of the file, if its ending does not tell")
-        .in(kMesh, in_scene)
-        .in_short_help(),
+        .in(kMesh, in_scene | in_short_help),
     text("mesh.attributes", "--attributes", "NAMES",
          "Numbers of vertices to write in PLY, VTP, GLB and USD, separated by commas")
         .initially("usual")
@@ -57,19 +54,18 @@ constexpr auto kTable = std::to_array<Property>({
         .initially("0.02")
         .in(kOutput),
 
-    new_file("output.file", "-o,--output", "PATH", "Output file or folder").in(kOutput, in_scene).in_short_help(),
-    flag("output.force", "--force", "Replace an output that already exists").in(kOutput).in_short_help(),
+    new_file("output.file", "-o,--output", "PATH", "Output file or folder").in(kOutput, in_scene | in_short_help),
+    flag("output.force", "--force", "Replace an output that already exists").in(kOutput, in_short_help),
     file("scene.read", "--scene", "FILE",
          "Take options from a scene file or from a picture that meniscus made. Options on the command line override "
          "those of the scene")
-        .in(kScene)
-        .in_short_help(),
+        .in(kScene, in_short_help),
     flag("scene.trust", "--trust-scene", "Let the scene read and write files anywhere. Use it only for your own scenes")
         .in(kScene),
     text("scene.set", "--set", "KEY=VALUE",
          "Set a value by its scene key, such as look.outer_lines=2. Repeatable; meniscus help scenes lists the keys")
         .in(kScene, repeatable),
-    new_file("scene.save", "--save-scene", "FILE", "Save these options as a scene file").in(kScene).in_short_help(),
+    new_file("scene.save", "--save-scene", "FILE", "Save these options as a scene file").in(kScene, in_short_help),
 });
 
 }  // namespace

@@ -14,8 +14,7 @@ constexpr auto kTable = std::to_array<Property>({
     file("molecule.file", "FILE", "", "Molecule").in(kInput, in_scene),
     file("molecule.add", "--add", "FILE",
          "Add the atoms of another molecule file, as model 2, 3 ... of the first. Repeatable")
-        .in(kInput, kShared | repeatable)
-        .in_short_help(),
+        .in(kInput, kShared | repeatable | in_short_help),
     text("molecule.superpose_on", "--superpose-on", "EXPR",
          "Superpose the files of @add@ on FILE by these atoms. 'name CA' takes alpha carbons. Chains are paired "
          "and aligned by sequence; the number of atoms and the RMSD are printed")
@@ -32,8 +31,7 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kInput, kShared),
     text("molecule.select", "--select", "EXPR",
          "Use only these atoms, such as 'chain A and resid 10-50'. See meniscus help selections")
-        .in(kInput, kShared)
-        .in_short_help(),
+        .in(kInput, kShared | in_short_help),
     flag("molecule.keep_water", "--keep-water", "Use water molecules, too").in(kInput, kShared),
     flag("molecule.keep_ions", "--keep-ions", "Use free ions, too: lone metal and halogen atoms").in(kInput, kShared),
     word("molecule.unknown_element", "--unknown-element", "WORD",
@@ -47,7 +45,7 @@ constexpr auto kTable = std::to_array<Property>({
         .one_of("full|summary|none")
         .initially("summary")
         .in(kInput, in_bundle),
-    flag("molecule.quiet", "-q,--quiet", "Print errors only").in(kInput, in_bundle).in_short_help(),
+    flag("molecule.quiet", "-q,--quiet", "Print errors only").in(kInput, in_bundle | in_short_help),
 
     word("molecule.hydrogens", "--hydrogens", "WORD",
          "Hydrogens: keep, drop or auto. auto: drop them if the radii of heavy atoms include them")
@@ -73,8 +71,7 @@ constexpr auto kTable = std::to_array<Property>({
     text("molecule.assembly", "--assembly", "ID",
          "Build this biological assembly; list: print all of FILE and stop. Assemblies come from REMARK 350 or "
          "mmCIF")
-        .in(kAssembly, kShared)
-        .in_short_help(),
+        .in(kAssembly, kShared | in_short_help),
     word("molecule.instances", "--instances", "WORD",
          "Compute one copy of an assembly and draw it many times. exact: refuse if a probe can touch two copies at "
          "once; separate: give each copy a surface as if it were alone")

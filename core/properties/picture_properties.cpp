@@ -15,8 +15,7 @@ constexpr auto kTable = std::to_array<Property>({
            "Camera as JSON, or as PyMOL or ChimeraX print it. A file, or the text itself: JSON, get_view or view "
            "matrix")
         .initially("shows everything")
-        .in(kCamera, kShared | live)
-        .in_short_help(),
+        .in(kCamera, kShared | live | in_short_help),
     word("camera.projection", "--projection", "WORD", "Projection of the camera: perspective or orthographic")
         .one_of("perspective|orthographic")
         .initially("perspective")
@@ -28,23 +27,19 @@ constexpr auto kTable = std::to_array<Property>({
          "symmetry-side: with that axis upright; open: from where the atoms of @zoom-to@ are hidden least; "
          "channel: along a channel through them. A minus sign before it shows the opposite side")
         .initially("front")
-        .in(kCamera, kShared | live)
-        .in_short_help()
+        .in(kCamera, kShared | live | in_short_help)
         .excludes("camera.from"),
     text("camera.turn", "--turn", "AXISANGLE",
          "Turn the molecule about an axis by degrees: y90, x-30, z45. x points right, y up, z to the viewer. "
          "Repeatable, applied in this order")
-        .in(kCamera, kShared | live | repeatable)
-        .in_short_help(),
+        .in(kCamera, kShared | live | repeatable | in_short_help),
     text("camera.zoom_to", "--zoom-to", "EXPR", "Fill the picture with these atoms")
         .initially("all that @show@ leaves")
-        .in(kCamera, kShared | live)
-        .in_short_help(),
+        .in(kCamera, kShared | live | in_short_help),
     text("camera.look_into", "--look-into", "EXPR",
          "Look at these atoms from the open side, with the surface cut before them. Short for @zoom-to EXPR@ @view "
          "open@ @clip 'before EXPR'@")
-        .in(kCamera, in_bundle)
-        .in_short_help()
+        .in(kCamera, in_bundle | in_short_help)
         .excludes("camera.from|camera.view|camera.zoom_to"),
     text("camera.named_views", "--named-view", "NAME=FILE",
          "View that readers of the page choose by its name. FILE: a camera as for @camera@, or a scene or picture, "
@@ -55,8 +50,7 @@ constexpr auto kTable = std::to_array<Property>({
         .excludes("camera.from|camera.view|camera.turn|camera.zoom_to"),
     number("camera.turntable", "--turntable", "TURNS",
            "Turns of the camera around the molecule over the run. Negative numbers turn the other way")
-        .in(kCamera, kShared)
-        .in_short_help(),
+        .in(kCamera, kShared | in_short_help),
     text("camera.follow", "--follow", "EXPR", "Move the camera with the centre of these atoms").in(kCamera, kShared),
     new_file("camera.save", "--save-camera", "FILE",
              "Save the camera as JSON for @camera@, or its path for @camera-path@")
@@ -64,11 +58,9 @@ constexpr auto kTable = std::to_array<Property>({
 
     text("image.size", "--size", "WxH", "Size of the picture in pixels")
         .initially("1280x960")
-        .in(kPicture, kShared | live)
-        .in_short_help(),
+        .in(kPicture, kShared | live | in_short_help),
     text("image.width", "--width", "LENGTH", "Width of the picture: 85mm, 8.5cm, 3.5in or 1000px")
-        .in(kPicture, kShared | live)
-        .in_short_help()
+        .in(kPicture, kShared | live | in_short_help)
         .excludes("image.size"),
     text("image.height", "--height", "LENGTH", "Height of the picture in the same units")
         .in(kPicture, kShared | live)
@@ -80,13 +72,11 @@ constexpr auto kTable = std::to_array<Property>({
     count("image.samples", "--samples", "N", "Rays per pixel, for smooth edges")
         .from(1, 1024)
         .initially("9")
-        .in(kPicture, kShared | live)
-        .in_short_help(),
+        .in(kPicture, kShared | live | in_short_help),
     text("image.background", "--background", "COLOR", "Background: transparent, or a colour (white, #rrggbb)")
         .proposes("transparent|white|black")
         .initially("transparent")
-        .in(kPicture, kShared | live)
-        .in_short_help(),
+        .in(kPicture, kShared | live | in_short_help),
     flag("image.aovs", "--aovs",
          "Add depth, normals, positions and atoms to an .exr. Layers: Z, N, P, Nview, Pview, atom, kind and "
          "component at each pixel's centre; in frames of a run also forward, the motion to the next one")
@@ -110,8 +100,7 @@ constexpr auto kTable = std::to_array<Property>({
         .in(kPicture, rare),
     flag("picture.draft", "--draft",
          "Draw a draft in a fraction of the time. It has half the width and height, and one ray per pixel")
-        .in(kPicture)
-        .in_short_help(),
+        .in(kPicture, in_short_help),
     flag("picture.any_cost", "--any-cost", "Make a picture of more than 10^10 rays, too, which takes hours")
         .in(kPicture, in_bundle | rare),
     flag("picture.resume", "--resume",

@@ -33,7 +33,8 @@ enum Trait : unsigned {
   negated = 64,         ///< the scene key is false where the option is given
   rare = 128,           ///< few need it: the help has no words about its option; --set has its key
   of_objects = 256,     ///< each object beside the surface has its own
-  of_surfaces = 512     ///< each such object that is a surface has its own
+  of_surfaces = 512,    ///< each such object that is a surface has its own
+  in_short_help = 1024  ///< --help shows its option even where a command has very many
 };
 
 /// The highest value of a property that has no upper limit.
@@ -56,7 +57,6 @@ struct Property {
   double slider_end = 0.0;             ///< the largest value that the slider reaches
   std::string_view excluded{};         ///< keys that are not given beside it: "image.size|camera.from"
   std::string_view needed{};           ///< a key without which it means nothing
-  bool common = false;                 ///< --help shows its option even where a command has very many
 
   /// A copy with another value of one member.
   template <auto member>
@@ -80,7 +80,6 @@ struct Property {
   constexpr Property in(std::string_view title, unsigned all_traits = 0) const {
     return with<&Property::heading>(title).with<&Property::traits>(all_traits);
   }
-  constexpr Property in_short_help() const { return with<&Property::common>(true); }
 
   constexpr bool has(Trait trait) const { return (traits & trait) != 0; }
   constexpr bool has_range() const { return lowest < highest; }
