@@ -17,7 +17,7 @@
 
 namespace meniscus {
 
-/// Returns what `meniscus export blender` takes.
+/// Returns the properties of `meniscus export blender`.
 TakenProperties blender_properties();
 
 /// All meshes of one figure, and the data that they refer to.

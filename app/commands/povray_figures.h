@@ -15,7 +15,7 @@
 
 namespace meniscus {
 
-/// Returns what `meniscus export povray` takes.
+/// Returns the properties of `meniscus export povray`.
 TakenProperties povray_properties();
 
 /// Returns the options that all files of the scene share.

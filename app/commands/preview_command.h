@@ -29,7 +29,7 @@ struct PreviewCommand : SceneCommand {
 
 using DeclaredPreview = DeclaredCommand<PreviewCommand>;
 
-/// Returns what the preview takes.
+/// Returns the properties of `meniscus preview`.
 TakenProperties preview_properties();
 
 /// Adds the options that only the preview has, and those with other defaults.

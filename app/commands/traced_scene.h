@@ -10,7 +10,7 @@
 
 namespace meniscus {
 
-/// Returns what exports for path tracers take.
+/// Returns the properties of exports for path tracers.
 TakenProperties traced_properties();
 
 /// A figure's scene, and its fineness.

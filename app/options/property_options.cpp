@@ -32,7 +32,7 @@ CLI::Validator within(const Property& property) {
 
 bool is_film(const GivenScene& given) { return is_film_path(given.scene.output); }
 
-/// Returns what figures take, as pictures or for other programs.
+/// Returns the properties of figures, as pictures or for other programs.
 TakenProperties shown_properties() {
   return run_properties().with({"Surface", "-surface.patches", "-surface.min_patch", "Colour", "Figure",
                                 "-surface.clip_all", "Beside the surface", "Camera", "image.size", "image.width",

@@ -46,11 +46,11 @@ class TakenProperties {
   std::vector<Need> needs_;
 };
 
-/// Returns what every command takes that computes surfaces of a molecule or of a run of frames.
+/// Returns the properties of every command that computes surfaces of a molecule or of a run of frames.
 const TakenProperties& run_properties();
-/// Returns what every export of a figure takes.
+/// Returns the properties of every export of a figure.
 const TakenProperties& figure_properties();
-/// Returns what `meniscus render` takes.
+/// Returns the properties of `meniscus render`.
 const TakenProperties& render_properties();
 
 /// Returns the condition of options for films: the output is one.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values of a scene that change nothing, because another one is missing.
+// Finds values of a scene that change nothing, because another one is missing.
 #pragma once
 
 #include <concepts>
@@ -14,7 +14,7 @@
 
 namespace meniscus {
 
-/// A scene, and which of its values someone chose.
+/// A scene, and a function that tells which of its values were given.
 struct GivenScene {
   const Scene& scene;
   std::function<bool(std::string_view key)> is_given;
@@ -24,7 +24,7 @@ struct GivenScene {
   bool any(const std::vector<std::string_view>& keys) const;
 };
 
-/// What a value needs: any of some keys, or whatever a function finds in the scene.
+/// A condition that is met if a value of some keys was given, or if a function of the scene returns true.
 struct Condition {
   std::function<bool(const GivenScene& given)> is_met;
 
@@ -33,15 +33,15 @@ struct Condition {
   Condition(Function function) : is_met(function) {}
 };
 
-/// What some values need to have an effect.
+/// A condition without which some values have no effect.
 struct Need {
   std::vector<std::string_view> keys;
   Condition condition;
-  std::string_view missing;  ///< what is not there, and what to do; options are named as in message()
-  bool is_refused = false;   ///< numbers or frames would be taken for others
+  std::string_view missing;  ///< says what is missing and what to add; names options as message() does
+  bool is_refused = false;   ///< true if a user would take the result for another one
 };
 
-/// A sentence about values without effect; of those that are refused it is the message of the error.
+/// A sentence about values without effect. It is the message of an error if they are refused.
 struct SceneNote {
   std::string text;  ///< begins with "note: " or "warning: " unless it is refused
   bool is_refused = false;
