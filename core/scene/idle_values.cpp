@@ -104,7 +104,7 @@ std::string text_of(const GivenScene& given, std::string_view key) {
   return texts.empty() ? "" : texts.back();
 }
 
-/// Returns how messages name an option, "@stick-radius@".
+/// Returns the option of a property as this door spells it.
 std::string name_of(std::string_view key) { return option_name(property_of(key).long_option().substr(2)); }
 
 void add_unlikely_values(const GivenScene& given, std::vector<SceneNote>& notes) {
