@@ -130,27 +130,27 @@ class PictureFilm : public FilmMaker {
 };
 
 TakenProperties film_properties() {
-  return {{"molecule.quiet",
-           "frames.progress",
-           "frames.fps",
-           "frames.codec",
-           "frames.crf",
-           "frames.bits",
-           "frames.chroma",
-           "Computing",
-           "-surface.verify",
-           "image.size",
-           "image.samples",
-           "image.background",
-           "picture.any_cost",
-           "Legend",
-           "-legend.file",
-           "annotations.letter_size",
-           "annotations.letter_color",
-           "output.file",
-           "output.force",
-           "scene.trust"},
-          {film_need()}};
+  return TakenProperties{"molecule.quiet",
+                         "frames.progress",
+                         "frames.fps",
+                         "frames.codec",
+                         "frames.crf",
+                         "frames.bits",
+                         "frames.chroma",
+                         "Computing",
+                         "-surface.verify",
+                         "image.size",
+                         "image.samples",
+                         "image.background",
+                         "picture.any_cost",
+                         "Legend",
+                         "-legend.file",
+                         "annotations.letter_size",
+                         "annotations.letter_color",
+                         "output.file",
+                         "output.force",
+                         "scene.trust"}
+      .with({}, {film_need()});
 }
 
 void run(const DeclaredFilm& declared) {

@@ -26,7 +26,7 @@ std::vector<std::string> tables_of(const SurfaceCommand& command) {
   return paths;
 }
 
-TakenProperties surface_properties() {
+TakenProperties surface_command_properties() {
   return run_properties().with(
       {"surface.patches", "surface.min_patch", "surface.by", "surface.cavities"},
       {{{"surface.patches"},
@@ -106,7 +106,7 @@ void add_surface(CLI::App& command) {
       "probe than to any other contact.\nOver frames the tables of atoms and residues have rows for each frame. A "
       "cavity keeps its number while probes that\nrest in it, touching three atoms, overlap from one frame to the "
       "next.");
-  auto declared = std::make_shared<DeclaredCommand<SurfaceCommand>>(command, surface_properties());
+  auto declared = std::make_shared<DeclaredCommand<SurfaceCommand>>(command, surface_command_properties());
   SurfaceCommand& state = declared->state;
   state.scene.molecule.surface.timing = StageTiming::exact;  // each time is printed
   PropertyOptions options(command);

@@ -189,7 +189,7 @@ bool is_usd(const Scene& scene) {
          scene.output.ends_with(".usdz");
 }
 
-TakenProperties mesh_properties() {
+TakenProperties mesh_export_properties() {
   return figure_properties().with(
       {"-Figure", "surface.opacity", "-figure.object", "-camera.look_into", "-camera.path", "-camera.turntable",
        "-camera.follow", "-camera.save", "look.preset", "look.specular", "look.shininess", "frames.fps", "Mesh"},
@@ -211,7 +211,7 @@ TakenProperties mesh_properties() {
 }
 
 void declare(CLI::App& command, const std::string& format) {
-  auto declared = std::make_shared<DeclaredCommand<>>(command, mesh_properties());
+  auto declared = std::make_shared<DeclaredCommand<>>(command, mesh_export_properties());
   declared->options.describe_output(
       format.empty() ? "File to write; its ending chooses the format; for frames with # for the number"
                      : "PLY file to write");
