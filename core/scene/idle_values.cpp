@@ -24,14 +24,16 @@ bool has_letters(const GivenScene& given) {
                                             "annotations.title", "annotations.time_stamp", "annotations.curve"});
 }
 
-Look look(const GivenScene& given) { return look_of(given.scene.look, {1, 1}, std::nullopt, Hues::free); }
-bool has_shadows(const GivenScene& given) { return look(given).shadows > 0.0f; }
+Look resulting_look(const GivenScene& given) { return look_of(given.scene.look, {1, 1}, std::nullopt, Hues::free); }
+bool has_shadows(const GivenScene& given) { return resulting_look(given).shadows > 0.0f; }
 
 /// Returns true unless colours are simply those given. Objects may have a material of their own.
-bool is_shaded(const GivenScene& given) { return given.any({"figure.object"}) || look(given).material.ambient < 1.0f; }
+bool is_shaded(const GivenScene& given) {
+  return given.any({"figure.object"}) || resulting_look(given).material.ambient < 1.0f;
+}
 
 bool has_highlights(const GivenScene& given) {
-  return given.any({"figure.object"}) || look(given).material.specular > 0.0f;
+  return given.any({"figure.object"}) || resulting_look(given).material.specular > 0.0f;
 }
 
 bool has_transparent_pixels(const GivenScene& given) {
@@ -90,7 +92,7 @@ const std::vector<Need>& needs_of_scenes() {
       {{"look.shininess"}, has_highlights, "there are no highlights; add @specular@"},
       {{"look.shadow_softness"}, has_shadows, "there are no shadows; add @shadows@"},
       {{"look.ambient_occlusion_radius", "look.ambient_occlusion_rays"},
-       [](const GivenScene& given) { return look(given).ambient_occlusion > 0.0f; },
+       [](const GivenScene& given) { return resulting_look(given).ambient_occlusion > 0.0f; },
        "no shade is cast; add @ambient-occlusion@"},
       {{"look.linear_alpha"}, has_transparent_pixels, "it is for the edges of transparent .png and .tif pictures"}};
   return kNeeds;
