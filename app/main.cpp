@@ -158,7 +158,7 @@ class ManualFormatter : public CLI::Formatter {
   static bool is_common(const CLI::Option& option) {
     const std::string name = option.get_name();
     return name == "--help" || name == "--help-all" || std::ranges::any_of(properties(), [&](const Property* property) {
-             return property->common && property->long_option() == name;
+             return property->has(in_short_help) && property->long_option() == name;
            });
   }
 };

@@ -156,7 +156,8 @@ void add_bench(CLI::App& command) {
            "  meniscus bench --paper 1crn.pdb 1vis.pdb 1tii.pdb   frames as in the paper, beside its own figures",
            "All times are wall-clock milliseconds: the medians of the runs, after one run that is not counted. They "
            "do\nnot include reading the file.");
-  auto declared = std::make_shared<DeclaredCommand<BenchCommand>>(command, for_bench);
+  auto declared = std::make_shared<DeclaredCommand<BenchCommand>>(
+      command, TakenProperties{"molecule.quiet", "surface.kind", "surface.probe", "Computing", "image.size"});
   BenchCommand& state = declared->state;
   command.add_option("FILES", state.files, "Molecules: " + format_names() + "; .gz too")->required();
   PropertyOptions options(command);

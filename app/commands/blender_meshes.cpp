@@ -20,6 +20,14 @@
 
 namespace meniscus {
 
+TakenProperties blender_properties() {
+  return figure_properties().with({"look.shadows", "look.shadow_softness", "frames.fps", "mesh.tolerance",
+                                   "mesh.tolerance_pixels", "mesh.density", "mesh.even", "mesh.attributes"},
+                                  {{{"frames.fps"},
+                                    [](const GivenScene& given) { return given.scene.frames.asked(); },
+                                    "there is no run of frames"}});
+}
+
 void check_blender(const Scene& scene) { check_caps_of_map(scene, "a .mns file has no values of the map on caps"); }
 
 blender::Shot blender_shot(const Scene& scene, const Camera& camera) {

@@ -17,6 +17,9 @@
 
 namespace meniscus {
 
+/// Returns the properties of `meniscus export blender`.
+TakenProperties blender_properties();
+
 /// All meshes of one figure, and the data that they refer to.
 struct FigureMeshes {
   std::optional<ShapeObject> beside;

@@ -152,6 +152,13 @@ void run(const SceneCommand& command, const std::string& trajectory_path) {
   if (trajectory) print_trajectory(*trajectory);
 }
 
+TakenProperties info_properties() {
+  return {{"Input", "Radii", "Assembly", "-molecule.instances"},
+          {{{"molecule.unknown_element"},
+            [](const GivenScene&) { return false; },
+            "all atoms are listed, with a guessed radius where the element is unknown"}}};
+}
+
 }  // namespace
 
 void add_info(CLI::App& command) {
@@ -162,7 +169,7 @@ void add_info(CLI::App& command) {
            "  meniscus info 1tii.pdb --radii-file amber.dat --radius 'element Zn=1.1'\n"
            "  meniscus info run.xtc                         frames, times and box of a trajectory\n"
            "  meniscus info run.psf --trajectory run.dcd");
-  auto declared = std::make_shared<DeclaredCommand<>>(command, for_info);
+  auto declared = std::make_shared<DeclaredCommand<>>(command, info_properties());
   command.get_option("--radii")->expected(0, 1);  // without a value it requests the radii that are printed anyway
   auto trajectory = std::make_shared<std::string>();
   PropertyOptions(command)

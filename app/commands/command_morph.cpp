@@ -107,7 +107,9 @@ void add_morph(CLI::App& command) {
       "path.pdb",
       "Atoms that all structures have are moved, by sequence: names of chains and numbers of residues may differ. "
       "Bonds\nkeep their lengths, domains move as bodies, and atoms do not pass through one another.");
-  auto declared = std::make_shared<DeclaredCommand<MorphCommand>>(command, for_morph);
+  auto declared = std::make_shared<DeclaredCommand<MorphCommand>>(
+      command, TakenProperties{"molecule.superpose_on", "molecule.select", "molecule.warnings", "molecule.quiet",
+                               "output.file", "output.force"});
   declared->options.describe_output("PDB file to write, one model for each step");
   PropertyOptions options(command);
   options.add("morph.files", declared->state.files)->required();

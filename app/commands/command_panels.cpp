@@ -39,7 +39,7 @@ using DeclaredPanels = DeclaredCommand<PanelsCommand>;
 std::vector<std::string> words_of_panels(const DeclaredPanels& page) {
   constexpr std::array<std::string_view, 5> kOfPage{"output.file", "image.size", "image.width", "image.height",
                                                     "molecule.superpose_on"};
-  std::vector<std::string> words = shared_words(page.options, for_panels, "panels", kOfPage);
+  std::vector<std::string> words = shared_words(page.options, kOfPage);
   const double dots_per_inch = page.state.scene.picture.dots_per_inch;
   if (dots_per_inch > 0.0 && !page.options.typed("image.dpi"))
     words.insert(words.end(), {"--dpi", fmt::format("{}", dots_per_inch)});
@@ -49,8 +49,7 @@ std::vector<std::string> words_of_panels(const DeclaredPanels& page) {
 SceneCommand read_panel(const std::string& path, const std::vector<std::string>& words, const SceneCommand& page) {
   SceneCommand command = read_scene_file(path, words, page.reporting);
   command.scene = readied(command.scene);
-  settle_selections(command.scene.molecule, command.scene.frames,
-                    {.figure = &command.scene.figure, .view = &command.scene.picture});
+  settle_selections(command.scene);
   return command;
 }
 
@@ -169,7 +168,12 @@ void add_panels(CLI::App& command) {
       "  meniscus panels a.json b.json c.json d.json -o figure.png --columns 2 --letters lower --background white",
       "A picture that meniscus render made is a panel, for it carries its scene; so is a scene file. Each panel is "
       "drawn\nagain, in the size that it has on the page. Options that scenes have, too, hold for all panels.");
-  auto declared = std::make_shared<DeclaredPanels>(command, for_panels);
+  auto declared = std::make_shared<DeclaredPanels>(
+      command,
+      TakenProperties{"molecule.superpose_on", "molecule.warnings", "molecule.quiet", "Computing", "-surface.verify",
+                      "image.size", "image.width", "image.height", "image.dpi", "image.samples", "image.background",
+                      "picture.any_cost", "Legend", "-legend.file", "annotations.letter_size",
+                      "annotations.letter_color", "output.file", "output.force", "scene.trust"});
   PanelsCommand& state = declared->state;
   declared->options.describe_output("Picture to write: .png, .jpg, .webp, .tif, .svg, .pdf");
   PropertyOptions options(command);

@@ -68,6 +68,14 @@ void check_request(const PocketsCommand& command) {
     if (!path.empty() && path != "-") check_output(path, command.existing());
 }
 
+TakenProperties pocket_properties() {
+  return run_properties().with(
+      {"surface.show", "-surface.kind", "-surface.verify"},
+      {superposition_need({"report.csv_pockets", "report.json"}),
+       {{"surface.show"}, {"report.pocket_figure"}, "it says what --figure shows; --select takes some of the atoms"},
+       {{"pockets.tolerance"}, {"report.pocket_mesh"}, "it is that of a mesh; add --mesh FILE"}});
+}
+
 }  // namespace
 
 void add_pockets(CLI::App& command) {
@@ -87,7 +95,7 @@ void add_pockets(CLI::App& command) {
       "the area of the\nmouths times --mouth-tolerance (column `less up to`). A pocket without a mouth is a cavity, "
       "one with two or more a\ntunnel. Pockets are ranked by volume. Over frames a pocket keeps its number while "
       "probes at rest in it overlap.");
-  auto declared = std::make_shared<DeclaredCommand<PocketsCommand>>(command, for_pockets);
+  auto declared = std::make_shared<DeclaredCommand<PocketsCommand>>(command, pocket_properties());
   PocketsCommand& state = declared->state;
   PropertyOptions options(command);
   options.add("pockets.large_probe", state.pockets.large_probe_radius);

@@ -73,9 +73,11 @@ Shown read_run(PreviewCommand& command) {
     reading.scene.molecule = command.read_molecule_request();
     return {std::move(scene), read_and_tell(reading), {}, {}};
   }
-  MoleculeRequest molecule = scene.molecule;
-  settle_selections(molecule, scene.frames, {.figure = &scene.figure, .view = &scene.picture});
-  const auto frames = std::make_shared<FrameRun>(molecule, scene.frames);
+  Scene settled = scene;
+  settle_selections(settled);
+  const auto frames = std::make_shared<FrameRun>(settled.molecule, scene.frames);
+  scene.figure = settled.figure;
+  scene.picture = settled.picture;
   tell_run(command, *frames);
   if (scene.molecule.division.instances != InstanceMode::none && frames->atoms_change())
     throw UsageError(
@@ -289,7 +291,7 @@ void add_preview(CLI::App& command) {
            "through\nEGL; without one the exit code is 4. The page is served on 127.0.0.1 only and opens only with the "
            "token in its\naddress. To open it on another machine, use the ssh line that is printed. SIGINT and SIGTERM "
            "end both.");
-  auto declared = std::make_shared<DeclaredPreview>(command, for_preview);
+  auto declared = std::make_shared<DeclaredPreview>(command, preview_properties());
   add_preview_options(command, *declared);
   command.callback([declared] {
     take_preview(*declared);

@@ -225,7 +225,7 @@ bool leave_missing(RenderCommand& command) {
   std::vector<std::uint64_t> frames;
   if (is_run) {
     Scene scene = readied(command.scene);
-    settle_selections(scene.molecule, scene.frames, {});
+    settle_selections(scene);
     frames = FrameRun(scene.molecule, scene.frames).chunk();
     paths.clear();
     for (const std::uint64_t frame : frames) paths.push_back(pictures->at(frame));
@@ -288,7 +288,7 @@ void add_render(CLI::App& command) {
       "  meniscus render 1tii.pdb -o 1tii.png --color chain --preset flat --background white\n"
       "  meniscus render 1tii.pdb -o 1tii.exr --aovs --camera camera.json   depth, normals, atoms for compositing\n"
       "  meniscus render adk.psf --trajectory adk.dcd --frames all --superpose 'name CA' -o adk.mp4");
-  auto declared = std::make_shared<DeclaredCommand<RenderCommand>>(command, for_render);
+  auto declared = std::make_shared<DeclaredCommand<RenderCommand>>(command, render_properties());
   RenderCommand& state = declared->state;
   declared->options.describe_output(
       "Picture to write: .png, .jpg, .webp, .tif, .exr, .svg, .pdf [FILE's name here, as .png]; for frames: "

@@ -45,7 +45,7 @@ void export_atoms(const SceneCommand& asked) {
     throw UsageError("--instances separate: of the atoms in the file one surface is made; leave it out");
   std::unique_ptr<FrameRun> run;
   if (command.scene.frames.asked()) {
-    settle_selections(command.scene.molecule, command.scene.frames);
+    settle_selections(command.scene);
     run = std::make_unique<FrameRun>(command.scene.molecule, command.scene.frames);
     if (run->atoms_change())
       throw UsageError(
@@ -79,7 +79,7 @@ void declare_atoms(CLI::App& command) {
       "For programs that compute surfaces themselves with libmeniscus, such as the panel of the Blender add-on. The "
       "file\n"
       "is described in exporters/blender/FORMAT.md; radii and colours are those of the first frame of a run.");
-  auto declared = std::make_shared<DeclaredCommand<>>(command, for_atoms);
+  auto declared = std::make_shared<DeclaredCommand<>>(command, run_properties().with({"Colour", "output.file"}));
   declared->options.describe_output("File to write");
   command.callback([declared] {
     declared->options.take();

@@ -136,7 +136,7 @@ void declare_blender(CLI::App& command) {
            "manifest\n"
            "  meniscus export blender 1tii.pdb -o 1tii.mns --density 1   even triangles, for modifiers and sculpting",
            "The default tolerance is half a pixel of --camera; without a camera it is 0.05 Å, of frames 0.2 Å.");
-  auto declared = std::make_shared<DeclaredCommand<>>(command, for_blender);
+  auto declared = std::make_shared<DeclaredCommand<>>(command, blender_properties());
   declared->options.describe_output(".mns file to write; for frames, a folder");
   declared->options.option("mesh.attributes")
       ->description(

@@ -184,8 +184,34 @@ void export_to_mesh(const SceneCommand& asked) {
   std::cout << escaped(command.scene.output) << "\n";
 }
 
+bool is_usd(const Scene& scene) {
+  return scene.mesh.format.starts_with("usd") || scene.output.ends_with(".usd") || scene.output.ends_with(".usda") ||
+         scene.output.ends_with(".usdz");
+}
+
+TakenProperties mesh_export_properties() {
+  return figure_properties().with(
+      {"-Figure", "surface.opacity", "-figure.object", "-camera.look_into", "-camera.path", "-camera.turntable",
+       "-camera.follow", "-camera.save", "look.preset", "look.specular", "look.shininess", "frames.fps", "Mesh"},
+      {{{"frames.fps"},
+        [](const GivenScene& given) { return given.scene.frames.asked() && is_usd(given.scene); },
+        "of meshes USD alone has times; name a file of a run, such as -o a.usda"},
+       {{"look.preset", "look.specular", "look.shininess"},
+        [](const GivenScene& given) {
+          return is_usd(given.scene) || given.scene.mesh.format == "glb" || given.scene.output.ends_with(".glb");
+        },
+        "of meshes USD and GLB alone have materials; name a file of one of them, such as -o a.usda"},
+       {{"image.size", "image.width", "image.height", "camera.projection", "camera.view", "camera.turn",
+         "camera.zoom_to", "camera.from"},
+        [](const GivenScene& given) {
+          return given.any({"mesh.tolerance_pixels"}) ||
+                 (given.any({"camera.from"}) && !given.any({"mesh.tolerance", "mesh.density"}));
+        },
+        "a mesh has no picture; they matter for --tolerance-pixels alone"}});
+}
+
 void declare(CLI::App& command, const std::string& format) {
-  auto declared = std::make_shared<DeclaredCommand<>>(command, for_mesh);
+  auto declared = std::make_shared<DeclaredCommand<>>(command, mesh_export_properties());
   declared->options.describe_output(
       format.empty() ? "File to write; its ending chooses the format; for frames with # for the number"
                      : "PLY file to write");

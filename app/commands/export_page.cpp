@@ -161,9 +161,14 @@ void declare_page(CLI::App& command) {
       "  meniscus export page 1tii.pdb -o 1tii.html --named-view 'Active site=site.json' --named-view Back=back.png",
       "The page fetches nothing, and casts the exact patches by WebGL 2 in the browser that opens it. Others "
       "see\na still picture that is in it. Frames of a run are all in the page, each with its own patches.");
-  auto declared = std::make_shared<DeclaredCommand<PageCommand>>(command, for_page);
+  auto declared = std::make_shared<DeclaredCommand<PageCommand>>(
+      command, figure_properties().with({"surface.patches", "surface.min_patch", "Light", "Lines", "-look.material",
+                                         "-look.ambient_occlusion_rays", "-look.shadows", "-look.shadow_softness",
+                                         "-frames.only", "-camera.path", "-camera.turntable", "-camera.follow",
+                                         "image.background", "annotations.labels"}));
   PropertyOptions(command).add("camera.named_views", declared->state.named_views);
   declared->options.describe_output("HTML file to write");
+  declared->options.show_anyway("legend.shown");
   command.callback([declared, &command] {
     declared->options.take();
     const bool trusts_scenes = command.count("--trust-scene") > 0;

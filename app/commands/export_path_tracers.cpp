@@ -88,7 +88,7 @@ void run(const PathTracerCommand& command) {
 }
 
 void declare(CLI::App& command, path_tracers::Renderer renderer) {
-  auto declared = std::make_shared<DeclaredCommand<PathTracerCommand>>(command, for_path_tracers);
+  auto declared = std::make_shared<DeclaredCommand<PathTracerCommand>>(command, traced_properties());
   declared->state.renderer = renderer;
   declared->options.describe_output("Folder to write; created if missing");
   const Property& material = property_of("path_tracers.material");

@@ -148,7 +148,7 @@ void declare_povray(CLI::App& command) {
            "pictures\nhave the numbers of the trajectory. To share the work among machines, give each the same options "
            "and its --only, and\nrender with +SF and +EF. povray 'surface.ini[film]' renders a run in any order and "
            "counts pictures from 1.");
-  auto declared = std::make_shared<DeclaredCommand<>>(command, for_povray);
+  auto declared = std::make_shared<DeclaredCommand<>>(command, povray_properties());
   declared->options.describe_output("Folder to write; created if missing");
   const Property& material = property_of("povray.material");
   declared->options.option("look.material")->description(help_of(material))->check(proposes(words_of(material)));

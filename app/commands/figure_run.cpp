@@ -23,8 +23,7 @@ namespace {
 SceneCommand ready(const SceneCommand& command) {
   SceneCommand made = command;
   made.scene = readied(command.scene);
-  settle_selections(made.scene.molecule, made.scene.frames,
-                    {.figure = &made.scene.figure, .view = &made.scene.picture, .motion = &made.scene.run_camera});
+  settle_selections(made.scene);
   return made;
 }
 

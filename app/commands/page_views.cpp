@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "app/commands/scene_files.h"
-#include "app/options/scene_trust.h"
 #include "app/process/program_error.h"
 #include "core/base/error.h"
 #include "core/base/output_file.h"

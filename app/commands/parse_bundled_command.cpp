@@ -3,13 +3,15 @@
 #include "app/commands/parse_bundled_command.h"
 
 #include <algorithm>
-#include <map>
 #include <set>
 #include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/commands/blender_meshes.h"
+#include "app/commands/povray_figures.h"
+#include "app/commands/traced_scene.h"
 #include "app/farm/bundle.h"
 #include "app/options/property_options.h"
 #include "app/options/usage_faults.h"
@@ -69,13 +71,12 @@ void refuse_options(const Words& arguments) {
   }
 }
 
-CommandBit bit_of(const Words& command) {
-  const std::map<std::string_view, CommandBit> bits{{"render", for_render},
-                                                    {"povray", for_povray},
-                                                    {"blender", for_blender},
-                                                    {"mitsuba", for_path_tracers},
-                                                    {"pbrt", for_path_tracers}};
-  return bits.at(command.back());
+TakenProperties properties_of(const Words& command) {
+  const std::string& name = command.back();
+  return name == "render"    ? render_properties()
+         : name == "povray"  ? povray_properties()
+         : name == "blender" ? blender_properties()
+                             : traced_properties();
 }
 
 /// Returns the typed options with their values.
@@ -98,9 +99,9 @@ BundledCommand parse_bundled_command(const Words& words) {
   CLI::App app("", parts.command.back());
   app.set_help_flag();
   let_the_last_count(app);
-  const CommandBit bit = bit_of(parts.command);
-  DeclaredCommand<> declared(app, bit);
-  if (bit == for_render) {
+  DeclaredCommand<> declared(app, properties_of(parts.command));
+  if (parts.command.back() == "render") {
+    declared.options.describe_output("", OutputName::optional);
     PropertyOptions options(app);
     options.add_switch("picture.provenance", [] {});
     options.add_switch("picture.no_provenance", [] {});
@@ -113,7 +114,7 @@ BundledCommand parse_bundled_command(const Words& words) {
     throw UsageError(fmt::format("after --: {}", error.what()));
   }
   if (declared.state.scene.molecule.file == "-") throw UsageError("standard input cannot be bundled; name a FILE");
-  return {parts.command, bit, declared.state, typed(app, kProvenance), typed(app, kDeviceOptions), parts.renderer};
+  return {parts.command, declared.state, typed(app, kProvenance), typed(app, kDeviceOptions), parts.renderer};
 }
 
 }  // namespace meniscus::farm

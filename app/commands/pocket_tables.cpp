@@ -155,7 +155,7 @@ class PocketTables {
 
 void print_pockets(const PocketsCommand& asked) {
   PocketsCommand command = asked;
-  settle_selections(command.scene.molecule, command.scene.frames, {.of_atoms = {&command.ligand}});
+  settle_selections(command.scene, {&command.ligand});
   if (const std::string fault = scene_fault(command.scene); !fault.empty() && !command.figure.empty())
     throw UsageError("--figure: " + fault);
   PocketTables(command).make();

@@ -12,6 +12,10 @@
 
 namespace meniscus {
 
+TakenProperties povray_properties() {
+  return figure_properties().with({"look.shadows", "look.shadow_softness", "look.material", "look.comments"});
+}
+
 povray::SceneOptions povray_options(const Scene& scene, Existing existing) {
   using enum povray::Material;
   povray::SceneOptions options;

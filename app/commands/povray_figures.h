@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/options/property_options.h"
 #include "core/math/ball.h"
 #include "core/scene/figure.h"
 #include "core/scene/scene.h"
@@ -13,6 +14,9 @@
 #include "exporters/povray/scene_options.h"
 
 namespace meniscus {
+
+/// Returns the properties of `meniscus export povray`.
+TakenProperties povray_properties();
 
 /// Returns the options that all files of the scene share.
 povray::SceneOptions povray_options(const Scene& scene, Existing existing);

@@ -29,6 +29,9 @@ struct PreviewCommand : SceneCommand {
 
 using DeclaredPreview = DeclaredCommand<PreviewCommand>;
 
+/// Returns the properties of `meniscus preview`.
+TakenProperties preview_properties();
+
 /// Adds the options that only the preview has, and those with other defaults.
 void add_preview_options(CLI::App& command, DeclaredPreview& declared);
 

@@ -153,7 +153,7 @@ bool SceneOpener::is_of_this_molecule(const Scene& scene) const {
 
 OpenedScene SceneOpener::operator()(const std::filesystem::path& path) const {
   CLI::App app("", "preview");
-  DeclaredPreview declared(app, for_preview);
+  DeclaredPreview declared(app, preview_properties());
   declared.options.name_file(path.string());
   declared.state.reporting.quiet = true;
   try {

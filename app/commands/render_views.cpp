@@ -155,7 +155,7 @@ void render_views(const RenderCommand& asked) {
   check_view_options(asked.scene.molecule);
   RenderCommand command = asked;
   Scene& scene = command.scene;
-  settle_selections(scene.molecule, scene.frames, {.view = &scene.picture, .motion = &scene.run_camera});
+  settle_selections(scene);
   Viewed viewed(command);
   const PictureLayout layout(scene, viewed.key(scene));
   const std::vector<Camera> cameras = viewed.cameras(scene, layout.size);

@@ -14,12 +14,11 @@
 
 namespace meniscus {
 
-std::vector<std::string> shared_words(const SceneOptions& options, CommandBit bit, std::string_view section,
-                                      std::span<const std::string_view> but) {
+std::vector<std::string> shared_words(const SceneOptions& options, std::span<const std::string_view> but) {
   std::vector<std::string> words;
   for (const Property* property : properties()) {
-    if ((property->commands & bit) == 0 || !options.typed(property->key) ||
-        std::ranges::find(but, property->key) != but.end() || property->section() == section)
+    if (!options.taken().has(*property) || !options.typed(property->key) ||
+        std::ranges::find(but, property->key) != but.end())
       continue;
     const std::string name(property->long_option());
     if (property->type == ValueType::flag) {
@@ -36,7 +35,7 @@ std::vector<std::string> shared_words(const SceneOptions& options, CommandBit bi
 
 SceneCommand read_scene_file(const std::string& path, std::vector<std::string> words, const Reporting& reporting) {
   CLI::App app("", "render");
-  DeclaredCommand<RenderCommand> read(app, for_render);
+  DeclaredCommand<RenderCommand> read(app, render_properties());
   read.state.reporting.quiet = true;
   // The scene's own output is not written, so it may exist, and may be read.
   words.insert(words.begin(), {"--scene", path, "-o", "-"});

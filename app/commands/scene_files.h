@@ -11,10 +11,9 @@
 
 namespace meniscus {
 
-/// Returns the options of the command line that apply to each scene, too, as words of `meniscus render`. but: keys of
-/// options that do not apply, in addition to the section.
-std::vector<std::string> shared_words(const SceneOptions& options, CommandBit bit, std::string_view section,
-                                      std::span<const std::string_view> but);
+/// Returns the options of the command line that hold for each scene, too, as words of `meniscus render`. but: keys of
+/// those that do not.
+std::vector<std::string> shared_words(const SceneOptions& options, std::span<const std::string_view> but);
 
 /// Reads the scene of a file or a picture, as `meniscus render --scene FILE words...` does. Options without effect are
 /// not reported. Throws like SceneOptions::take(); UsageError for a scene that does not show surfaces.

@@ -52,10 +52,10 @@ bool is_written_into(const Scene& scene) {
 }
 
 std::vector<SceneCommand> read_scenes(const DeclaredFilm& declared) {
-  constexpr std::array<std::string_view, 8> kOfFilm{"output.file", "picture.draft", "frames.fps",    "frames.codec",
-                                                    "frames.crf",  "frames.bits",   "frames.chroma", "frames.progress"};
+  constexpr std::array<std::string_view, 7> kOfFilm{"output.file", "frames.fps",    "frames.codec",   "frames.crf",
+                                                    "frames.bits", "frames.chroma", "frames.progress"};
   const FilmCommand& film = declared.state;
-  std::vector<std::string> words = shared_words(declared.options, for_film, "storyboard", kOfFilm);
+  std::vector<std::string> words = shared_words(declared.options, kOfFilm);
   Reporting reporting = film.reporting;
   reporting.progress = ProgressStyle::none;
   std::vector<SceneCommand> read;

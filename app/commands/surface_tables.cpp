@@ -210,7 +210,7 @@ void print_surface(const SurfaceCommand& asked) {
   check_outputs(asked);
   SurfaceCommand command = asked;
   command.scene.frames.context = command.context;
-  settle_selections(command.scene.molecule, command.scene.frames);
+  settle_selections(command.scene);
   SurfaceTables(command).make();
 }
 

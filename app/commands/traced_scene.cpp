@@ -57,6 +57,10 @@ void add_more(const Scene& asked, const Figure& figure, std::span<const Atom> at
 
 }  // namespace
 
+TakenProperties traced_properties() {
+  return figure_properties().with({"look.material", "mesh.tolerance", "mesh.tolerance_pixels"});
+}
+
 TracedScene traced_scene(const FigureRun& run, FigureFrame frame) {
   const Scene& asked = run.scene();
   Figure& figure = frame.figure;

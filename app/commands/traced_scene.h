@@ -10,6 +10,9 @@
 
 namespace meniscus {
 
+/// Returns the properties of exports for path tracers.
+TakenProperties traced_properties();
+
 /// A figure's scene, and its fineness.
 struct TracedScene {
   path_tracers::Scene scene;

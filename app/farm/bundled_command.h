@@ -11,7 +11,6 @@ namespace meniscus::farm {
 
 struct BundledCommand {
   std::vector<std::string> words;     ///< {"render"}, {"export", "povray"} and others of steps_of()
-  CommandBit bit = for_render;        ///< the same
   SceneCommand command;               ///< its scene, complete
   std::vector<std::string> further;   ///< options that are not of the scene: --provenance
   std::vector<std::string> device;    ///< options that say where it is computed

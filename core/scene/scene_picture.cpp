@@ -71,7 +71,7 @@ SceneFigure made_figure(const Scene& asked, const EglContext* context) {
   if (asked.image.extent)
     throw RequestError("image.extent: this draws the complete surface; `meniscus render` draws without it");
   Scene scene = readied(asked);
-  settle_selections(scene.molecule, scene.frames, {.figure = &scene.figure, .view = &scene.picture});
+  settle_selections(scene);
   scene.molecule.surface.cpu = context == nullptr;
   const GivenCameras given = given_cameras(scene.picture, scene.run_camera);
   Structure structure = read_molecule(scene.molecule);

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Properties of farm bundles and of the workers that make their frames.
-#include <array>
+#include "core/properties/properties.h"
 
-#include "core/properties/tables.h"
-
-namespace meniscus {
+namespace meniscus::farm {
 namespace {
 
-constexpr auto kTable = std::to_array<Property>({
+constexpr Property kRows[] = {
     text("bundle.engine", "--engine", "WORDS",
          "Engines to write job files for, separated by commas. make, slurm, snakemake, openjd, kubernetes, flamenco, "
          "opencue, or all")
@@ -23,7 +21,7 @@ constexpr auto kTable = std::to_array<Property>({
         .in("Tasks"),
     count("bundle.task_cores", "--task-cores", "N", "Cores per task, for engines that run several tasks on a machine")
         .from(1, 4096)
-        .initially("--threads after --, else 2")
+        .initially("@threads@ after --, else 2")
         .in("Tasks"),
     count("bundle.task_memory", "--task-memory", "MIB", "Memory per task in MiB")
         .from(1, 1 << 30)
@@ -57,10 +55,9 @@ constexpr auto kTable = std::to_array<Property>({
         .in("Options"),
     flag("work.require_gpu", "--require-gpu", "Fail with exit code 4 if there is no hardware GPU").in("Options"),
     count("work.threads", "--threads", "N", "CPU threads per process").from(1, 4096).initially("all").in("Options"),
-});
+};
+const PropertyTable kFarmProperties(kRows);
 
 }  // namespace
 
-std::span<const Property> farm_properties() { return kTable; }
-
-}  // namespace meniscus
+}  // namespace meniscus::farm
