@@ -133,9 +133,10 @@ meniscus_status meniscus_render(meniscus_renderer* renderer, const meniscus_surf
     require_room(wanted.scene, rgba, rgba_size);
     const FinishedSurface& finished = *surface->finished;
     meniscus::Framebuffer drawn;
-    renderer->run([&](meniscus::SurfaceRenderer& draws, const meniscus::EglContext*) {
+    renderer->run([&](meniscus::StillRenderer& draws, const meniscus::EglContext*) {
       run_on_threads(finished.threads, [&] {
-        drawn = draws.render(finished.surface, wanted.coloring, wanted.camera, settings_of(wanted.scene));
+        drawn = draws.render(meniscus::whole_surface(finished.surface, wanted.coloring), wanted.camera,
+                             settings_of(wanted.scene));
       });
     });
     write_pixels(drawn, wanted.scene, rgba);

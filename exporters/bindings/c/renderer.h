@@ -11,7 +11,7 @@
 #include "core/color/coloring.h"
 #include "core/gpu/egl_context.h"
 #include "core/image/color_space.h"
-#include "core/render/surface_renderer.h"
+#include "core/scene/renderers.h"
 #include "core/scene/scene.h"
 #include "exporters/bindings/c/caller_memory.h"
 #include "exporters/bindings/c/counted.h"
@@ -22,9 +22,9 @@ namespace meniscus::c_api {
 
 /// A context and what draws in it.
 struct Studio {
-  explicit Studio(std::int32_t device) : context(gl_of(device)), renderer(make_gl_renderer(context)) {}
+  explicit Studio(std::int32_t device) : context(gl_of(device)), renderer(make_gl_still_renderer(context)) {}
   EglContext context;
-  std::unique_ptr<SurfaceRenderer> renderer;
+  std::unique_ptr<StillRenderer> renderer;
 };
 
 /// Refuses memory of the caller's that has no room for a picture of the scene.
@@ -61,7 +61,7 @@ SurfacePicture surface_picture(const meniscus_surface* surface, const meniscus_s
 struct meniscus_renderer : meniscus::c_api::Counted {
   explicit meniscus_renderer(std::int32_t device) {
     if (device != MENISCUS_CPU) find_gl(device);
-    if (!with_gl_) here_ = meniscus::make_cpu_renderer();
+    if (!with_gl_) here_ = std::make_unique<meniscus::StillRenderer>();
   }
 
   /// use(renderer, context), where they live; one caller after the other. context: nullptr on the CPU.
@@ -86,6 +86,6 @@ struct meniscus_renderer : meniscus::c_api::Counted {
   }
 
   std::mutex calling_;
-  std::unique_ptr<meniscus::SurfaceRenderer> here_;
+  std::unique_ptr<meniscus::StillRenderer> here_;
   std::optional<meniscus::c_api::OnGlThread<meniscus::c_api::Studio>> with_gl_;
 };

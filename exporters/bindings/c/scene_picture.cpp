@@ -90,12 +90,12 @@ meniscus_status meniscus_render_scene(meniscus_renderer* renderer, const meniscu
     const meniscus::Scene wanted = drawable(*scene);
     require_room(wanted, rgba, rgba_size);
     meniscus::Framebuffer drawn;
-    renderer->run([&](meniscus::SurfaceRenderer& draws, const meniscus::EglContext* context) {
+    renderer->run([&](meniscus::StillRenderer& draws, const meniscus::EglContext* context) {
       run_on_threads(wanted.molecule.surface.threads, [&] {
         // Volume maps are looked up point by point on the CPU.
+        meniscus::StillRenderer by_cpu;
         const bool on_cpu = context && meniscus::picture_request(wanted).cpu;
-        drawn = on_cpu ? scene_picture(wanted, *meniscus::make_cpu_renderer(), nullptr)
-                       : scene_picture(wanted, draws, context);
+        drawn = on_cpu ? scene_picture(wanted, by_cpu, nullptr) : scene_picture(wanted, draws, context);
       });
     });
     write_pixels(drawn, wanted, rgba);
