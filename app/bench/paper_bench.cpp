@@ -17,7 +17,7 @@
 
 #include "core/base/text.h"
 #include "core/gpu/egl_context.h"
-#include "core/render/renderer.h"
+#include "core/render/gl_renderer.h"
 #include "core/visible_surface/view_pipeline.h"
 #include "core/color/coloring.h"
 
@@ -127,7 +127,7 @@ class MoleculeBench {
   const PaperBenchMolecule& molecule_;
   const PaperBenchSettings& settings_;
   ViewPipeline view_;
-  Renderer renderer_;
+  GlRenderer renderer_;
   Camera camera_;
   RenderSettings picture_;
   glm::dvec3 first_position_{0.0};

@@ -39,7 +39,7 @@
 #include "core/gpu/egl_context.h"
 #include "core/scene/picture_device.h"
 #include "core/scene/view_aim.h"
-#include "core/scene/view_renderer.h"
+#include "core/scene/renderers.h"
 
 namespace meniscus {
 namespace {
@@ -131,13 +131,13 @@ Shown read_inputs(PreviewCommand& command, const std::function<void(const std::s
 
 /// Makes the renderer. Copies are drawn as atoms like all others if that gives the same picture and GL has room for
 /// them, else by the CPU, which needs memory for one copy only.
-std::unique_ptr<ViewRenderer> make_renderer(const PreviewCommand& command, const Structure& structure, bool on_gl) {
+std::unique_ptr<PreviewRenderer> make_renderer(const PreviewCommand& command, const Structure& structure, bool on_gl) {
   constexpr std::size_t kMostOnGl = 500'000;  // in atoms
   const std::vector<Instances>& copies = structure.instances;
-  if (copies.empty()) return on_gl ? make_gl_view_renderer() : make_cpu_view_renderer();
+  if (copies.empty()) return on_gl ? make_gl_preview_renderer() : make_cpu_preview_renderer();
   const bool apart = command.scene.molecule.division.instances == InstanceMode::exact;
   if (on_gl && apart && placed_count(copies) <= kMostOnGl)
-    return make_placed_atoms_renderer(copies, make_gl_view_renderer());
+    return make_placed_atoms_renderer(copies, make_gl_preview_renderer());
   if (on_gl)
     say(command, fmt::format("the CPU draws the copies: {}",
                              apart ? with_thousands(placed_count(copies)) + " atoms are too many for GL"
@@ -162,7 +162,7 @@ std::unique_ptr<PreviewSession> begin_session(const DeclaredPreview& declared, b
   context.make_device = [request = command.scene.molecule.surface] { return std::make_unique<PictureDevice>(request); };
   context.make_film = make_film;
   context.open_scene = SceneOpener(declared);
-  std::unique_ptr<ViewRenderer> renderer = make_renderer(command, shown.structure, on_gl);
+  std::unique_ptr<PreviewRenderer> renderer = make_renderer(command, shown.structure, on_gl);
   auto session = std::make_unique<PreviewSession>(std::move(renderer), std::move(shown.structure), view, shown.camera,
                                                   command.output_folder, std::move(shown.trajectory), context);
   for (const std::string& sentence : session->idle_cuts()) say(command, "note: --clip " + sentence);

@@ -152,7 +152,7 @@ void draw_figures(FigureRun& run, const PictureLayout& layout, PictureSink& sink
   std::optional<MotionBlur> blur;
   if (const int moments = run.scene().image.motion_blur; moments > 1)
     blur.emplace(run.scene(), moments, run.framing().cameras, device.context());
-  const auto keep = [&](SurfaceRenderer& renderer, FigureFrame frame) {
+  const auto keep = [&](StillRenderer& renderer, FigureFrame frame) {
     SinkPicture picture{frame.number, frame.place, frame.source, frame.time, frame.camera};
     if (run.scene().image.cryptomatte) picture.mattes = mattes_of(frame.figure.molecule.structure);
     picture.moves = !frame.velocities.empty();
@@ -181,7 +181,7 @@ void draw_figures(FigureRun& run, const PictureLayout& layout, PictureSink& sink
   const FigureWork work{kSurfaceBytesPerAtom, bytes_per_pixel * size.x * size.y, device.context()};
   run.make(work, [&]() -> FigureRun::Sink {
     if (!device.context() && run.is_run()) {
-      std::shared_ptr<SurfaceRenderer> renderer = make_cpu_renderer();
+      const auto renderer = std::make_shared<StillRenderer>();
       return [&keep, renderer](FigureFrame frame) { return keep(*renderer, std::move(frame)); };
     }
     return [&](FigureFrame frame) -> FinishFrame {

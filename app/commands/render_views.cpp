@@ -26,7 +26,7 @@
 #include "core/gpu/egl_context.h"
 #include "core/render/picture.h"
 #include "core/render/picture_file.h"
-#include "core/render/renderer.h"
+#include "core/render/gl_renderer.h"
 #include "core/scene/figure_key.h"
 #include "core/scene/hidden_atoms.h"
 #include "core/scene/molecule.h"
@@ -163,7 +163,7 @@ void render_views(const RenderCommand& asked) {
   if (viewed.run) sink.check(cameras, viewed.frames->first_shown());
   const EglContext context(scene.molecule.surface.gl);
   ViewPipeline pipeline;
-  Renderer renderer;
+  GlRenderer renderer;
   double grown_by = 0.0;
   const auto keep = [&](const SinkPicture& picture) {
     show(viewed.atoms, scene.molecule.surface.probe_radius, *scene.image.extent, pipeline);

@@ -80,7 +80,7 @@ SceneFigure made_figure(const Scene& asked, const EglContext* context) {
   return {std::move(scene), given, std::move(aim), std::move(figure)};
 }
 
-Framebuffer scene_picture(const Scene& asked, SurfaceRenderer& renderer, const EglContext* context) {
+Framebuffer scene_picture(const Scene& asked, StillRenderer& renderer, const EglContext* context) {
   check_picture(asked);
   auto [scene, given, aim, figure] = made_figure(asked, context);
   const PictureLayout layout(scene, key_of(figure.molecule, scene.figure, figure.beside));

@@ -18,7 +18,7 @@
 #include "core/render/gpu_scene.h"
 #include "core/render/picture.h"
 #include "core/render/ray_cast_scene.h"
-#include "core/render/renderer.h"
+#include "core/render/gl_renderer.h"
 #include "core/surface/primitives.h"
 #include "core/visible_surface/paper_selection.h"
 #include "core/visible_surface/visible_atoms.h"

@@ -134,9 +134,10 @@ meniscus_status meniscus_render(meniscus_renderer* renderer, const meniscus_surf
     require_room(picture.scene, rgba, rgba_size);
     const FinishedSurface& finished = *surface->finished;
     meniscus::Framebuffer drawn;
-    renderer->run([&](meniscus::SurfaceRenderer& surface_renderer, const meniscus::EglContext*) {
+    renderer->run([&](meniscus::StillRenderer& still_renderer, const meniscus::EglContext*) {
       run_on_threads(finished.threads, [&] {
-        drawn = surface_renderer.render(finished.surface, picture.coloring, picture.camera, settings_of(picture.scene));
+        drawn = still_renderer.render(meniscus::whole_surface(finished.surface, picture.coloring), picture.camera,
+                                      settings_of(picture.scene));
       });
     });
     write_pixels(drawn, picture.scene, rgba);

@@ -13,7 +13,7 @@
 #include "core/color/coloring.h"
 #include "core/gpu/egl_context.h"
 #include "core/image/color_space.h"
-#include "core/render/surface_renderer.h"
+#include "core/scene/renderers.h"
 #include "core/scene/scene.h"
 #include "exporters/bindings/c/c_calls.h"
 #include "exporters/bindings/c/c_devices.h"
@@ -22,9 +22,9 @@ namespace meniscus::c_api {
 
 /// A GL context and its renderer.
 struct GlRenderer {
-  explicit GlRenderer(std::int32_t device) : context(gl_of(device)), renderer(make_gl_renderer(context)) {}
+  explicit GlRenderer(std::int32_t device) : context(gl_of(device)), renderer(make_gl_still_renderer(context)) {}
   EglContext context;
-  std::unique_ptr<SurfaceRenderer> renderer;
+  std::unique_ptr<StillRenderer> renderer;
 };
 
 /// Refuses memory of the caller that is too small for the picture of a scene with MENISCUS_USAGE.
@@ -63,7 +63,7 @@ SurfacePicture surface_picture(const meniscus_surface* surface, const meniscus_s
 struct meniscus_renderer : meniscus::c_api::Counted {
   explicit meniscus_renderer(std::int32_t device) {
     if (device != MENISCUS_CPU) use_gl(device);
-    if (!gl_renderer_) cpu_renderer_ = meniscus::make_cpu_renderer();
+    if (!gl_renderer_) cpu_renderer_ = std::make_unique<meniscus::StillRenderer>();
   }
 
   /// Calls use(renderer, context), on the GL thread if there is one. Calls wait for each other. context: nullptr on the
@@ -91,7 +91,7 @@ struct meniscus_renderer : meniscus::c_api::Counted {
   }
 
   std::mutex mutex_;
-  std::unique_ptr<meniscus::SurfaceRenderer> cpu_renderer_;
+  std::unique_ptr<meniscus::StillRenderer> cpu_renderer_;
   std::optional<meniscus::c_api::OnGlThread<meniscus::c_api::GlRenderer>> gl_renderer_;
 };
 

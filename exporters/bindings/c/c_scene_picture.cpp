@@ -112,12 +112,12 @@ meniscus_status meniscus_render_scene(meniscus_renderer* renderer, const meniscu
     const meniscus::Scene complete = drawable(*scene);
     require_room(complete, rgba, rgba_size);
     meniscus::Framebuffer drawn;
-    renderer->run([&](meniscus::SurfaceRenderer& draws, const meniscus::EglContext* context) {
+    renderer->run([&](meniscus::StillRenderer& draws, const meniscus::EglContext* context) {
       run_on_threads(complete.molecule.surface.threads, [&] {
         // Volume maps are sampled on the CPU only.
+        meniscus::StillRenderer cpu_renderer;
         const bool on_cpu = context && meniscus::picture_request(complete).cpu;
-        drawn = on_cpu ? scene_picture(complete, *meniscus::make_cpu_renderer(), nullptr)
-                       : scene_picture(complete, draws, context);
+        drawn = on_cpu ? scene_picture(complete, cpu_renderer, nullptr) : scene_picture(complete, draws, context);
       });
     });
     write_pixels(drawn, complete, rgba);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -23,6 +24,7 @@
 
 namespace meniscus {
 
+class EglContext;
 class PictureCollector;
 class StageClock;
 struct Coloring;
@@ -70,8 +72,11 @@ class SurfaceDrawable final : public Drawable {
 /// Everything of `scene` on the GPU but the colours.
 void upload_scene(const RayCastScene& packed, const Surface& surface, const PictureFrame& frame, GpuScene& scene);
 
+/// Returns renderer and version of GL.
+std::string gl_words(const EglContext& context);
+
 /// Makes one picture after another. Needs a current GL context for its whole life.
-class Renderer {
+class GlRenderer {
  public:
   /// A picture on the host, of any size; the same for any block_edge. Throws what Drawable::prepare() throws, GpuError,
   /// CapacityError, InputError for a bad camera.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Draws pictures on the GPU block by block, and hands them out as pixels in memory or as textures.
-#include "core/render/renderer.h"
+#include "core/render/gl_renderer.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,6 @@
 #include "core/gpu/egl_context.h"
 #include "core/gpu/program.h"
 #include "core/render/picture_block.h"
-#include "core/render/surface_renderer.h"
 
 namespace meniscus {
 
@@ -63,7 +62,7 @@ std::array<PictureBlock, 2> halves(const PictureBlock& block) {
 
 }  // namespace
 
-void Renderer::begin(Drawable& drawable, const Camera& camera, const RenderSettings& settings) {
+void GlRenderer::begin(Drawable& drawable, const Camera& camera, const RenderSettings& settings) {
   assert(settings.size.x > 0 && settings.size.y > 0 && settings.samples > 0);
   validate_camera(camera, "camera");
   clock_ = StageClock(settings.timing);
@@ -74,7 +73,7 @@ void Renderer::begin(Drawable& drawable, const Camera& camera, const RenderSetti
 }
 
 // Until it is certain.
-void Renderer::prepare(Drawable& drawable) {
+void GlRenderer::prepare(Drawable& drawable) {
   do {
     scene_ = &drawable.prepare(frame_, clock_);
     Readback readback;
@@ -83,13 +82,13 @@ void Renderer::prepare(Drawable& drawable) {
   } while (!drawable.settle());
 }
 
-Framebuffer Renderer::render(const Surface& surface, const Coloring& coloring, const Camera& camera,
-                             const RenderSettings& settings) {
+Framebuffer GlRenderer::render(const Surface& surface, const Coloring& coloring, const Camera& camera,
+                               const RenderSettings& settings) {
   surface_.show(surface, coloring);
   return render(surface_, camera, settings);
 }
 
-Framebuffer Renderer::render(Drawable& drawable, const Camera& camera, const RenderSettings& settings) {
+Framebuffer GlRenderer::render(Drawable& drawable, const Camera& camera, const RenderSettings& settings) {
   begin(drawable, camera, settings);
   prepare(drawable);
   std::vector<ray_cast::Primitive> primitives;
@@ -98,7 +97,9 @@ Framebuffer Renderer::render(Drawable& drawable, const Camera& camera, const Ren
     primitives = scene_->primitives.buffer.download<ray_cast::Primitive>(scene_->primitives.count());
   }
   const HitSource source{drawable.surface(), primitives};
-  PictureCollector collector(frame_, settings, names_of({&source, 1}));
+  PictureCollector collector(frame_, settings, [&](const ray_cast::Hit& hit, const glm::dvec3& point) {
+    return names_of(source, hit, point);
+  });
   const std::vector<PictureBlock> blocks = collector.blocks(usable_block_edge(settings.block_edge));
   if (needs_shade_map(blocks.front(), settings)) make_shade_map();
   for (const PictureBlock& block : blocks) {
@@ -108,7 +109,7 @@ Framebuffer Renderer::render(Drawable& drawable, const Camera& camera, const Ren
   return collector.take();
 }
 
-void Renderer::render_block(const PictureBlock& inner, const RenderSettings& settings, PictureCollector& collector) {
+void GlRenderer::render_block(const PictureBlock& inner, const RenderSettings& settings, PictureCollector& collector) {
   const PictureBlock block = with_neighbors(inner, look_reach(settings.look, settings.size), frame_.size);
   try {
     caster_.cast(*scene_, frame_, block, {.samples = settings.samples, .look = settings.look, .clock = &clock_});
@@ -122,7 +123,7 @@ void Renderer::render_block(const PictureBlock& inner, const RenderSettings& set
   if (settings.aovs) collector.add_hits(inner, block, hits().download<ray_cast::Hit>(count));
 }
 
-void Renderer::make_shade_map() {
+void GlRenderer::make_shade_map() {
   const PictureFrame map = shade_map_frame(frame_);
   std::vector<float> depths(static_cast<std::size_t>(map.size.x) * map.size.y);
   for (const PictureBlock& block : picture_blocks(map.size, glm::ivec2(usable_block_edge(map.size.x + map.size.y))))
@@ -130,7 +131,7 @@ void Renderer::make_shade_map() {
   caster_.set_shade_map(depths);
 }
 
-void Renderer::add_to_shade_map(const PictureFrame& map, const PictureBlock& block, std::vector<float>& depths) {
+void GlRenderer::add_to_shade_map(const PictureFrame& map, const PictureBlock& block, std::vector<float>& depths) {
   std::vector<float> part;
   try {
     part = caster_.cast_depths(*scene_, map, block);
@@ -144,16 +145,16 @@ void Renderer::add_to_shade_map(const PictureFrame& map, const PictureBlock& blo
                 depths.begin() + static_cast<std::ptrdiff_t>(block.origin.y + y) * map.size.x + block.origin.x);
 }
 
-bool Renderer::draw(Drawable& drawable, const Camera& camera, const RenderSettings& settings,
-                    const std::function<bool()>& stop) {
+bool GlRenderer::draw(Drawable& drawable, const Camera& camera, const RenderSettings& settings,
+                      const std::function<bool()>& stop) {
   begin(drawable, camera, settings);
   for (bool settled = false; !settled;)
     if (!draw_once(drawable, settings, stop, settled)) return false;
   return true;
 }
 
-bool Renderer::draw_once(Drawable& drawable, const RenderSettings& settings, const std::function<bool()>& stop,
-                         bool& settled) {
+bool GlRenderer::draw_once(Drawable& drawable, const RenderSettings& settings, const std::function<bool()>& stop,
+                           bool& settled) {
   const PictureBlock block{{0, 0}, frame_.size};
   // A caller that may give the picture up between samples is told when each is there.
   const bool needs_map = needs_shade_map(block, settings);
@@ -181,7 +182,7 @@ bool Renderer::draw_once(Drawable& drawable, const RenderSettings& settings, con
   return true;
 }
 
-std::optional<PickedPoint> Renderer::pick(glm::ivec2 pixel) const {
+std::optional<PickedPoint> GlRenderer::pick(glm::ivec2 pixel) const {
   if (pixel.x < 0 || pixel.y < 0 || pixel.x >= frame_.size.x || pixel.y >= frame_.size.y) return {};
   const std::size_t at = static_cast<std::size_t>(pixel.y) * frame_.size.x + pixel.x;
   const ray_cast::Hit hit = hits().download<ray_cast::Hit>(1, at * sizeof(ray_cast::Hit)).front();
@@ -191,49 +192,8 @@ std::optional<PickedPoint> Renderer::pick(glm::ivec2 pixel) const {
   return PickedPoint{hit.atom, static_cast<PatchKind>(primitive.kind), hit_point(frame_, pixel, hit.t).position};
 }
 
-namespace {
-
-class GlRenderer final : public SurfaceRenderer {
- public:
-  explicit GlRenderer(const EglContext& context) : context_(context) {}
-
-  Framebuffer render(const Surface& surface, const Coloring& coloring, const Camera& camera,
-                     const RenderSettings& settings) override {
-    by_cpu_.reset();
-    if (!settings.look.traces_light() && !settings.mattes) return renderer_.render(surface, coloring, camera, settings);
-    by_cpu_ = make_cpu_renderer();
-    return by_cpu_->render(surface, coloring, camera, settings);
-  }
-  Framebuffer render(std::span<const PictureObject> objects, const Camera& camera,
-                     const RenderSettings& settings) override {
-    by_cpu_.reset();
-    if (objects.size() == 1 && !needs_layers(objects.front()) && !settings.look.traces_light() && !settings.mattes)
-      return renderer_.render(*objects.front().surface, *objects.front().coloring, camera, settings);
-    by_cpu_ = make_cpu_renderer();
-    return by_cpu_->render(objects, camera, settings);
-  }
-  Framebuffer render_copies(std::span<const SurfaceObject> objects, const Camera& camera,
-                            const RenderSettings& settings) override {
-    by_cpu_ = make_cpu_renderer();
-    return by_cpu_->render_copies(objects, camera, settings);
-  }
-  const std::vector<StageTime>& times() const override { return by_cpu_ ? by_cpu_->times() : renderer_.times(); }
-  std::string device() const override { return by_cpu_ ? by_cpu_->device() : gl_words(context_); }
-
- private:
-  const EglContext& context_;
-  Renderer renderer_;
-  std::unique_ptr<SurfaceRenderer> by_cpu_;  // of the last picture, if GL did not make it
-};
-
-}  // namespace
-
 std::string gl_words(const EglContext& context) {
   return fmt::format("{}, GL {}{}", context.renderer(), context.version(), context.is_software() ? " (software)" : "");
-}
-
-std::unique_ptr<SurfaceRenderer> make_gl_renderer(const EglContext& context) {
-  return std::make_unique<GlRenderer>(context);
 }
 
 }  // namespace meniscus
