@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the base meshes of even ones, and contracts a fine mesh to few triangles.
+// Builds base meshes of each kind, and contracts contact faces of the coarsest mesh to points.
 #include "core/mesh/base_mesh.h"
 
 #include <algorithm>
@@ -19,12 +19,14 @@
 namespace meniscus {
 namespace {
 
-/// Patch-aligned meshes are a scaffold: their tolerance follows that of the result between these (Å).
+/// The range of the tolerance (Å) of patch-aligned meshes, which are a scaffold: within it, it follows that of the
+/// result.
 constexpr double kFinest = 1e-4, kCoarsest = 0.4;
 constexpr int kTries = 4;
-/// Arcs (radian) that are one edge where contact faces become points.
+/// The angle (radian) of arcs that become one edge where contact faces become points.
 constexpr double kWideAngle = 1.6;
 
+/// Tessellates the surface, and tries again with a quarter of the tolerance where that fails, kTries times in all.
 TriangleMesh patches(const Surface& surface, double tolerance) {
   tolerance = std::clamp(tolerance, kFinest, kCoarsest);
   for (int n = 1;; ++n, tolerance *= 0.25) {
@@ -46,16 +48,17 @@ BaseMesh base_mesh(const Surface& surface, const SurfaceWalk& walk, Beginning be
   return base;
 }
 
-// Where the rest would be no manifold, faces stay as they were.
+// Contraction: where the result would not be a manifold, faces stay as they were.
 
 namespace {
 
-/// Cosine of the angle at a ball's centre between the middle of a contact face and its farthest point: no wider one is
-/// drawn together.
+/// The smallest cosine of the angle at a ball's centre between the middle of a contact face and its farthest point:
+/// wider faces are not contracted.
 constexpr double kWidest = -0.2;
 
 using Triangle = std::array<std::uint32_t, 3>;
 
+/// Contracts contact faces to points, and takes contractions back until the mesh is a manifold of the right topology.
 class Contraction {
  public:
   Contraction(const Surface& surface, const SurfaceWalk& walk, const TriangleMesh& coarse)
@@ -70,7 +73,7 @@ class Contraction {
   }
 
  private:
-  /// Marks the vertices of contact faces that can be drawn together, and finds where to.
+  /// Finds contact faces that can be contracted and the points that they become, and marks their vertices.
   void find_discs() {
     middle_.resize(surface_.faces.size());
     std::vector<std::uint32_t> first(surface_.faces.size() + 1, 0);  // triangles of a face are together
@@ -91,7 +94,7 @@ class Contraction {
     }
   }
 
-  /// Of a contact face that is a disc seen from its middle: that point.
+  /// Returns the middle of a contact face that is a disc seen from there; nothing for other faces.
   std::optional<glm::dvec3> middle_of(std::uint32_t f, std::uint32_t begin, std::uint32_t end) const {
     const Face& face = surface_.faces[f];
     if (face.kind != PatchKind::convex || face.loop_count != 1) return std::nullopt;
@@ -112,7 +115,7 @@ class Contraction {
     return at->position;
   }
 
-  /// Triangles with two corners in one disc vanish.
+  /// Builds the contracted mesh, in which triangles with two corners in one disc vanish.
   void put_triangles() {
     made_ = {};
     disc_.clear();
@@ -139,8 +142,8 @@ class Contraction {
     }
   }
 
-  /// Takes back discs where triangles do not go around a vertex once, or, where there is none of that, all discs of
-  /// components of another topology. Were there any?
+  /// Restores discs where triangles do not form a single closed fan around a vertex or, if they do everywhere, all
+  /// discs of components that have another topology. Returns true if any disc was restored.
   bool repair() {
     sound_ = true;
     std::vector<std::uint8_t> restored(surface_.faces.size(), 0);
@@ -152,7 +155,7 @@ class Contraction {
     for (std::uint32_t v = 0; v < disc_.size(); ++v) {
       if (is_sound[v]) continue;
       sound_ = false;
-      std::vector<std::uint32_t> beside;  // discs
+      std::vector<std::uint32_t> beside;  // discs at neighbours of the vertex
       for (const std::uint32_t c : corners.at(v))
         for (const std::uint32_t w : made_.mesh.triangles[c / 3])
           if (w != v && disc_[w] != kNone) beside.push_back(disc_[w]);
@@ -174,7 +177,7 @@ class Contraction {
 
   std::uint32_t component_of(std::uint32_t vertex) const { return surface_.faces[made_.vertex_face[vertex]].component; }
 
-  /// By V - E + F, where E = 3 F / 2.
+  /// Marks the components with another Euler characteristic V - E + F, where E = 3 F / 2.
   void find_other_topology(std::vector<std::uint8_t>& broken) {
     std::vector<int> twice(broken.size(), 0);
     for (std::uint32_t v = 0; v < disc_.size(); ++v) twice[component_of(v)] += 2;
@@ -188,9 +191,10 @@ class Contraction {
   const Surface& surface_;
   const SurfaceWalk& walk_;
   const TriangleMesh& coarse_;
-  std::vector<std::optional<glm::dvec3>> middle_;  ///< per face
-  std::vector<std::uint32_t> disc_of_;  ///< per vertex of the coarse mesh: the face that it goes into, or kNone
-  std::vector<std::uint32_t> disc_;     ///< per vertex that is made: its disc or kNone
+  std::vector<std::optional<glm::dvec3>> middle_;  ///< per face: the point that it becomes, if any
+  /// Per vertex of the coarse mesh: the contracted face that it belongs to, or kNone.
+  std::vector<std::uint32_t> disc_of_;
+  std::vector<std::uint32_t> disc_;  ///< per vertex of the new mesh: the contracted face that it was, or kNone
   BaseMesh made_;
   bool sound_ = false;
 };

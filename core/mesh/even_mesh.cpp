@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes even meshes: remeshes a base mesh in rounds, then makes edges shorter wherever the result is not as promised.
+// Makes even meshes: remeshes a base mesh in rounds, then shortens edges wherever the result is not as promised.
 #include "core/mesh/even_mesh.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ namespace meniscus {
 
 namespace {
 
-/// Those that may do, the fastest first.
+/// Returns the kinds of base meshes that may be suitable, the fastest first.
 std::vector<Beginning> beginnings(const Surface& surface, const EvenMeshOptions& options) {
   std::vector<Beginning> all;
   const double edge = edge_of_density(options.density);
@@ -36,7 +36,7 @@ std::vector<Beginning> beginnings(const Surface& surface, const EvenMeshOptions&
   return all;
 }
 
-/// Triangles at vertices that changed since crossings were searched for last.
+/// Returns the triangles at vertices that changed since crossings were last searched for.
 std::vector<std::uint32_t> unchecked_triangles(const MeshOnSurface& mesh,
                                                std::span<const std::array<std::uint32_t, 3>> all) {
   std::vector<std::uint32_t> unchecked;
@@ -45,12 +45,14 @@ std::vector<std::uint32_t> unchecked_triangles(const MeshOnSurface& mesh,
   return unchecked;
 }
 
+/// The triangles of a mesh that pass through others.
 struct CrossingTriangles {
-  std::vector<std::uint32_t> triangles;  ///< those that pass through others, ascending
-  bool crumpled = false;                 ///< so many others that single changes lead nowhere
+  std::vector<std::uint32_t> triangles;  ///< ascending
+  bool crumpled = false;                 ///< true if there are so many crossings that single changes lead nowhere
 };
 
-/// Two triangles that did not pass through one another when this was asked last, and have not changed, do not now.
+/// Finds the triangles that pass through others. Pairs that did not cross at the last search and have not changed are
+/// known not to cross.
 CrossingTriangles crossing(MeshOnSurface& mesh) {
   const auto all = all_triangles(mesh.links());
   const std::vector<std::uint32_t> unchecked = unchecked_triangles(mesh, all);
@@ -69,8 +71,8 @@ CrossingTriangles crossing(MeshOnSurface& mesh) {
   return found;
 }
 
-/// Triangles that pass through others once their vertices are rounded as files of single precision hold them,
-/// ascending.
+/// Returns, ascending, the triangles that pass through others once their vertices are rounded to single precision, as
+/// files hold them.
 std::vector<std::uint32_t> crossing_in_single_precision(const MeshOnSurface& mesh) {
   std::vector<glm::dvec3> rounded;
   rounded.reserve(mesh.positions().size());
@@ -88,7 +90,7 @@ std::vector<std::uint32_t> triangles_of(const std::vector<PointAtTriangle>& poin
   return triangles;
 }
 
-/// A triangle and what is as near as its longest edge is long.
+/// Returns the ball that holds a triangle and what is as near to it as its longest edge is long.
 Ball around(const PlacedTriangle& t) {
   const glm::dvec3 middle = (t.at[0] + t.at[1] + t.at[2]) / 3.0;
   double reach = 0.0, longest = 0.0;
@@ -113,7 +115,7 @@ void add_vertices(const MeshOnSurface& from, FineMesh& even) {
   });
 }
 
-/// A triangle is of the face below its middle.
+/// Adds the triangles; each belongs to the face below its centroid.
 void add_triangles(const MeshOnSurface& from, TriangleMesh& mesh) {
   mesh.triangles = all_triangles(from.links());
   const std::size_t count = mesh.triangles.size();
@@ -135,7 +137,7 @@ void add_triangles(const MeshOnSurface& from, TriangleMesh& mesh) {
   });
 }
 
-/// At vertices on creases each triangle has the normal of the face that it lies nearest to.
+/// Adds the creases. At vertices on creases each triangle has the normal of the face that it lies nearest to.
 void add_creases(const MeshOnSurface& from, TriangleMesh& mesh) {
   const HalfEdges& links = from.links();
   const Surface& surface = from.surface();
@@ -161,6 +163,7 @@ void add_creases(const MeshOnSurface& from, TriangleMesh& mesh) {
     if (const double size = glm::length(sum[v]); size > 1e-6) mesh.normals[v] = sum[v] / size;
 }
 
+/// Returns the tables of a finished mesh.
 FineMesh rows_of(const MeshOnSurface& mesh, double tolerance) {
   FineMesh even;
   add_vertices(mesh, even);
@@ -170,9 +173,10 @@ FineMesh rows_of(const MeshOnSurface& mesh, double tolerance) {
   return even;
 }
 
+/// Remeshes a surface from one kind of base mesh, in several attempts.
 class EvenMeshing {
  public:
-  /// attempts: how often a mesh was begun, counted on.
+  /// `attempts` counts the attempts of all kinds of base meshes.
   EvenMeshing(const Surface& surface, const EvenMeshOptions& options, bool follow_creases, Beginning beginning,
               std::uint32_t& attempts)
       : surface_(surface),
@@ -212,6 +216,7 @@ class EvenMeshing {
   }
 
  private:
+  /// Begins an attempt with the base mesh; crossings are checked in the watched balls.
   void start(const std::vector<Ball>& watched) {
     if (!sizes_.by_density()) nearness_.ask_for(base_);
     walk_.bar(std::vector<bool>(surface_.borders.size(), false));
@@ -219,6 +224,7 @@ class EvenMeshing {
                   [this](const SurfacePoint& at) { return sizes_.edge_at(at); });
     mesh_->guard().watch(watched);
   }
+  /// Returns true for each border that edges follow.
   std::vector<bool> creases() const {
     // By tolerance, creases of bare balls cost minutes, and triangles come near enough without them.
     const bool of_bare_balls = surface_.probe_radius == 0.0 && !sizes_.by_density();
@@ -231,13 +237,14 @@ class EvenMeshing {
     }
     return keep;
   }
+  /// Keeps the base mesh where the guard watches.
   void freeze_watched() {
     for (std::uint32_t v = 0; v < mesh_->links().vertex_count(); ++v)
       mesh_->vertex(v).frozen = mesh_->guard().watches(v);
   }
 
-  /// Returns triangles that pass through others and would not part, or that would not come near enough, or none. If
-  /// slivers may stay, none are mended in a mesh that is as promised already.
+  /// Remeshes in rounds. Returns triangles that pass through others and could not be separated, or that could not be
+  /// brought near enough, or none. If `slivers_may_stay`, no slivers are mended in a mesh that already is as promised.
   std::vector<std::uint32_t> even_out(bool slivers_may_stay) {
     Remesher remesher(*mesh_);
     if (sizes_.by_density()) remesher.approach();
@@ -265,8 +272,8 @@ class EvenMeshing {
     }
   }
 
-  /// The last word, whatever is known to have changed: of the positions as they are, and as files of single precision
-  /// hold them.
+  /// Searches all triangles for crossings, as a last check that does not rely on which have changed: at their
+  /// positions, and at those rounded to the single precision of files.
   std::vector<std::uint32_t> crossing_of_all() {
     for (std::uint32_t v = 0; v < mesh_->links().vertex_count(); ++v) mesh_->vertex(v).unchecked = true;
     std::vector<std::uint32_t> bad = crossing(*mesh_).triangles;
@@ -284,9 +291,9 @@ class EvenMeshing {
     mesh_->compact();
   }
 
-  /// Makes triangles smaller where few pass through others, as long as that helps; returns those that still do. Where
-  /// very few do, new ones may pass through none at first; where that leaves all as it was, for halves of triangles
-  /// that cross do, too, they may.
+  /// Refines triangles that pass through others, if they are few and as long as that helps; returns those that still
+  /// do. If they are very few, new triangles must not cross others at first. If that achieves nothing, because halves
+  /// of crossing triangles cross, too, they may.
   std::vector<std::uint32_t> part(std::vector<std::uint32_t> bad) {
     const std::size_t most =
         std::max(RemeshTuning::few_far, std::size_t{mesh_->links().triangle_count()} / RemeshTuning::most_parted);
@@ -310,7 +317,7 @@ class EvenMeshing {
     return bad;
   }
 
-  /// Makes triangles smaller where they are too far away; returns those that stay.
+  /// Refines triangles that are too far away; returns those that remain so.
   std::vector<std::uint32_t> come_near(std::uint32_t most) {
     std::vector<PointAtTriangle> far = nearness_.too_far(*mesh_);
     std::size_t fewest = far.size();
@@ -337,9 +344,9 @@ class EvenMeshing {
     mesh_->compact();
   }
 
-  /// Splits, collapses and flips keep the topology; that triangles look outwards is seen from the volumes. Returns the
-  /// triangles of components that have another volume than the surface's; from now on they end at all their creases,
-  /// however short these are.
+  /// Returns the triangles of components with a volume other than the surface's. Splits, collapses and flips keep the
+  /// topology, but only the volumes show whether triangles face outward. From now on the triangles of these components
+  /// end at all their creases, however short these are.
   std::vector<std::uint32_t> of_other_volume() {
     TriangleMesh mesh;
     mesh.positions = mesh_->positions();
@@ -367,7 +374,7 @@ class EvenMeshing {
   EvenSizes sizes_;
   bool follow_creases_, contracted_;
   std::uint32_t& attempts_;
-  std::vector<bool> creased_;  ///< per component
+  std::vector<bool> creased_;  ///< per component: true if edges follow all its creases
   SurfaceWalk walk_;
   BaseMesh base_;
   MeshNearness nearness_;
@@ -382,7 +389,8 @@ FineMesh even_mesh(const Surface& surface, const EvenMeshOptions& options) {
                             kLargestDensity));
   if (options.density == 0.0 && !(options.tolerance > 0.0 && std::isfinite(options.tolerance)))
     throw Error(fmt::format("mesh tolerance: {} Å; give a number above 0", options.tolerance));
-  // Where creases crowd, triangles that have to end at them may find no place; without that they are smaller there.
+  // Where creases crowd, triangles that have to end at them may find no place. The last try ignores creases, and
+  // triangles become smaller there.
   std::uint32_t attempts = 0;
   for (const Beginning beginning : beginnings(surface, options)) {
     try {

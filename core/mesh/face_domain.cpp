@@ -15,14 +15,14 @@
 namespace meniscus {
 namespace {
 
-/// Share of a full turn that a spindle's half takes up in the plane: that of the unrolled cone at its tip, but neither
-/// so much that the sides of a full turn meet nor, where the tube just touches the axis, nothing.
+/// The range of the share of a full turn that a spindle's half occupies in the plane. The share is that of the unrolled
+/// cone at its tip, but not so large that the sides of a full turn meet, nor zero where the tube just touches the axis.
 constexpr double kNarrowestOpening = 0.1;
 constexpr double kWidestOpening = 0.9;
 /// Keeps the radial coordinate of tubes that just touch their axis from becoming constant.
 constexpr double kSmallestTip = 0.05;
 
-/// Any unit vector perpendicular to a unit vector.
+/// Returns any unit vector perpendicular to a unit vector.
 glm::dvec3 perpendicular(const glm::dvec3& v) {
   const glm::dvec3 other = std::abs(v.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
   return glm::normalize(glm::cross(v, other));
@@ -115,7 +115,7 @@ glm::dvec2 TorusDomain::flat(const FacePoint& point) const {
 
 FacePoint TorusDomain::between(const std::array<const FacePoint*, 3>& points,
                                const std::array<double, 3>& weights) const {
-  // The tip of a spindle has every theta: it takes that of the others.
+  // The tip of a spindle has every theta, so only the other points determine it.
   double theta = 0.0, tube = 0.0, share = 0.0;
   for (int k = 0; k < 3; ++k) {
     tube += weights[k] * points[k]->angles.y;
@@ -187,7 +187,7 @@ int lattice_frequency(double angle) {
 SphereLattice sphere_lattice(int frequency) {
   const auto corner = icosahedron();
   SphereLattice lattice;
-  // A lattice point is known by its barycentric weights on the named corners, so sides share their rims.
+  // A lattice point is identified by its barycentric weights at the named corners, so that sides share their rims.
   std::map<std::array<int, 6>, std::uint32_t> known;
   auto point = [&](const std::array<int, 3>& side, int a, int b, int c) {
     std::array<std::array<int, 2>, 3> part{{{side[0], a}, {side[1], b}, {side[2], c}}};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fills faces with triangles in rounds: a rim whose chords cross asks for finer samples, and with it the face beyond.
+// Fills faces with triangles in rounds: a rim with chords that cross gets finer samples, and so does the face beyond
+// it.
 #include "core/mesh/filled_faces.h"
 
 #include <set>
@@ -13,7 +14,7 @@
 namespace meniscus {
 namespace {
 
-/// Rims that cross themselves are sampled finer this often before a face is given up.
+/// The most rounds in which rims that cross themselves are sampled more finely before a face is given up.
 constexpr int kUntanglingRounds = 24;
 
 }  // namespace
@@ -67,7 +68,7 @@ void FaceFilling::fill(std::vector<std::uint32_t> todo, std::vector<FaceMesh>& m
       for (const Segment& s : meshes[f].too_coarse) segments.insert({s.border, s.index});
     }
     std::set<std::uint32_t> dirty;
-    for (auto s = segments.rbegin(); s != segments.rend(); ++s) {  // from the back, so that indices stay true
+    for (auto s = segments.rbegin(); s != segments.rend(); ++s) {  // from the back, so that indices remain valid
       samples_.split(s->first, s->second);
       for (std::uint32_t f : surface_.borders[s->first].face)
         if (asked_[f]) dirty.insert(f);

@@ -11,7 +11,7 @@
 namespace meniscus {
 namespace {
 
-/// Neighbours of a vertex that are compared at once; few vertices have more.
+/// The number of neighbours of a vertex that are compared at once; few vertices have more.
 constexpr std::size_t kRing = 16;
 
 }  // namespace
@@ -122,8 +122,8 @@ void HalfEdges::unpoke(std::uint32_t half) {
   for (const std::uint32_t t : {mb / 3, am / 3}) from_[3 * t] = from_[3 * t + 1] = from_[3 * t + 2] = kNone;
 }
 
-/// Of a closed mesh of one edge between two vertices: a third common neighbour would close a circle of three edges, and
-/// of a tetrahedron two triangles back to back would be left.
+/// Tests the link condition of a closed mesh without doubled edges: a third common neighbour would leave a cycle of
+/// three edges, and a tetrahedron would leave two triangles back to back.
 bool HalfEdges::can_collapse(std::uint32_t half) const {
   const CommonNeighbors neighbors = common_neighbors(*this, from_[half], to(half));
   return neighbors.common == 2 && neighbors.sum > 6;
@@ -132,7 +132,7 @@ bool HalfEdges::can_collapse(std::uint32_t half) const {
 void HalfEdges::collapse(std::uint32_t half) {
   const std::uint32_t other = twin_[half];
   const std::uint32_t a = from_[half], b = to(half), c = opposite(half), d = opposite(other);
-  std::uint32_t rim = half;  // all that leave a leave b from now on
+  std::uint32_t rim = half;  // half-edges that left a leave b from now on
   do {
     const std::uint32_t following = next(twin_[rim]);
     from_[rim] = b;
@@ -221,7 +221,7 @@ std::vector<std::uint32_t> HalfEdges::compact() {
 }
 
 CommonNeighbors common_neighbors(const HalfEdges& links, std::uint32_t a, std::uint32_t b) {
-  std::array<std::uint32_t, kRing> ring{};  // some of those around a
+  std::array<std::uint32_t, kRing> ring{};  // some neighbours of a
   std::size_t count = 0;
   CommonNeighbors found;
   const auto compare = [&] {

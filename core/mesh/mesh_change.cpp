@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes what a split, a collapse or a flip would make of a mesh, and where on the surface its vertex may go.
+// Finds the triangles that a change of a mesh makes, makes changes, and finds places for vertices on the surface.
 #include "core/mesh/mesh_change.h"
 
 #include <glm/geometric.hpp>

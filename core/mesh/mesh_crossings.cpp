@@ -21,19 +21,20 @@ namespace {
 using Triangle = std::array<std::uint32_t, 3>;
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
-/// The mean longest side of the boxes, times this, is the side of a cell.
+/// The side of a grid cell in units of the mean longest side of the boxes.
 constexpr double kCellSides = 1.5;
-/// Unit normals of two triangles with a common edge that are folded onto one another: their product is below this.
+/// Two triangles with a common edge are folded onto one another if the product of their unit normals is not above this.
 constexpr double kFolded = -1.0 + 1e-12;
-/// Of triangles of a flat fan, the cosine between their normals and the direction that it is seen from is above this.
+/// The cosine between the normals of a flat fan's triangles and the direction that it is seen from is above this.
 constexpr double kLeastFlat = 0.2;
 
-/// Six times the volume of a tetrahedron; above 0 where d sees a, b, c clockwise.
+/// Returns six times the volume of a tetrahedron; above 0 if d sees a, b, c clockwise.
 double volume(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
   return glm::dot(a - d, glm::cross(b - d, c - d));
 }
 
-/// at_p, at_q: on which side of the triangle its ends are.
+/// True if the segment from p to q meets the triangle. `at_p` and `at_q` tell by their signs on which side of it its
+/// ends are.
 bool passes_through(const glm::dvec3& p, const glm::dvec3& q, const std::array<glm::dvec3, 3>& t, double at_p,
                     double at_q) {
   if ((at_p > 0.0 && at_q > 0.0) || (at_p < 0.0 && at_q < 0.0) || (at_p == 0.0 && at_q == 0.0)) return false;
@@ -41,6 +42,7 @@ bool passes_through(const glm::dvec3& p, const glm::dvec3& q, const std::array<g
   return (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
 }
 
+/// True if the fan of a vertex is flat, see flat_fans().
 bool is_flat_fan(const HalfEdges& links, std::span<const glm::dvec3> positions, std::uint32_t vertex) {
   const glm::dvec3& x = positions[vertex];
   const auto normal = [&](std::uint32_t half) {
@@ -56,7 +58,7 @@ bool is_flat_fan(const HalfEdges& links, std::span<const glm::dvec3> positions, 
   });
   if (!look_there) return false;
   const glm::dvec3 side = glm::cross(direction, positions[links.to(links.leaving(vertex))] - x);
-  int turns = 0;  // each goes over to this side once
+  int turns = 0;  // how often the fan goes over to this side
   links.around(vertex, [&](std::uint32_t half) {
     const bool before = glm::dot(positions[links.to(half)] - x, side) < 0.0;
     turns += before && !(glm::dot(positions[links.opposite(half)] - x, side) < 0.0);
@@ -68,7 +70,7 @@ bool passes_through(const glm::dvec3& p, const glm::dvec3& q, const std::array<g
   return passes_through(p, q, t, volume(t[0], t[1], t[2], p), volume(t[0], t[1], t[2], q));
 }
 
-/// On which sides of a triangle's plane the corners of another are.
+/// Returns, as signs, on which sides of a triangle's plane the corners of another triangle are.
 std::array<double, 3> sides_of(const std::array<glm::dvec3, 3>& triangle, const std::array<glm::dvec3, 3>& other) {
   const auto side = [&](const glm::dvec3& x) { return volume(triangle[0], triangle[1], triangle[2], x); };
   return {side(other[0]), side(other[1]), side(other[2])};
@@ -77,7 +79,7 @@ bool is_one_side(const std::array<double, 3>& sides) {
   return (sides[0] > 0.0 && sides[1] > 0.0 && sides[2] > 0.0) || (sides[0] < 0.0 && sides[1] < 0.0 && sides[2] < 0.0);
 }
 
-/// Of triangles without a common corner.
+/// True if two triangles without a common corner meet.
 bool cross_apart(const std::array<glm::dvec3, 3>& x, const std::array<glm::dvec3, 3>& y) {
   const std::array<double, 3> at_y = sides_of(x, y);
   if (is_one_side(at_y)) return false;
@@ -88,6 +90,7 @@ bool cross_apart(const std::array<glm::dvec3, 3>& x, const std::array<glm::dvec3
   return false;
 }
 
+/// Searches a mesh for crossing triangles by a grid of their boxes.
 class CrossingSearch {
  public:
   CrossingSearch(std::span<const glm::dvec3> positions, std::span<const Triangle> triangles,
@@ -97,6 +100,7 @@ class CrossingSearch {
                       [&](std::size_t t) { boxes_[t] = placed(static_cast<std::uint32_t>(t)).box(); });
   }
 
+  /// Returns all crossing pairs.
   std::vector<Pair> run() {
     if (triangles_.empty()) return {};
     make_grid(triangles_.size());
@@ -109,6 +113,7 @@ class CrossingSearch {
     return all_found(rooms);
   }
 
+  /// Returns the crossing pairs with one of `some`.
   std::vector<Pair> run(std::span<const std::uint32_t> some) {
     if (some.empty()) return {};
     make_grid(some.size());
@@ -127,7 +132,7 @@ class CrossingSearch {
   }
 
  private:
-  /// Of a thread.
+  /// The scratch memory of a thread.
   struct Room {
     std::vector<Pair> found;
     std::vector<std::pair<Box, std::uint32_t>> here;  ///< triangles of a bucket
@@ -150,7 +155,7 @@ class CrossingSearch {
     return {v, {positions_[v[0]], positions_[v[1]], positions_[v[2]]}};
   }
 
-  /// Have these a vertex in common whose triangles do not cross?
+  /// True if two triangles share a vertex with a flat fan, so that they do not cross.
   bool have_flat_fan(std::uint32_t t, std::uint32_t u) const {
     if (flat_.empty()) return false;
     const Triangle& other = triangles_[u];
@@ -158,6 +163,7 @@ class CrossingSearch {
         triangles_[t], [&](std::uint32_t v) { return (v == other[0] || v == other[1] || v == other[2]) && flat_[v]; });
   }
 
+  /// Finds the crossing pairs in a bucket.
   void search(std::size_t bucket, Room& room) const {
     room.here.clear();
     grid_.for_each_in(bucket, [&](std::uint32_t t) { room.here.emplace_back(boxes_[t], t); });
@@ -167,7 +173,7 @@ class CrossingSearch {
         const auto& [other, u] = room.here[j];
         if (are_apart(box, other) || have_flat_fan(t, u)) continue;
         const auto [a, b] = std::minmax(t, u);
-        // Boxes that meet do so in several cells; they count in the first.
+        // Boxes may meet in several cells; their pair counts in the first of these.
         const glm::dvec3 low = glm::max(box.low, other.low);
         if (grid_.bucket_of(low) == bucket && triangles_cross(placed(a), placed(b))) room.found.emplace_back(a, b);
       }
@@ -183,7 +189,7 @@ class CrossingSearch {
 }  // namespace
 
 bool triangles_cross(const PlacedTriangle& a, const PlacedTriangle& b) {
-  std::array<int, 3> shared{};  // places in a
+  std::array<int, 3> shared{};  // corners of a that are corners of b, too
   int count = 0;
   for (int k = 0; k < 3; ++k)
     if (std::find(b.vertex.begin(), b.vertex.end(), a.vertex[k]) != b.vertex.end()) shared[count++] = k;
@@ -221,10 +227,10 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings_of(std::span<cons
 
 namespace {
 
-/// The mean longest side of listed triangles, times this, is the side of a cell.
+/// The side of a grid cell in units of the mean longest side of the listed triangles' boxes.
 constexpr double kGuardCellSides = 1.2;
 
-/// Do neighbouring triangles that all look the same way go side by side onto a plane?
+/// True if these neighbouring triangles all face one way and so project side by side onto a plane.
 bool unfolds(std::span<const PlacedTriangle> triangles) {
   glm::dvec3 sum(0.0);
   const auto normal = [](const PlacedTriangle& x) { return glm::cross(x.at[1] - x.at[0], x.at[2] - x.at[0]); };
@@ -240,6 +246,7 @@ PlacedTriangle CrossingGuard::placed(std::uint32_t triangle) const {
   return {v, {positions_[v[0]], positions_[v[1]], positions_[v[2]]}};
 }
 
+/// Marks the vertices in the balls as watched in this way.
 void CrossingGuard::mark(std::span<const Ball> places, std::uint8_t how) {
   if (!places.empty()) {
     std::vector<Box> boxes;
@@ -279,7 +286,7 @@ void CrossingGuard::compact(std::span<const std::uint32_t> old_vertices) {
   list();
 }
 
-/// Forgets all, and lists the triangles that have a watched vertex.
+/// Clears the grid, and lists the triangles that have a watched vertex.
 void CrossingGuard::list() {
   std::vector<std::uint32_t> listed;
   double sum = 0.0;
@@ -297,7 +304,7 @@ void CrossingGuard::list() {
 
 void CrossingGuard::add(std::uint32_t triangle) { grid_.add(triangle, placed(triangle).box()); }
 
-/// Finds the listed triangles that stay and whose boxes meet the one around all that are made.
+/// Finds the listed triangles that remain and have boxes that meet the box around all new triangles.
 void CrossingGuard::list_near(std::span<const PlacedTriangle> made, std::span<const std::uint32_t> gone) const {
   near_.clear();
   seen_.resize(links_.triangle_count(), 0);

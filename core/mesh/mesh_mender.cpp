@@ -24,10 +24,10 @@ using Kind = MeshChange::Kind;
 
 namespace {
 
-/// Of a change after which more is wrong than before.
+/// The result of fewer_wrong() for a change that adds faults.
 constexpr std::ptrdiff_t kMore = -1;
 
-/// Are no edges too long once the first vertex has gone to the second?
+/// True if no edge is too long once the first vertex of this one is merged into the second.
 bool stays_short(const MeshOnSurface& mesh, std::uint32_t half) {
   const HalfEdges& links = mesh.links();
   const std::uint32_t b = links.to(half);
@@ -46,10 +46,12 @@ bool MeshMender::is_too_short(std::uint32_t half) const {
   return mesh_.length(half) < Tuning::too_short * mesh_.wanted(half);
 }
 
-/// Short edges at the ends of creases, which may otherwise not vanish, would be slivers for ever.
+/// True if the first vertex of an edge may be merged into the second. This includes short edges at the ends of creases,
+/// which would otherwise remain slivers forever.
 bool MeshMender::may_merge(std::uint32_t half) const { return may_vanish(mesh_, half) || is_too_short(half); }
 
-/// If `steep`, triangles may lean almost at a right angle against the surface.
+/// Returns the quality of a triangle with a placed vertex. If `steep`, triangles may lean almost at a right angle to
+/// the surface.
 double MeshMender::quality(const PlacedTriangle& t, const PlacedVertex& placed, bool steep) const {
   const glm::dvec3 normal = glm::cross(t.at[1] - t.at[0], t.at[2] - t.at[0]);
   const double size = glm::length(normal);
@@ -71,7 +73,8 @@ double MeshMender::quality(const PlacedTriangle& t, const PlacedVertex& placed, 
   return folded ? quality - kFold : quality;
 }
 
-/// What is no better than the bar is not looked at to its end.
+/// Returns the score of the triangles that a change makes. Scores that are no better than `bar` are not computed to the
+/// end.
 double MeshMender::score_after(const MeshChange& change, bool steep, double bar) const {
   const bool moving = change.kind == Kind::move, splitting = change.kind == Kind::split;
   PlacedVertex placed;
@@ -91,6 +94,7 @@ double MeshMender::score_after(const MeshChange& change, bool steep, double bar)
   return worst.score();
 }
 
+/// Returns the score of the triangles that a change removes.
 double MeshMender::score_before(const MeshChange& change, bool steep) const {
   WorstQuality worst;
   for_each_gone(mesh_, change, [&](std::uint32_t t) {
@@ -99,6 +103,7 @@ double MeshMender::score_before(const MeshChange& change, bool steep) const {
   return worst.score();
 }
 
+/// Calls visit(place) for the places where a vertex may go.
 template <typename Visit>
 void MeshMender::for_each_place(std::uint32_t vertex, const Visit& visit) const {
   const MeshVertex& v = mesh_.vertex(vertex);
@@ -130,7 +135,7 @@ void MeshMender::for_each_place(std::uint32_t vertex, const Visit& visit) const 
     for (const glm::dvec3& direction : along) visit_below(x + step * size * direction);
 }
 
-/// visit(change, the score of what it takes away) for all small changes of a triangle.
+/// Calls visit(change, score of the triangles that it removes) for all small changes of a triangle.
 template <typename Visit>
 void MeshMender::for_each_change(std::uint32_t triangle, bool steep, const Visit& visit) const {
   const HalfEdges& links = mesh_.links();
@@ -154,17 +159,19 @@ void MeshMender::for_each_change(std::uint32_t triangle, bool steep, const Visit
   }
 }
 
+/// True if a triangle crosses others or is not allowed.
 bool MeshMender::is_wrong(std::uint32_t triangle) const {
   const PlacedTriangle x = mesh_.placed(triangle);
   return mesh_.guard().crossings({&x, 1}, {&triangle, 1}) > 0 || !allowed_(x);
 }
 
-/// Changes at a triangle take away the same ones again and again.
+/// Caches faults, since the changes at a triangle remove the same triangles again and again.
 class MeshMender::WrongNow {
  public:
-  /// Both have to live as long.
+  /// Both arguments must outlive this object.
   WrongNow(const MeshOnSurface& mesh, const Allowed& allowed) : mesh_(mesh), allowed_(allowed) {}
 
+  /// Returns how many of these triangles are not allowed.
   std::size_t forbidden(std::span<const std::uint32_t> gone) {
     std::size_t count = 0;
     for (const std::uint32_t t : gone) {
@@ -174,6 +181,7 @@ class MeshMender::WrongNow {
     }
     return count;
   }
+  /// Returns how many pairs these triangles are part of that cross.
   std::size_t crossings(const std::vector<std::uint32_t>& gone) {
     if (gone == gone_) return crossings_;
     std::vector<PlacedTriangle> now;
@@ -187,11 +195,11 @@ class MeshMender::WrongNow {
   const MeshOnSurface& mesh_;
   const Allowed& allowed_;
   std::unordered_map<std::uint32_t, bool> forbidden_;
-  std::vector<std::uint32_t> gone_;  ///< those asked about last
-  std::size_t crossings_ = 0;        ///< theirs
+  std::vector<std::uint32_t> gone_;  ///< the triangles of the last query
+  std::size_t crossings_ = 0;        ///< number of their crossings
 };
 
-/// How many of these would be forbidden; once there are `enough`, no more are looked for.
+/// Returns how many of these triangles are not allowed; stops counting at `enough`.
 std::size_t MeshMender::forbidden(std::span<const PlacedTriangle> made, std::size_t enough) const {
   std::size_t count = 0;
   for (const PlacedTriangle& t : made)
@@ -199,7 +207,8 @@ std::size_t MeshMender::forbidden(std::span<const PlacedTriangle> made, std::siz
   return count;
 }
 
-/// How many triangles fewer are forbidden, and pairs cross; kMore if more of either come to be.
+/// Returns by how much a change reduces the forbidden triangles and the crossing pairs together; kMore if it adds any
+/// of either.
 std::ptrdiff_t MeshMender::fewer_wrong(const Exchange& exchange, WrongNow& now) const {
   const std::size_t are_forbidden = now.forbidden(exchange.gone), will_be = forbidden(exchange.made, are_forbidden + 1);
   if (will_be > are_forbidden) return kMore;
@@ -209,12 +218,12 @@ std::ptrdiff_t MeshMender::fewer_wrong(const Exchange& exchange, WrongNow& now) 
   return static_cast<std::ptrdiff_t>(are_forbidden - will_be + cross - will_cross);
 }
 
-/// At a sliver all triangles may lean.
+/// True if a triangle is a sliver, around which all triangles may lean.
 bool MeshMender::is_sliver(std::uint32_t triangle) const {
   return quality(mesh_.placed(triangle), {}, true) < Tuning::sliver_quality;
 }
 
-/// Those after which the worst triangle is better, or a short edge is gone even if a worse one stays.
+/// Returns the changes after which the worst triangle is better, or a short edge is gone and the worst one no worse.
 MeshMender::Candidates MeshMender::better_changes(std::uint32_t triangle) const {
   const bool sliver = is_sliver(triangle);
   Candidates candidates;
@@ -227,7 +236,7 @@ MeshMender::Candidates MeshMender::better_changes(std::uint32_t triangle) const 
   return candidates;
 }
 
-/// Those after which the fewest triangles pass through others or are forbidden.
+/// Returns the changes after which fewer triangles cross others or are forbidden.
 MeshMender::Candidates MeshMender::righting_changes(std::uint32_t triangle) const {
   const bool sliver = is_sliver(triangle);
   Candidates candidates;
@@ -240,7 +249,7 @@ MeshMender::Candidates MeshMender::righting_changes(std::uint32_t triangle) cons
   return candidates;
 }
 
-/// Of a sliver all of them are tried.
+/// Sorts candidates, the best first, and keeps the first Tuning::tries; of those of a sliver all are kept.
 void MeshMender::put_best_first(Candidates& candidates, bool sliver) {
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     return a.fewer != b.fewer ? a.fewer > b.fewer : a.gain > b.gain;
@@ -249,7 +258,7 @@ void MeshMender::put_best_first(Candidates& candidates, bool sliver) {
     candidates.erase(candidates.begin() + Tuning::tries, candidates.end());
 }
 
-/// Makes the first change that makes nothing wrong, if there is one.
+/// Makes the first change that causes no fault; returns false if there is none.
 bool MeshMender::make_first(const Candidates& candidates) {
   WrongNow wrong_now(mesh_, allowed_);
   for (const Candidate& candidate : candidates) {
@@ -270,7 +279,7 @@ bool MeshMender::make_first(const Candidates& candidates) {
   return false;
 }
 
-/// Those that no triangle before them is likely to change.
+/// Returns the changes of those triangles that no triangle before them is likely to change.
 std::vector<std::optional<MeshMender::Candidates>> MeshMender::changes_of_first(
     std::span<const std::uint32_t> bad, std::span<const std::uint8_t> doubtful) {
   const HalfEdges& links = mesh_.links();
@@ -289,7 +298,7 @@ std::vector<std::optional<MeshMender::Candidates>> MeshMender::changes_of_first(
   return found;
 }
 
-/// Has this round changed what the changes of a triangle follow from?
+/// True if this round has changed anything that the changes of a triangle depend on.
 bool MeshMender::has_changed_around(std::uint32_t triangle) const {
   const auto corners = mesh_.links().corners(triangle);
   return std::ranges::any_of(corners, [&](std::uint32_t v) {
@@ -343,8 +352,9 @@ void MeshMender::mend_only(std::span<const std::uint32_t> triangles) {
   mend({triangles.begin(), triangles.end()}, std::move(doubtful));
 }
 
-/// Doubtful are triangles that may cross others or be forbidden, and with them what comes about there. The changes of
-/// others that are far apart are found first, on all cores, and found again if a round has changed something there.
+/// Mends bad triangles in rounds. Doubtful triangles, and those that replace them, may cross others or be forbidden.
+/// The changes of other triangles that are far apart are found first, on all cores, and found again if the round has
+/// changed something there.
 void MeshMender::mend(std::vector<std::uint32_t> bad, std::vector<std::uint8_t> doubtful) {
   const HalfEdges& links = mesh_.links();
   const TriangleQuality& qualities = mesh_.quality();

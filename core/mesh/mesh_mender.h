@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Single changes of a mesh on a surface, where passes over it left triangles that are bad or not allowed.
+// Improves a mesh on a surface by single changes where passes over it left triangles that are bad or not allowed.
 #pragma once
 
 #include <cstddef>
@@ -15,32 +15,34 @@
 
 namespace meniscus {
 
-/// Whether a triangle may be made.
+/// True if a triangle may be made.
 using Allowed = std::function<bool(const PlacedTriangle&)>;
 
-/// A point of the surface that is near a triangle.
+/// A triangle and a point of the surface that is near it.
 struct PointAtTriangle {
   std::uint32_t triangle = kNone;
   SurfacePoint at;
 };
 
+/// Tries small changes at bad triangles and makes the best ones.
 class MeshMender {
  public:
-  /// mesh: has to live as long. No change is tried once its guard has done more than so much work.
+  /// `mesh` must outlive the mender. No change is tried once CrossingGuard::work() of the mesh exceeds `most_work`.
   MeshMender(MeshOnSurface& mesh, Allowed allowed, std::uint64_t most_work = ~std::uint64_t{0})
       : mesh_(mesh), allowed_(std::move(allowed)), most_work_(most_work) {}
 
-  /// Changes these triangles, and all others with small angles, one by one until they pass through no others, are
-  /// allowed and have larger angles, wherever one flip, collapse, split or move does that. No others come to cross or
+  /// Changes these triangles, and all others with small angles, one by one until they cross no others, are allowed and
+  /// have larger angles, as far as one flip, collapse, split or move achieves that. No other triangles come to cross or
   /// to be forbidden.
   void mend(std::span<const std::uint32_t> triangles);
-  /// The same of these alone, and of what comes about there.
+  /// Does the same for these triangles only, and for those that replace them.
   void mend_only(std::span<const std::uint32_t> triangles);
-  /// Puts vertices there, or moves some, where nothing comes to cross by that; they stay there.
+  /// Inserts vertices at these points, or moves vertices there, where nothing comes to cross by that; these vertices
+  /// are pinned.
   void reach(std::span<const PointAtTriangle> points);
 
  private:
-  /// What a vertex that a change makes or moves will be.
+  /// The attributes of a vertex that a change inserts or moves.
   struct PlacedVertex {
     std::uint32_t vertex = kNone;
     glm::dvec3 normal{0.0};
@@ -49,13 +51,13 @@ class MeshMender {
   };
 
   struct Candidate {
-    std::ptrdiff_t fewer;  ///< how many are wrong fewer than before
-    double gain;           ///< of the score
+    std::ptrdiff_t fewer;  ///< how many fewer faults remain after the change
+    double gain;           ///< increase of the score
     MeshChange change;
   };
   using Candidates = std::vector<Candidate>;
 
-  /// What is wrong with triangles that changes would take away, while the mesh stays as it is.
+  /// Caches the faults of triangles that changes would remove, while the mesh stays as it is.
   class WrongNow;
 
   bool is_wrong(std::uint32_t triangle) const;
@@ -83,7 +85,8 @@ class MeshMender {
   MeshOnSurface& mesh_;
   Allowed allowed_;
   std::uint64_t most_work_;
-  std::vector<std::uint8_t> changed_;  ///< per vertex: since the round began; what is around it or where it is
+  /// Per vertex: nonzero if its neighbourhood or place has changed since the round began.
+  std::vector<std::uint8_t> changed_;
 };
 
 }  // namespace meniscus

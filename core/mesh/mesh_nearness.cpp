@@ -22,7 +22,8 @@ using Tuning = RemeshTuning;
 
 namespace {
 
-/// Of three corners in any order; triangles keep it while their numbers and those of their vertices change.
+/// Returns a key of three corners in any order, which triangles keep while their numbers and those of their vertices
+/// change.
 std::uint64_t key_of(std::span<const glm::dvec3> positions, const std::array<std::uint32_t, 3>& triangle) {
   std::uint64_t key = 0;
   for (const std::uint32_t v : triangle) {
@@ -34,7 +35,7 @@ std::uint64_t key_of(std::span<const glm::dvec3> positions, const std::array<std
   return key;
 }
 
-/// The keys of all triangles of a mesh.
+/// The set of the keys of all triangles of a mesh.
 class TriangleKeys {
  public:
   TriangleKeys(std::span<const glm::dvec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles)
@@ -46,7 +47,7 @@ class TriangleKeys {
   bool contain(std::uint64_t key) const { return slots_[slot(key)] != kNone; }
 
  private:
-  /// That of this key, or the empty one where it would be.
+  /// Returns the slot of this key, or the empty one where it would be.
   std::size_t slot(std::uint64_t key) const {
     std::size_t at = key & (slots_.size() - 1);
     while (slots_[at] != kNone && keys_[slots_[at]] != key) at = (at + 1) & (slots_.size() - 1);
@@ -104,7 +105,7 @@ std::optional<glm::dvec3> MeshNearness::far_place(const MeshOnSurface& mesh, con
   return std::nullopt;
 }
 
-/// Below x or, where creases bar the way there, the nearest point of these.
+/// Returns the point below x or, if creases bar the way there, the nearest point of these.
 SurfacePoint MeshNearness::near(const MeshOnSurface& mesh, const glm::dvec3& x,
                                 const std::array<std::uint32_t, 3>& corners) const {
   if (const auto at = below(mesh, x, corners)) return *at;
@@ -131,6 +132,7 @@ std::vector<PointAtTriangle> MeshNearness::too_far(MeshOnSurface& mesh) {
   return points;
 }
 
+/// Adds the triangles nearest to places that are too far from the mesh.
 void MeshNearness::add_bridges(const MeshOnSurface& mesh, std::vector<PointAtTriangle>& points) {
   const std::vector<std::array<std::uint32_t, 3>> all = all_triangles(mesh.links());
   const TriangleKeys keys(mesh.positions(), all);
@@ -161,7 +163,7 @@ void MeshNearness::add_bridges(const MeshOnSurface& mesh, std::vector<PointAtTri
   }
 }
 
-/// Of a mesh that is finer than the tolerance asks; the same for all attempts.
+/// Returns the vertices of a mesh that is finer than the tolerance; they are the same for all attempts.
 const std::vector<SurfacePoint>& MeshNearness::fine_vertices() {
   if (!fine_vertices_.empty()) return fine_vertices_;
   const TriangleMesh fine = tessellate(surface_, {Tuning::share_of_fine * sizes_.tolerance(), false});

@@ -106,7 +106,7 @@ MeshOnSurface::MeshOnSurface(const Surface& surface, SurfaceWalk& walk, const Tr
   }
 }
 
-/// Every number of a vertex that follows from where it is.
+/// Sets all attributes of a vertex that follow from its place.
 void MeshOnSurface::settle(std::uint32_t vertex, const SurfacePoint& at, std::uint32_t crease) {
   MeshVertex& v = vertices_[vertex];
   positions_[vertex] = at.position;
@@ -144,6 +144,7 @@ void MeshOnSurface::scale_size(std::uint32_t vertex, float factor) {
   vertices_[vertex].least_cosine = least_cosine(vertex);
 }
 
+/// Marks a vertex as changed, forgets the qualities of its triangles, and lists these in the guard.
 void MeshOnSurface::note_changes_around(std::uint32_t vertex) {
   vertices_[vertex].note_change();
   links_.around(vertex, [&](std::uint32_t half) {
@@ -174,7 +175,7 @@ void MeshOnSurface::poke(std::uint32_t triangle, const SurfacePoint& at) {
   add_vertex(v[0], v[1], at, kNone);
 }
 
-/// The numbers of the last vertex, which has come between a and b.
+/// Sets the attributes of the last vertex, which lies between a and b.
 void MeshOnSurface::add_vertex(std::uint32_t a, std::uint32_t b, const SurfacePoint& at, std::uint32_t crease) {
   const std::uint32_t m = links_.vertex_count() - 1;
   positions_.emplace_back();

@@ -25,7 +25,7 @@ bool Remesher::busy(std::uint32_t half) const {
 
 std::uint32_t Remesher::split_long(double limit) {
   const HalfEdges& links = mesh_.links();
-  const std::uint32_t count = links.half_edge_count();  // new ones come to the end, and wait for the next round
+  const std::uint32_t count = links.half_edge_count();  // new edges come last and wait for the next round
   std::uint32_t done = 0;
   for (std::uint32_t half = 0; half < count; ++half)
     if (half < links.twin(half) && links.lives(half) && busy(half) && mesh_.length(half) > limit * mesh_.wanted(half))
@@ -33,6 +33,7 @@ std::uint32_t Remesher::split_long(double limit) {
   return done;
 }
 
+/// Splits an edge, or flips it if its middle is too near to another vertex; returns true if the mesh has changed.
 bool Remesher::split(std::uint32_t half) {
   const HalfEdges& links = mesh_.links();
   const auto at = edge_middle(mesh_, half);
@@ -58,6 +59,8 @@ std::uint32_t Remesher::collapse_short() {
   return done;
 }
 
+/// Merges the first vertex of an edge into the second if no edge becomes too long and no triangle poor; returns true if
+/// it did.
 bool Remesher::try_collapse(std::uint32_t half) {
   const HalfEdges& links = mesh_.links();
   const auto& position = mesh_.positions();
@@ -71,7 +74,7 @@ bool Remesher::try_collapse(std::uint32_t half) {
   if (!fits || links.valence(a) + links.valence(b) > Tuning::most_edges) return false;
   if (!mesh_.can_spare(a)) return false;
   double bar = Tuning::poor_quality;
-  bool looked = false;  // the bar is that, or what the vertex has now if that is less
+  bool looked = false;  // true once the bar has been lowered to the present score of the vertex
   WorstQuality after;
   fits = links.all_around(a, [&](std::uint32_t edge) {
     const std::uint32_t c = links.to(edge), d = links.opposite(edge);
@@ -88,7 +91,7 @@ bool Remesher::try_collapse(std::uint32_t half) {
   return true;
 }
 
-/// Edges between two triangles of which neither has changed have been asked before.
+/// Flips edges where that improves triangles. Edges between two triangles that have not changed were tested before.
 void Remesher::flip_edges() {
   const HalfEdges& links = mesh_.links();
   const TriangleQuality& quality = mesh_.quality();
@@ -103,6 +106,7 @@ void Remesher::flip_edges() {
   }
 }
 
+/// Flips an edge if that improves the worse of its two triangles; returns true if it did.
 bool Remesher::try_flip(std::uint32_t half) {
   const HalfEdges& links = mesh_.links();
   if (links.crease(half) != kNone) return false;
@@ -127,7 +131,7 @@ bool Remesher::try_flip(std::uint32_t half) {
   return true;
 }
 
-/// Longest edges first, or halves of triangles would be slivers.
+/// Splits the longest edges first; otherwise halves of triangles would be slivers.
 void Remesher::approach() {
   const HalfEdges& links = mesh_.links();
   approaching_ = true;
@@ -161,8 +165,8 @@ void Remesher::even_out(int rounds) {
   }
 }
 
-/// All vertices look at where the others were, so the order in which they are asked does not count; where triangles
-/// have to be kept apart they move one after another.
+/// Relaxes all vertices. Each moves by where the others were, so their order does not matter; where triangles have to
+/// be kept apart they move one after another.
 void Remesher::relax() {
   const HalfEdges& links = mesh_.links();
   const std::uint32_t count = links.vertex_count();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measures the curvature of a mesh at each vertex, and averages it over the vertices around.
+// Measures the curvature of a mesh at each vertex, and averages it over the vertices around it.
 #include "core/mesh/smoothed_curvature.h"
 #include "core/mesh/triangle_mesh.h"
 
@@ -16,11 +16,12 @@
 namespace meniscus {
 namespace {
 
-/// Integrals over the part of the mesh that is a vertex's.
+/// Integrals over the part of the mesh that belongs to a vertex.
 struct Measure {
   double area = 0.0, mean = 0.0, gaussian = 0.0;
 };
 
+/// Measures the curvature at each vertex of a mesh, and averages these measures.
 class Smoothing {
  public:
   explicit Smoothing(const TriangleMesh& mesh) : mesh_(mesh), measures_(mesh.positions.size()) {
@@ -29,6 +30,7 @@ class Smoothing {
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) measure(t);
   }
 
+  /// Returns the mean curvature within `radius` of a vertex. `seen` and `walk` are scratch memory of the caller.
   Curvature around(std::uint32_t vertex, double radius, std::vector<std::uint32_t>& seen,
                    std::vector<std::uint32_t>& walk) const {
     Measure sum;
@@ -50,7 +52,7 @@ class Smoothing {
   }
 
  private:
-  /// An edge that leaves a vertex, and the triangle at its left.
+  /// An edge that leaves a vertex, and the triangle on its left.
   struct End {
     std::uint32_t vertex, triangle;
   };
@@ -71,6 +73,7 @@ class Smoothing {
     return glm::cross(x[b] - x[a], x[c] - x[a]);
   }
 
+  /// Returns the triangle on the other side of an edge, or kNone.
   std::uint32_t across(std::uint32_t from, std::uint32_t to) const {
     for (std::uint32_t i = first_[to]; i < first_[to + 1]; ++i)
       if (end_[i].vertex == from) return end_[i].triangle;
@@ -96,7 +99,7 @@ class Smoothing {
   }
 
   const TriangleMesh& mesh_;
-  std::vector<std::uint32_t> first_;  // per vertex, and one more, into end_
+  std::vector<std::uint32_t> first_;  // per vertex: the start of its edges in end_, followed by their end
   std::vector<End> end_;
   std::vector<Measure> measures_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Projects a point to the surface: walks from face to face while it is beyond a wall of a face's cell.
+// Projects a point to the surface: walks from face to face while the point is beyond a wall of a face's cell.
 #include "core/mesh/surface_walk.h"
 
 #include <algorithm>
@@ -15,14 +15,17 @@
 namespace meniscus {
 namespace {
 
-/// Å beyond a wall that count as on it: the faces on both sides have one tangent plane there.
+/// A point that is less than this (Å) beyond a wall counts as on it: the faces on both sides have one tangent plane
+/// there.
 constexpr double kOnWall = 1e-9;
-/// Å beyond a plane of a patch that count as on it: planes and borders come from different formulas.
+/// A point that is less than this (Å) beyond a plane of a patch counts as on it: planes and borders come from different
+/// formulas.
 constexpr double kOffPatch = 1e-8;
-/// Faces that one walk visits at most.
+/// The most faces that one walk visits.
 constexpr int kLongestWalk = 40;
 
-/// The angle of x about the axis of an arc's circle from its start, in the turn around the middle of the arc.
+/// Returns the angle (radian) of x about the axis of an arc's circle, from the arc's start, in the turn around the
+/// middle of the arc.
 template <typename Arc>
 double angle_along(const Arc& arc, const glm::dvec3& x) {
   const glm::dvec3 from_center = x - arc.center;
@@ -55,7 +58,7 @@ void SurfaceWalk::list_sides(std::uint32_t f) {
     side.border = b;
     side.beyond = border.face[is_backwards(half) ? 0 : 1];
     if (face.kind != PatchKind::toroidal) {
-      // Seen from outside a sphere its part on the left of a circle is that on the side of the circle's axis.
+      // Seen from outside, the part of a sphere on the left of a circle is on the side of the circle's axis.
       const bool along = is_backwards(half) == (face.kind == PatchKind::convex);
       side.normal = along ? border.axis : -border.axis;
       side.offset = glm::dot(side.normal, border.center);
@@ -124,7 +127,7 @@ SurfaceWalk::Look SurfaceWalk::look_at_torus(const glm::dvec3& x, std::uint32_t 
     if (beyond > worst) worst = beyond, found.crossed = &side;
   }
   if (found.crossed || !surface_.spindle(torus)) return found;
-  // The tube of a spindle past its axis is not part of the surface, and on its other side is the other piece.
+  // Past its axis the tube of a spindle is not part of the surface; on the other side is the other piece.
   const bool second = torus.piece(face - torus.first_face) == 1;
   found.lost = (tube > 0.0) != second || torus.radius * length < probe * inwards;
   return found;
@@ -139,7 +142,8 @@ SurfaceWalk::Look SurfaceWalk::look(const glm::dvec3& x, std::uint32_t f) const 
   return look_at_sphere(x, f, atom.center, atom.radius);
 }
 
-/// The borders of a face are not all that its patch is cut by: beyond others there are other pieces, or nothing.
+/// True if a foot lies on the patch of a face. The borders of the face are not all cuts of its patch: beyond other cuts
+/// there are other pieces, or nothing.
 bool SurfaceWalk::on_patch(const glm::dvec3& foot, std::uint32_t f) const {
   const Face& face = surface_.faces[f];
   if (face.kind == PatchKind::toroidal) return true;

@@ -30,12 +30,13 @@ void add(double area, double volume, MeshSums& sums) {
   sums.volume += volume;
 }
 
-/// The directed edges whose lower vertex lies in a range; all of a large mesh would take as much memory as the mesh.
+/// The directed edges with their lower vertex in a range; all edges of a large mesh would take as much memory as the
+/// mesh.
 class EdgeLists {
  public:
   static constexpr std::uint32_t kVertices = 1u << 21;
 
-  /// Of the vertices [first, first + kVertices).
+  /// Lists the edges of the vertices [first, first + kVertices).
   EdgeLists(const TriangleMesh& mesh, std::uint32_t component, std::uint32_t first) : first_(first) {
     const auto last = std::min(std::size_t{first} + kVertices, mesh.positions.size());
     starts_.assign(last - first + 1, 0);
@@ -49,7 +50,7 @@ class EdgeLists {
 
   std::size_t size() const { return ends_.size(); }
 
-  /// Each edge is there once in each direction, and none ends where it begins.
+  /// True if each edge is there once in each direction, and none ends where it begins.
   bool paired() const {
     for (std::size_t v = 0; v + 1 < starts_.size(); ++v) {
       if ((starts_[v + 1] - starts_[v]) % 2 != 0) return false;
@@ -63,7 +64,7 @@ class EdgeLists {
   }
 
  private:
-  /// The higher vertex, and whether the edge goes there.
+  /// The higher vertex of an edge; `upwards` is 1 if the edge leads to it.
   struct End {
     std::uint32_t vertex : 31, upwards : 1;
     bool operator<(const End& other) const {
@@ -85,7 +86,7 @@ class EdgeLists {
   }
 
   std::uint32_t first_;
-  std::vector<std::uint32_t> starts_;  // where the list of each vertex begins, and where the last one ends
+  std::vector<std::uint32_t> starts_;  // per vertex: the start of its list, followed by the end of the last one
   std::vector<End> ends_;
 };
 
@@ -98,7 +99,7 @@ void keep_rows(std::vector<T>& table, const std::vector<bool>& keep) {
   table.resize(next);
 }
 
-/// The new place of each row that is kept, kNone for others.
+/// Returns the new place of each row that is kept, kNone for others.
 std::vector<std::uint32_t> new_places(const std::vector<bool>& keep) {
   std::vector<std::uint32_t> place(keep.size(), kNone);
   std::uint32_t next = 0;

@@ -19,16 +19,17 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// An edge that was flipped leaves one that makes other triangles flat at times.
+/// The most rounds of flips: the edge that a flip makes may in turn make other triangles flat.
 constexpr int kRounds = 12;
+/// The length of fins that are never removed.
 constexpr double kNoFin = -1.0;
 
-/// Half-edges of the triangles at the ends of short edges and at the corners of flat triangles, few of a mesh, answer
-/// all questions about them. Vertices whose triangles do not go around them once stay as they are.
+/// Welds short edges and flat triangles. It links only the triangles at the ends of short edges and at the corners of
+/// flat triangles, which are few in a mesh. Vertices without a single closed fan stay as they are.
 class Welder {
  public:
-  /// scale: a file holds that many times the positions in single precision; 0: the positions as they are. longest_fin:
-  /// Å from what stays to the tip of a fin that goes.
+  /// A file holds `scale` times the positions in single precision; 0: the positions as they are. `longest_fin` is the
+  /// largest distance (Å) from what remains to the tip of a fin that is removed.
   Welder(std::span<const glm::dvec3> positions, std::vector<Triangle>& triangles, double step, double scale,
          double longest_fin)
       : positions_(positions), triangles_(triangles), step_(step), scale_(scale), longest_fin_(longest_fin) {
@@ -41,8 +42,8 @@ class Welder {
     find_short_edges();
     if (short_.empty()) return;
     link_triangles();
-    // A collapse may bring other vertices together, so that an edge that could not go now can. What then is left, fins
-    // may keep.
+    // A collapse may bring other vertices together, so that an edge that could not be collapsed before now can be. The
+    // edges that then are left may be held by fins.
     for (const double longest_fin : {kNoFin, longest_fin_})
       for (bool again = true; again;) {
         again = false;
@@ -51,7 +52,8 @@ class Welder {
     put_back_triangles();
   }
 
-  /// changed(t, from): triangle t now covers what `from` did.
+  /// Flips the longest edges of flat triangles in rounds. Calls changed(t, from) if triangle t now covers what `from`
+  /// did.
   template <typename Changed>
   void flip_flat_triangles(const Changed& changed) {
     for (int round = 0; round < kRounds; ++round) {
@@ -78,18 +80,19 @@ class Welder {
     std::uint32_t keep, drop;
   };
 
-  /// Beside a short edge a triangle (a, b, tip) with two more at its tip, (tip, a, foot) and (b, tip, foot), which lie
-  /// back to back. While it is there, the ends of the edge have three neighbours in common. The foot may be the next
-  /// tip.
+  /// A fin next to a short edge: a triangle (a, b, tip) with two more at its tip, (tip, a, foot) and (b, tip, foot),
+  /// which lie back to back. While it is there, the ends of the edge have three common neighbours. The foot may be the
+  /// next tip.
   struct Fin {
-    std::uint32_t half = 0;           ///< that of the short edge, in the first triangle
+    std::uint32_t half = 0;           ///< half-edge of the short edge, in the first triangle
     std::vector<std::uint32_t> tips;  ///< vertices
-    std::uint32_t foot = 0;           ///< vertex: of the last tip
+    std::uint32_t foot = 0;           ///< vertex at the foot of the last tip
   };
 
+  /// Returns a position as the file holds it.
   glm::vec3 single(std::uint32_t v) const { return glm::vec3(scale_ * positions_[v]); }
 
-  /// Whole numbers, so that what is said of them is exact.
+  /// Returns a position in whole steps, for exact comparisons.
   glm::i64vec3 steps(std::uint32_t v) const {
     const glm::dvec3 written = scale_ > 0.0 ? glm::dvec3(single(v)) / scale_ : positions_[v];
     return glm::i64vec3(glm::round(written / step_));
@@ -124,6 +127,7 @@ class Welder {
       if (!made_.gone[t] && is_flat(triangles_[t])) flat_.push_back(t);
   }
 
+  /// Links the triangles at short edges and at flat triangles.
   void link_triangles() {
     linked_.assign(positions_.size(), false);
     for (const auto& [a, b] : short_) linked_[a] = linked_[b] = true;
@@ -144,6 +148,7 @@ class Welder {
         if (linked_[v] && !go_around_once(triangles, corners.at(v))) linked_[v] = false;
   }
 
+  /// Copies the linked triangles back to the mesh.
   void put_back_triangles() {
     for (std::uint32_t local = 0; local < part_.size(); ++local) {
       if (links_->lives(3 * local))
@@ -155,14 +160,15 @@ class Welder {
 
   bool may_change(std::uint32_t v) const { return linked_[v] && links_->vertex_lives(v); }
 
-  /// Whether the mesh stays what it is where two vertices become one that have an edge, or would have one more
-  /// neighbour each (`to_come` 2) if they had one, once so many tips of fins beside it are gone.
+  /// True if the mesh keeps its topology when two vertices are merged, once this many tips of fins next to them are
+  /// removed. `to_come` is 0 for two vertices with an edge; for others it is 2, as an edge would give each of them one
+  /// more neighbour.
   bool can_join(const CommonNeighbors& neighbors, std::size_t to_come, std::size_t tips) const {
-    // Of less than 7 nothing but two triangles back to back would stay.
+    // With a sum below 7, nothing but two triangles back to back would remain.
     return neighbors.common == 2 + tips && neighbors.sum + to_come - 2 * tips >= 7;
   }
 
-  /// At a half-edge of a short edge, with at most so many tips; perhaps none.
+  /// Returns the fin at a half-edge of a short edge, with at most `most` tips and perhaps none.
   Fin fin_at(std::uint32_t half, std::size_t most) const {
     Fin fin{half, {}, links_->opposite(half)};
     std::uint32_t to_tip = HalfEdges::next(half), from_tip = HalfEdges::last(half);
@@ -178,7 +184,7 @@ class Welder {
     return fin;
   }
 
-  /// How far its tips are at most from what stays, the edge from a to its foot.
+  /// Returns the largest distance (Å) of the tips of a fin from what remains, the edge from a to its foot.
   double length(const Fin& fin, std::uint32_t a) const {
     const glm::dvec3 to_foot = positions_[fin.foot] - positions_[a];
     double longest = 0.0;
@@ -190,6 +196,7 @@ class Welder {
     return longest;
   }
 
+  /// Merges the vertex `drop` into `keep` after removing the fins that prevent it; returns true if it did.
   bool collapse(std::uint32_t keep, std::uint32_t drop, double longest_fin) {
     if (keep == drop || !may_change(keep) || !may_change(drop)) return false;
     const std::uint32_t half = links_->between(drop, keep);
@@ -212,7 +219,7 @@ class Welder {
     made_.fins += tips;
     made_.into[drop] = keep;
     ++made_.joined;
-    // What was short between the dropped vertex and a third one is so from here.
+    // Edges that were short at the dropped vertex are so at the other one from now on.
     for (auto& [one, other] : short_) {
       if (one == drop) one = keep;
       if (other == drop) other = keep;
@@ -221,7 +228,7 @@ class Welder {
     return true;
   }
 
-  /// Of a triangle the half-edge of its longest edge; of equal ones the first.
+  /// Returns the half-edge of a triangle's longest edge; of equal ones the first.
   std::uint32_t longest_edge(std::uint32_t t) const {
     std::uint32_t longest = 3 * t;
     double most = -1.0;
@@ -235,9 +242,11 @@ class Welder {
     return longest;
   }
 
+  /// Flips the longest edge of a flat triangle if fewer are flat then, or if the new edge can be collapsed; returns
+  /// true if it did.
   template <typename Changed>
   bool flip(std::uint32_t t, const Changed& changed) {
-    if (!is_flat(links_->corners(t))) return false;  // a flip before has mended it
+    if (!is_flat(links_->corners(t))) return false;  // an earlier flip has mended it
     const std::uint32_t half = longest_edge(t), other = links_->twin(half);
     const std::uint32_t a = links_->from(half), b = links_->to(half), c = links_->opposite(half);
     if (!may_change(a) || !may_change(b) || !may_change(c) || !links_->can_flip(half)) return false;
@@ -251,7 +260,8 @@ class Welder {
     if (had_area && (glm::dot(normal(first), normal(before)) <= 0.0 || glm::dot(normal(second), normal(before)) <= 0.0))
       return false;
     links_->flip(half);
-    links_->put_first(HalfEdges::last(half));  // the triangles as they are above: what is written depends on it
+    // Corners in the order of `first` and `second`: what is written depends on it.
+    links_->put_first(HalfEdges::last(half));
     links_->put_first(HalfEdges::next(other));
     changed(part_[t], part_[other / 3]);
     if (joins)
@@ -267,12 +277,12 @@ class Welder {
   Welding made_;
   std::vector<Edge> short_;
   std::vector<std::uint32_t> flat_;
-  std::vector<std::uint32_t> part_;  ///< the triangles that are linked, ascending
-  std::optional<HalfEdges> links_;   ///< of these; vertices have the numbers that they have in the mesh
-  std::vector<bool> linked_;         ///< per vertex: all of its triangles are, and go around it once
+  std::vector<std::uint32_t> part_;  ///< the linked triangles, ascending
+  std::optional<HalfEdges> links_;   ///< half-edges of these; vertices have their numbers in the mesh
+  std::vector<bool> linked_;         ///< per vertex: true if all its triangles are linked and form a closed fan
 };
 
-/// To the vertex at the end of the chain.
+/// Replaces each vertex by the one at the end of its chain.
 void follow(std::vector<std::uint32_t>& into) {
   for (std::uint32_t& v : into)
     while (into[v] != v) v = into[v];

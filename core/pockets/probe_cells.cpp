@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Drops cubes that lie inside one grown ball or too near to the large probe; far from all atoms many at once.
+// Drops cubes that lie inside one grown ball or too near to the large probe; far from all atoms it drops many at once.
 #include "core/pockets/probe_cells.h"
 
 #include <algorithm>
@@ -21,18 +21,19 @@ namespace meniscus {
 namespace {
 
 constexpr double kFinest = 0.25, kCoarsest = 2.0;  // Å, half edges of cells and of the cubes that they come from
-constexpr int kRegion = 8;                         // such cubes along an edge of what is looked at first
-constexpr double kRounding = 1e-6;                 // Å, far above that of coordinates
+constexpr int kRegion = 8;                         // coarsest cubes along an edge of a region
+constexpr double kRounding = 1e-6;                 // Å, far above the rounding error of coordinates
 
-/// A cube and the atoms that matter within it.
+/// A cube, and the atoms that matter within it.
 struct Region {
   glm::dvec3 middle;
   double half;
   std::vector<std::uint32_t> near;
 
-  double reach() const { return half * std::numbers::sqrt3; }  // of its corners
+  double reach() const { return half * std::numbers::sqrt3; }  // Å, from the middle to a corner
 };
 
+/// Finds the cells by dividing cubes.
 class CellFinder {
  public:
   CellFinder(std::span<const Ball> atoms, double probe_radius, const Hull& hull, double clearance)
@@ -62,27 +63,29 @@ class CellFinder {
   }
 
  private:
-  /// Cubes of half edge kCoarsest, counted from a corner of space.
+  /// A range of cubes of half edge kCoarsest, counted from the low corner of the searched space.
   struct Corner {
     glm::dvec3 low;
-    glm::ivec3 first, size;  // of the cube at the corner; how many there are in all
+    glm::ivec3 first, size;  // the first cube of the range; the number of cubes in all
     std::vector<std::uint32_t> near = {};
 
     glm::dvec3 middle(const glm::dvec3& cubes) const { return low + 2 * kCoarsest * (glm::dvec3(first) + cubes); }
   };
 
+  /// Returns eighth n of a range with `edge` cubes along each axis.
   static Corner eighth_of(const Corner& corner, int edge, int n) {
     return {corner.low, corner.first + edge / 2 * glm::ivec3(n & 1, n >> 1 & 1, n >> 2), corner.size};
   }
 
+  /// Returns the largest SAS radius (Å).
   double largest() const {
     double radius = 0.0;
     for (const Ball& atom : atoms_) radius = std::max(radius, atom.radius);
     return radius + probe_radius_;
   }
 
-  /// Into regions in which there may be cells, with the atoms near them. A ball far larger than others makes space so
-  /// large that most of it must be left out as a whole.
+  /// Divides a range into regions in which there may be cells, with the atoms near them. A ball far larger than others
+  /// makes the space so large that most of it must be left out as a whole.
   void divide(const Corner& corner, int edge, std::span<const std::uint32_t> near, std::vector<Corner>& regions) const {
     if (glm::any(glm::greaterThanEqual(corner.first, corner.size))) return;
     const Region region = part_of(near, corner, edge, 2 * hull_.surface().probe_radius);
@@ -95,7 +98,8 @@ class CellFinder {
     for (int n = 0; n < 8; ++n) divide(eighth_of(corner, edge, n), edge / 2, region.near, regions);
   }
 
-  /// So many cubes along an edge, and those of the atoms that are no farther from them.
+  /// Returns the region of a range with `edge` cubes along each axis, and those of the atoms that are no farther than
+  /// `away` from it.
   Region part_of(std::span<const std::uint32_t> atoms, const Corner& corner, int edge, double away) const {
     Region region{corner.middle(glm::dvec3(0.5 * edge)), kCoarsest * edge, {}};
     const double far = region.reach() + away + kRounding;
@@ -105,18 +109,20 @@ class CellFinder {
     return region;
   }
 
-  /// Whether visit() is certain to find nothing in it, for a reason that holds in all of it.
+  /// True if visit() would certainly find nothing in a region, for a reason that holds in all of it.
   bool holds_no_cell(const Region& region) const {
     const double reach = region.reach() + kRounding;
     for (const std::uint32_t a : region.near)
       if (glm::distance(region.middle, atoms_[a].center) < atoms_[a].radius + probe_radius_ - reach) return true;
-    // A small probe that touches no atom is no farther from a large one that is on the only atom near than by the
-    // difference of their radii, and none from one if no atom is near. Cells reach farther by the finest's diagonal.
+    // If only one atom is near, a small probe that touches no atom is no farther from a large probe on that atom than
+    // the difference of their radii; if no atom is near, its distance from a large one is 0. Cells extend farther by
+    // the finest's diagonal.
     const double large = hull_.surface().probe_radius;
     return region.near.size() <= 1 && !hull_.has_cavities() &&
            large - probe_radius_ + 2 * kFinest * std::numbers::sqrt3 + kRounding < clearance_;
   }
 
+  /// Visits the cubes of a range with `edge` cubes along each axis.
   void visit_cubes(const Corner& corner, int edge, std::span<const std::uint32_t> near, std::vector<Box>& found) const {
     if (glm::any(glm::greaterThanEqual(corner.first, corner.size))) return;
     const Region region = part_of(near, corner, edge, probe_radius_);
@@ -124,6 +130,7 @@ class CellFinder {
     for (int n = 0; n < 8; ++n) visit_cubes(eighth_of(corner, edge, n), edge / 2, region.near, found);
   }
 
+  /// Adds the cells of a cube, which is divided if only a part of it may belong to cells.
   void visit(const Region& cube, std::vector<Box>& found) const {
     const double reach = cube.reach();
     if (in_one_ball(cube)) return;
@@ -139,12 +146,14 @@ class CellFinder {
             found);
   }
 
+  /// True if one grown ball covers the cube.
   bool in_one_ball(const Region& cube) const {
     return std::ranges::any_of(cube.near, [&](std::uint32_t a) {
       return glm::distance(cube.middle, atoms_[a].center) < atoms_[a].radius + probe_radius_ - cube.reach();
     });
   }
 
+  /// True if no grown ball meets the cube.
   bool in_no_ball(const Region& cube) const {
     return std::ranges::all_of(cube.near, [&](std::uint32_t a) {
       return glm::distance(cube.middle, atoms_[a].center) > atoms_[a].radius + probe_radius_ + cube.reach();

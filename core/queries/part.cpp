@@ -22,7 +22,7 @@
 namespace meniscus {
 namespace {
 
-/// Old row -> new row, in the order in which rows are asked for.
+/// Maps old rows to new ones, which are numbered in the order of their first use.
 class Renumbering {
  public:
   explicit Renumbering(std::size_t count) : number_(count, kNone) {}
@@ -35,7 +35,7 @@ class Renumbering {
     }
     return number_[old];
   }
-  /// kNone for rows that nobody has asked for.
+  /// Returns the new row of an old one, kNone if it is not used.
   std::uint32_t known(std::uint32_t old) const { return old == kNone ? kNone : number_[old]; }
   const std::vector<std::uint32_t>& order() const { return order_; }
 
@@ -43,6 +43,7 @@ class Renumbering {
   std::vector<std::uint32_t> number_, order_;
 };
 
+/// Copies some components of a surface into tables of their own.
 class PartBuilder {
  public:
   PartBuilder(const Surface& whole, const std::vector<bool>& keep)
@@ -64,8 +65,10 @@ class PartBuilder {
   }
 
  private:
+  /// True if the component of a face stays.
   bool stays(std::uint32_t face) const { return keep_[w_.faces[face].component]; }
 
+  /// Returns the faces of a patch that stay, or those that do not.
   template <typename Patch>
   std::vector<std::uint32_t> faces_that(bool stay, const Patch& patch) const {
     std::vector<std::uint32_t> faces;
@@ -74,6 +77,7 @@ class PartBuilder {
     return faces;
   }
 
+  /// Returns the faces of a patch that stay, with the planes that separate them from others.
   template <typename Patch>
   std::vector<PartedFaces> parted(const Patch& patch) const {
     const auto kept = faces_that(true, patch), dropped = faces_that(false, patch);
@@ -82,14 +86,14 @@ class PartBuilder {
     return part_faces(w_, kept, dropped);
   }
 
-  // A probe of radius 0 leaves toroidal and concave patches without faces: what remains of them is the border of the
-  // same number, and the probes at its ends.
+  // True if the probe radius is 0. Toroidal and concave patches then have no faces: what remains of them is the border
+  // of the same number, and the probes at its ends.
   bool flat() const { return w_.probe_radius == 0; }
   bool stays(std::uint32_t t, const ToroidalPatch& patch) const {
     return flat() ? stays(w_.borders[t].face[0]) : !faces_that(true, patch).empty();
   }
 
-  // Atoms keep their order.
+  // Lists the atoms that the part touches, in their order.
   void list_atoms() {
     std::vector<bool> used(w_.atoms.size(), false);
     for (const ConvexPatch& patch : w_.convex)
@@ -167,7 +171,7 @@ class PartBuilder {
       if (!needed_[n]) continue;
       new_concave_[n] = static_cast<std::uint32_t>(s_.concave.size());
       std::vector<PartedFaces> parts = parted(w_.concave[n]);
-      if (parts.empty()) parts.push_back({});  // a probe between arcs, of which nothing is to be seen
+      if (parts.empty()) parts.push_back({});  // a probe between arcs, without visible faces
       for (const PartedFaces& part : parts) {
         ConcavePatch patch = w_.concave[n];
         patch.first_plane = take_planes(patch.first_plane, patch.plane_count(), part.planes);
@@ -241,19 +245,21 @@ class PartBuilder {
   Surface& s_ = part_.surface;
   Renumbering border_, vertex_;
   std::vector<std::uint32_t> new_atom_, new_component_, new_concave_;
-  std::vector<bool> needed_;  // concave patches of which something stays
+  std::vector<bool> needed_;  // per concave patch: true if it stays
 };
 
-/// Solid angle of a triangle seen from the origin, positive when counter-clockwise (Van Oosterom & Strackee 1983).
+/// Returns the solid angle of a triangle seen from the origin, positive when counter-clockwise (Van Oosterom & Strackee
+/// 1983).
 double solid_angle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const double x = glm::length(a), y = glm::length(b), z = glm::length(c);
   return 2 * std::atan2(glm::dot(a, glm::cross(b, c)),
                         x * y * z + glm::dot(a, b) * z + glm::dot(b, c) * x + glm::dot(c, a) * y);
 }
 
-// Every face is replaced by triangles from one of its points to chords of its borders, and neighbours share the chords:
-// that is a closed polyhedron, and what its triangles are seen under adds up to whole turns. Faces and triangles lie in
-// the convex hull of the face: in a ball, in a probe, or in the neck between two balls. The point is in none of these.
+// Returns how often faces wind around a point. Every face is replaced by triangles from one of its points to chords of
+// its borders. Neighbours share the chords, so this is a closed polyhedron, and the solid angles of its triangles add
+// up to whole turns. Faces and triangles lie in the convex hull of the face: in a ball, in a probe, or in the neck
+// between two balls. The point is in none of these.
 double winding(const Surface& surface, std::span<const std::uint32_t> faces, const glm::dvec3& point) {
   double sum = 0;
   for (const std::uint32_t f : faces) {
@@ -267,7 +273,7 @@ double winding(const Surface& surface, std::span<const std::uint32_t> faces, con
       const Border& border = surface.borders[border_of(half)];
       const auto at = [&](double t) { return arc_point(border, t) - point; };
       if (!apex) apex = at(0);
-      constexpr int kChords = 3;  // of a whole circle; an arc's own chord would do
+      constexpr int kChords = 3;  // chords of a whole circle; for an arc one would do
       for (int k = 0; k < kChords; ++k) {
         const glm::dvec3 from = at(border.sweep * k / kChords), to = at(border.sweep * (k + 1) / kChords);
         sum += is_backwards(half) ? solid_angle(*apex, to, from) : solid_angle(*apex, from, to);

@@ -42,10 +42,11 @@ Curvature curvature(const Surface& surface, std::uint32_t face, const glm::dvec3
 
 namespace {
 
-constexpr double kDoubt = 1e-6;          // Å
-constexpr std::size_t kMostBalls = 200;  // whose triples are tried: a million, in a tenth of a second
+constexpr double kDoubt = 1e-6;  // Å from the surface within which a point may count as not in the solvent
+// The most balls with triples that are tried: a million, in a tenth of a second.
+constexpr std::size_t kMostBalls = 200;
 
-/// Balls around the point that any accessible place near it must avoid, relative to the point.
+/// The balls around a point that any accessible place near it must avoid, relative to the point.
 class Surroundings {
  public:
   Surroundings(std::span<const Ball> atoms, double probe_radius, const glm::dvec3& point) : reach_(probe_radius) {
@@ -57,6 +58,7 @@ class Surroundings {
     }
   }
 
+  /// True if some accessible place is nearer to the point than the probe's radius.
   bool some_accessible() const {
     if (!covered_) return true;
     const bool few = balls_.size() <= kMostBalls;
@@ -71,7 +73,7 @@ class Surroundings {
   }
 
  private:
-  // place: relative to the point, on the spheres of `touching`.
+  // True if a place, relative to the point and on the spheres of `touching`, is near enough and in no other ball.
   bool accessible(const glm::dvec3& place, std::initializer_list<std::size_t> touching) const {
     if (glm::length(place) > reach_ - kDoubt) return false;
     for (std::size_t n = 0; n < balls_.size(); ++n) {
@@ -83,6 +85,8 @@ class Surroundings {
     return true;
   }
 
+  /// True if the nearest place on the circle of two spheres is accessible or, with `and_on_three`, one on a third
+  /// sphere.
   bool accessible_on_two(std::size_t i, std::size_t j, bool and_on_three) const {
     const Ball &a = balls_[i], &b = balls_[j];
     const geometry::Circle circle =
@@ -105,7 +109,7 @@ class Surroundings {
   }
 
   double reach_;
-  bool covered_ = false;  // by a SAS ball
+  bool covered_ = false;  // true if a SAS ball covers the point
   std::vector<Ball> balls_;
 };
 

@@ -16,20 +16,22 @@
 namespace meniscus {
 namespace {
 
-constexpr double kLongestBaseBond = 2.0;  // Å, of a ring and to its sugar
+constexpr double kLongestBaseBond = 2.0;  // Å, in a ring and from a ring to its sugar
 constexpr double kLongestRung = 10.0;     // Å; C1' is 4 to 6 from the middle line
 
-/// The atoms that a base is drawn of: places in Structure::atoms.
+/// The atoms that a base is drawn from, as indices into Structure::atoms.
 struct Base {
-  std::array<std::optional<std::uint32_t>, 10> ring;  ///< by the number in the name; the first is not used
+  std::array<std::optional<std::uint32_t>, 10> ring;  ///< by the number in the atom's name; the first entry is not used
   std::array<std::string_view, 10> name;
   std::optional<std::uint32_t> sugar;  ///< C1'
   std::uint32_t residue = 0, copy = 0;
 };
 
-/// Names of a place in the rings, those of what hangs on it left out: the better one first.
+/// The letters that the names of ring atoms with each number begin with, the better one first; those of substituents
+/// are left out.
 constexpr std::array<std::string_view, 10> kLetters{"", "NC", "CN", "NC", "CN", "CN", "CN", "NC", "CN", "NC"};
 
+/// Adds an atom to a base if it is one of its ring or its sugar.
 void take(Base& base, const Atom& atom, std::uint32_t place) {
   if (atom.name == "C1'" || atom.name == "C1*") base.sugar = place;
   if (atom.name.size() != 2 || atom.name[1] < '1' || atom.name[1] > '9') return;
@@ -41,6 +43,7 @@ void take(Base& base, const Atom& atom, std::uint32_t place) {
   base.name[number] = atom.name;
 }
 
+/// Returns the selected atoms of bases, residue by residue in the order of the file.
 std::vector<Base> bases_of(const std::vector<Atom>& atoms, const std::vector<bool>& selected) {
   std::vector<Base> found;
   const std::vector<std::uint32_t> order = file_order(atoms);
@@ -56,6 +59,7 @@ std::vector<Base> bases_of(const std::vector<Atom>& atoms, const std::vector<boo
   return found;
 }
 
+/// Draws bases with their rungs.
 class BaseDrawer {
  public:
   BaseDrawer(const Structure& structure, double radius)
@@ -78,7 +82,7 @@ class BaseDrawer {
  private:
   const glm::dvec3& position(std::uint32_t atom) const { return structure_.atoms[atom].position; }
 
-  /// Is this ring there?
+  /// Fills a ring; returns false if it is incomplete or not closed.
   bool fill(const Base& base, std::initializer_list<std::size_t> numbers) {
     std::vector<std::uint32_t> atoms;
     for (const std::size_t number : numbers) {
@@ -103,7 +107,7 @@ class BaseDrawer {
     return true;
   }
 
-  /// A rung from the ring's nearest atom by C1' to the middle line.
+  /// Adds a rung from the ring's nearest atom by C1' to the middle line.
   void join(const Base& base) {
     const glm::dvec3& sugar = position(*base.sugar);
     std::uint32_t nearest = *base.ring[1];
@@ -119,7 +123,8 @@ class BaseDrawer {
     }
   }
 
-  /// Where the middle line passes next to C1': beside this residue or on the way to the next.
+  /// Returns the place where the middle line passes C1', at this residue or on the way to the next; nothing if it is
+  /// too far away.
   std::optional<MiddlePoint> foot_of(const Base& base) const {
     const auto own = range_.find({base.copy, base.residue});
     if (own == range_.end()) return {};
@@ -131,7 +136,7 @@ class BaseDrawer {
         if (distance(n) < distance(best)) best = n;
     };
     try_all(own->second.first, own->second.second);
-    // Of another piece it would be far away.
+    // The part of the next residue is far away if it belongs to another piece.
     if (const std::size_t next = own->second.second + 1; next < line_.size()) {
       const Atom& atom = structure_.atoms[line_[next].atom];
       const auto& [first, last] = range_.at({atom.copy, atom.residue});
@@ -148,7 +153,8 @@ class BaseDrawer {
   const Structure& structure_;
   double radius_;
   std::vector<MiddlePoint> line_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::size_t, std::size_t>> range_;  // of each residue
+  // (copy, residue) to the first and last index into line_.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::size_t, std::size_t>> range_;
 };
 
 }  // namespace
