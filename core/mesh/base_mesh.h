@@ -17,16 +17,16 @@ struct BaseMesh {
 };
 
 /// The kinds of base meshes.
-enum class Beginning : std::uint8_t {
+enum class BaseMeshKind : std::uint8_t {
   contracted,  ///< contracted_mesh(): contact faces are contracted to points
   coarse,      ///< coarse_mesh(): the fewest triangles for all faces
   patches      ///< tessellate(): triangles that follow the patches
 };
 
 /// Builds a base mesh of this kind. Its components and their Euler characteristics are those of the surface. `walk`
-/// bars no border. `tolerance` (Å) applies to Beginning::patches only; finer ones are tried where tessellation fails at
-/// it. Throws OpenSurfaceError if no such mesh is found.
-BaseMesh base_mesh(const Surface& surface, const SurfaceWalk& walk, Beginning beginning, double tolerance);
+/// bars no border. `tolerance` (Å) applies to BaseMeshKind::patches only; finer ones are tried where tessellation fails
+/// at it. Throws OpenSurfaceError if no such mesh is found.
+BaseMesh base_mesh(const Surface& surface, const SurfaceWalk& walk, BaseMeshKind kind, double tolerance);
 
 /// Builds the mesh with the fewest triangles that has the topology of the surface. Each face becomes a polygon between
 /// its vertices and, on long borders, samples. A polygon of three corners stays one triangle, the quadrilateral of a

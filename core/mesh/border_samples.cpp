@@ -26,7 +26,7 @@ constexpr double kLargestAngleOfParts = 1.3;
 /// equilateral triangle, but never more than this share of the radius.
 constexpr double kLargestShare = 0.3;
 
-bool whole_circle(const Border& border) { return border.vertex[0] == kNone; }
+bool is_whole_circle(const Border& border) { return border.vertex[0] == kNone; }
 
 }  // namespace
 
@@ -79,7 +79,7 @@ void BorderSamples::join_ends_of_tiny_borders() {
   representative_.resize(surface_.vertices.size());
   for (std::uint32_t v = 0; v < representative_.size(); ++v) representative_[v] = v;
   for (const Border& border : surface_.borders) {
-    if (whole_circle(border) || border.radius * border.sweep > kTinyBorder) continue;
+    if (is_whole_circle(border) || border.radius * border.sweep > kTinyBorder) continue;
     std::uint32_t a = representative(border.vertex[0]), b = representative(border.vertex[1]);
     if (a > b) std::swap(a, b);
     representative_[b] = a;
@@ -94,7 +94,7 @@ std::uint32_t BorderSamples::representative(std::uint32_t vertex) const {
 void BorderSamples::sample(std::uint32_t index, const EdgeRule& rule, bool split_colors) {
   const Border& border = surface_.borders[index];
   std::vector<double>& t = parameters_[index];
-  if (!whole_circle(border) && representative(border.vertex[0]) == representative(border.vertex[1]) &&
+  if (!is_whole_circle(border) && representative(border.vertex[0]) == representative(border.vertex[1]) &&
       border.radius * border.sweep <= kTinyBorder) {
     return;
   }
@@ -134,18 +134,18 @@ void BorderSamples::sample(std::uint32_t index, const EdgeRule& rule, bool split
   for (const double stop : stops)
     if (!(stop - from < apart || border.sweep - stop < apart)) go_to(stop);
   go_to(border.sweep);
-  if (!whole_circle(border)) t.push_back(border.sweep);
+  if (!is_whole_circle(border)) t.push_back(border.sweep);
 }
 
 std::uint32_t BorderSamples::segment_count(std::uint32_t border) const {
   const std::size_t n = parameters_[border].size();
-  return static_cast<std::uint32_t>(n == 0 || whole_circle(surface_.borders[border]) ? n : n - 1);
+  return static_cast<std::uint32_t>(n == 0 || is_whole_circle(surface_.borders[border]) ? n : n - 1);
 }
 
 BorderPoint BorderSamples::point(std::uint32_t border, std::uint32_t k) const {
   const Border& b = surface_.borders[border];
   const std::uint32_t n = segment_count(border);
-  if (whole_circle(b)) return {border, k % n};
+  if (is_whole_circle(b)) return {border, k % n};
   if (k == 0) return {kNone, representative(b.vertex[0])};
   if (k == n) return {kNone, representative(b.vertex[1])};
   return {border, k};

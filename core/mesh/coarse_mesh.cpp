@@ -44,8 +44,8 @@ class CoarseMeshing {
         samples_(surface, rule_.with_angle(angle), false),
         filling_(surface, rule_, samples_),
         parts_(surface.faces.size()),
-        wide_(angle > kFineAngle),
-        finer_(surface.faces.size(), false),
+        has_wide_arcs_(angle > kFineAngle),
+        is_finer_(surface.faces.size(), false),
         filled_(surface.faces.size()) {}
 
   TriangleMesh run() {
@@ -56,7 +56,7 @@ class CoarseMeshing {
       std::vector<std::uint32_t> hard = plan(todo);
       if (hard.empty()) break;
       todo = hard;
-      if (!wide_ || !sample_finer(hard)) {
+      if (!has_wide_arcs_ || !sample_finer(hard)) {
         for (const std::uint32_t f : hard) parts_[f].cut = Cut::filled;
         filling_.fill(std::move(hard), filled_);
       }
@@ -110,8 +110,8 @@ class CoarseMeshing {
   bool sample_finer(const std::vector<std::uint32_t>& hard) {
     bool any = false;
     for (const std::uint32_t f : hard) {
-      if (finer_[f]) continue;
-      finer_[f] = any = true;
+      if (is_finer_[f]) continue;
+      is_finer_[f] = any = true;
       for_each_half_border(surface_, surface_.faces[f], [&](HalfBorder half) {
         const std::uint32_t b = border_of(half);
         for (std::uint32_t k = samples_.segment_count(b); k-- > 0;)
@@ -220,7 +220,7 @@ class CoarseMeshing {
       part.triangle = triangles;
       part.vertex = vertices;
       if (part.cut == Cut::filled) {
-        part_doubled_edges(filled_[f]);
+        split_doubled_edges(filled_[f]);
         triangles += static_cast<std::uint32_t>(filled_[f].triangles.size());
         vertices += own_vertices(filled_[f]);
       } else if (part.corners >= 3) {
@@ -271,11 +271,11 @@ class CoarseMeshing {
     const auto rim = static_cast<std::uint32_t>(mesh.rim.size());
     std::vector<std::uint32_t> v(mesh.points.size());
     for (std::uint32_t i = 0; i < v.size(); ++i) {
-      const bool inner = i >= rim, on_seam = !inner && mesh.rim[i].border == kSeam;
+      const bool inner = i >= rim, is_on_seam = !inner && mesh.rim[i].border == kSeam;
       if (inner) v[i] = parts_[f].vertex + static_cast<std::uint32_t>(seam.size()) + i - rim;
-      if (on_seam) v[i] = parts_[f].vertex + seam.at(mesh.rim[i].index);
-      if (inner || on_seam) mesh_.positions[v[i]] = mesh.points[i].position;
-      if (!inner && !on_seam) v[i] = number(mesh.rim[i]);
+      if (is_on_seam) v[i] = parts_[f].vertex + seam.at(mesh.rim[i].index);
+      if (inner || is_on_seam) mesh_.positions[v[i]] = mesh.points[i].position;
+      if (!inner && !is_on_seam) v[i] = number(mesh.rim[i]);
     }
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const auto& [a, b, c] = mesh.triangles[t];
@@ -289,9 +289,9 @@ class CoarseMeshing {
   const EdgeRule rule_;
   BorderSamples samples_;
   FaceFilling filling_;
-  std::vector<Part> parts_;  ///< per face
-  bool wide_;                ///< true if arcs of one edge may span more than those next to faces that are not simple
-  std::vector<bool> finer_;  ///< per face: true if its borders are sampled as finely as those of filled faces
+  std::vector<Part> parts_;     ///< per face
+  bool has_wide_arcs_;          ///< true if arcs of one edge may span more than those next to faces that are not simple
+  std::vector<bool> is_finer_;  ///< per face: true if its borders are sampled as finely as those of filled faces
   std::vector<FaceMesh> filled_;  ///< per face: its triangles if it was filled
   std::vector<std::uint32_t> vertex_number_, border_number_;
   TriangleMesh mesh_;

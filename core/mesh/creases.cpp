@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/mesh/even_sizes.h"
+#include "core/mesh/remesh_tuning.h"
 #include "core/surface/walks.h"
 #include "core/mesh/triangle_mesh.h"
 

@@ -120,7 +120,7 @@ class Cutter {
   double height(const glm::dvec3& position) const { return glm::dot(plane_.normal, position) - plane_.offset; }
   std::uint32_t first_cut() const { return static_cast<std::uint32_t>(solid_.positions.size()); }
   /// True if a vertex lies on the side of the plane that is cut away.
-  bool away(std::uint32_t v) const { return height_[v] >= 0.0; }
+  bool is_cut_away(std::uint32_t v) const { return height_[v] >= 0.0; }
 
   std::uint32_t add_vertex(const glm::dvec3& position, const glm::dvec3& normal) {
     result_.positions.push_back(position);
@@ -147,12 +147,12 @@ class Cutter {
 
   void cut(const SolidPiece& piece) {
     const Corners& c = piece.corner;
-    const int count = int(away(c[0])) + int(away(c[1])) + int(away(c[2]));
+    const int count = int(is_cut_away(c[0])) + int(is_cut_away(c[1])) + int(is_cut_away(c[2]));
     if (count == 3) return;
     if (count == 0) return add(piece, c);
     // Find the corner that is alone on its side; the others follow it.
     int k = 0;
-    while (away(c[k]) != (count == 1)) ++k;
+    while (is_cut_away(c[k]) != (count == 1)) ++k;
     const std::uint32_t lone = c[k], next = c[(k + 1) % 3], last = c[(k + 2) % 3];
     const std::uint32_t p = cut_vertex(lone, next), q = cut_vertex(last, lone);
     if (count == 2) {
@@ -169,13 +169,13 @@ class Cutter {
 
   void cut_sharp_edges() {
     for (const auto& [a, b] : solid_.sharp_edges) {
-      if (away(a) && away(b)) continue;
-      if (!away(a) && !away(b)) {
+      if (is_cut_away(a) && is_cut_away(b)) continue;
+      if (!is_cut_away(a) && !is_cut_away(b)) {
         result_.sharp_edges.push_back({a, b});
         continue;
       }
       const std::uint32_t middle = cuts_.find(a, b);
-      if (middle != kNone) result_.sharp_edges.push_back({away(a) ? b : a, middle});
+      if (middle != kNone) result_.sharp_edges.push_back({is_cut_away(a) ? b : a, middle});
     }
   }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/mesh/remesh_tuning.h"
+
 namespace meniscus {
 namespace {
 

@@ -70,7 +70,7 @@ class FaceFiller {
         if (too_coarse_.empty()) return extract();
       } else {
         // The chords of a rim with few points may enclose the wrong side.
-        for (int e = 0; e < rim_count() && rim_count() < kManyRimPoints; ++e) ask_for_split(e);
+        for (int e = 0; e < rim_count() && rim_count() < kManyRimPoints; ++e) request_split(e);
       }
     }
     FaceMesh failed;
@@ -97,17 +97,17 @@ class FaceFiller {
       const auto conflict = plane_.constrain(kBoxCorners + a, kBoxCorners + b, e);
       if (!conflict) continue;
       const int other = conflict->segment >= 0 && length(conflict->segment) > length(e) ? conflict->segment : e;
-      ask_for_split(other);
-      blocked_ = true;
+      request_split(other);
+      is_blocked_ = true;
     }
-    return !blocked_;
+    return !is_blocked_;
   }
   double length(int edge) const {
     return glm::distance(outline_.points[outline_.edges[edge][0]].position,
                          outline_.points[outline_.edges[edge][1]].position);
   }
   /// Requests that the border segment of a rim edge is split, unless it is too short.
-  void ask_for_split(int edge) {
+  void request_split(int edge) {
     const Segment& s = outline_.segments[edge];
     if (s.border != kNone && length(edge) > kShortestSegment) too_coarse_.push_back(s);
   }
@@ -157,7 +157,7 @@ class FaceFiller {
           wanted.push_back(middle);
         else
           for (const int edge : t.segment)
-            if (edge >= 0) ask_for_split(edge);
+            if (edge >= 0) request_split(edge);
       }
       if (wanted.empty()) return;
       for (const FacePoint& p : wanted) insert(grid.at(outline_.domain->flat(p)), p);
@@ -198,7 +198,7 @@ class FaceFiller {
   PlanarTriangulation plane_;
   std::vector<FacePoint> inner_;
   std::vector<Segment> too_coarse_;
-  bool blocked_ = false;
+  bool is_blocked_ = false;
 };
 
 }  // namespace
@@ -221,7 +221,7 @@ FaceMesh fan_outline(FaceOutline outline) {
   return mesh;
 }
 
-void part_doubled_edges(FaceMesh& mesh) {
+void split_doubled_edges(FaceMesh& mesh) {
   std::map<BorderPoint, std::uint32_t> first;
   std::vector<std::uint32_t> same(mesh.rim.size());
   for (std::uint32_t i = 0; i < same.size(); ++i) same[i] = first.try_emplace(mesh.rim[i], i).first->second;

@@ -98,7 +98,7 @@ class TorusDomain final : public FaceDomain {
   /// Returns the distance (Å) from the axis at a tube angle (radian).
   double axis_distance(double tube) const;
   /// True if the axis cuts the patch in two, and this is a map of one half.
-  bool spindle() const { return spindle_; }
+  bool is_spindle() const { return is_spindle_; }
   /// Returns the signed tube angle (radian) of the tip of this half of a spindle.
   double tip_angle() const { return piece_ == 0 ? -tip_ : tip_; }
 
@@ -106,7 +106,7 @@ class TorusDomain final : public FaceDomain {
   ToroidalPatch patch_;
   double tube_radius_;
   int piece_;
-  bool spindle_;
+  bool is_spindle_;
   double tip_ = 0.0;      ///< tube angle (radian) where the torus meets its axis, above 0; 0 if it does not
   double tan_tip_ = 0.0;  ///< tan(tip/2)
 };
@@ -164,7 +164,7 @@ FaceMesh whole_sphere(const Surface& surface, const Face& face, const SphereLatt
 
 /// Splits inner edges until no two of them, and no inner edge and the rim, join the same two named points. This is
 /// necessary because the two sides of a seam become one line of vertices.
-void part_doubled_edges(FaceMesh& mesh);
+void split_doubled_edges(FaceMesh& mesh);
 
 /// Splits an inner edge in two, if the mesh still has it; the new vertex lies on the exact surface.
 void split_edge(FaceMesh& mesh, std::uint32_t a, std::uint32_t b);

@@ -20,7 +20,7 @@ constexpr int kUntanglingRounds = 24;
 }  // namespace
 
 FaceFilling::FaceFilling(const Surface& surface, const EdgeRule& rule, BorderSamples& samples)
-    : surface_(surface), rule_(rule), samples_(samples), asked_(surface.faces.size(), false) {}
+    : surface_(surface), rule_(rule), samples_(samples), is_requested_(surface.faces.size(), false) {}
 
 void FaceFilling::make_lattices(const std::vector<std::uint32_t>& faces) {
   for (const std::uint32_t f : faces) {
@@ -43,7 +43,7 @@ FaceMesh FaceFilling::filled(std::uint32_t f) const {
   FaceOutline rim = outline(f);
   if (rim.edges.size() < 3) return {};  // shrunk to a point or to one line
   FaceMesh mesh = fill_outline(std::move(rim), tolerance_of(rule_, surface_, face));
-  give_back_room(mesh);
+  shrink_lists(mesh);
   return mesh;
 }
 
@@ -60,7 +60,7 @@ void FaceFilling::fan(std::uint32_t f, FaceMesh& mesh) const {
 
 void FaceFilling::fill(std::vector<std::uint32_t> todo, std::vector<FaceMesh>& meshes) {
   make_lattices(todo);
-  for (const std::uint32_t f : todo) asked_[f] = true;
+  for (const std::uint32_t f : todo) is_requested_[f] = true;
   for (int round = 0; round < kUntanglingRounds && !todo.empty(); ++round) {
     tbb::parallel_for(std::size_t{0}, todo.size(), [&](std::size_t i) { meshes[todo[i]] = filled(todo[i]); });
     std::set<std::pair<std::uint32_t, std::uint32_t>> segments;
@@ -71,16 +71,16 @@ void FaceFilling::fill(std::vector<std::uint32_t> todo, std::vector<FaceMesh>& m
     for (auto s = segments.rbegin(); s != segments.rend(); ++s) {  // from the back, so that indices remain valid
       samples_.split(s->first, s->second);
       for (std::uint32_t f : surface_.borders[s->first].face)
-        if (asked_[f]) dirty.insert(f);
+        if (is_requested_[f]) dirty.insert(f);
     }
     todo.assign(dirty.begin(), dirty.end());
   }
   tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t f) {
-    if (asked_[f]) fan(static_cast<std::uint32_t>(f), meshes[f]);
+    if (is_requested_[f]) fan(static_cast<std::uint32_t>(f), meshes[f]);
   });
 }
 
-void give_back_room(FaceMesh& mesh) {
+void shrink_lists(FaceMesh& mesh) {
   mesh.points.shrink_to_fit();
   mesh.triangles.shrink_to_fit();
   mesh.atom.shrink_to_fit();

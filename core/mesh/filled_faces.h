@@ -34,10 +34,10 @@ class FaceFilling {
   const EdgeRule& rule_;
   BorderSamples& samples_;
   std::map<int, SphereLattice> lattices_;
-  std::vector<bool> asked_;  ///< per face of the surface: true if it was to be filled
+  std::vector<bool> is_requested_;  ///< per face of the surface: true if it was to be filled
 };
 
 /// Frees the unused capacity of lists that grew row by row, which is up to half of their size.
-void give_back_room(FaceMesh& mesh);
+void shrink_lists(FaceMesh& mesh);
 
 }  // namespace meniscus

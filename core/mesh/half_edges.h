@@ -28,7 +28,7 @@ class CornerLists {
 };
 
 /// True if the triangles at these corners of one vertex form a single closed fan around it; false for fewer than three.
-bool go_around_once(std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const std::uint32_t> corners);
+bool is_closed_fan(std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const std::uint32_t> corners);
 
 /// A half-edge structure. Half-edge 3 t + k of triangle t goes from its corner k to corner (k + 1) % 3. Triangles and
 /// vertices that were removed keep their numbers until compact().
@@ -38,7 +38,7 @@ class HalfEdges {
   /// OpenSurfaceError for any other mesh.
   HalfEdges(std::span<const std::array<std::uint32_t, 3>> triangles, std::uint32_t vertex_count);
   /// Links some triangles of a mesh; `corners` are the corners of these. A half-edge without exactly one reverse
-  /// half-edge has no twin (kNone). Only vertices with a closed fan (go_around_once()) may be queried or changed.
+  /// half-edge has no twin (kNone). Only vertices with a closed fan (is_closed_fan()) may be queried or changed.
   static HalfEdges of_part(std::span<const std::array<std::uint32_t, 3>> triangles, const CornerLists& corners);
 
   static std::uint32_t next(std::uint32_t half) { return half % 3 == 2 ? half - 2 : half + 1; }
@@ -46,8 +46,8 @@ class HalfEdges {
   std::uint32_t half_edge_count() const { return static_cast<std::uint32_t>(from_.size()); }
   std::uint32_t triangle_count() const { return half_edge_count() / 3; }
   std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(leaving_.size()); }
-  bool lives(std::uint32_t half) const { return from_[half] != kNone; }
-  bool vertex_lives(std::uint32_t vertex) const { return leaving_[vertex] != kNone; }
+  bool is_alive(std::uint32_t half) const { return from_[half] != kNone; }
+  bool is_vertex_alive(std::uint32_t vertex) const { return leaving_[vertex] != kNone; }
   std::uint32_t from(std::uint32_t half) const { return from_[half]; }
   std::uint32_t to(std::uint32_t half) const { return from_[next(half)]; }
   std::uint32_t opposite(std::uint32_t half) const { return from_[last(half)]; }
@@ -63,7 +63,7 @@ class HalfEdges {
 
   /// Calls visit(half-edge) for the half-edges that leave a vertex, clockwise.
   template <typename Visit>
-  void around(std::uint32_t vertex, const Visit& visit) const {
+  void for_each_leaving(std::uint32_t vertex, const Visit& visit) const {
     const std::uint32_t first = leaving_[vertex];
     std::uint32_t half = first;
     do {
@@ -73,7 +73,7 @@ class HalfEdges {
   }
   /// True if the predicate holds for each half-edge that leaves a vertex. Stops at the first for which it does not.
   template <typename Predicate>
-  bool all_around(std::uint32_t vertex, const Predicate& is_so) const {
+  bool all_leaving(std::uint32_t vertex, const Predicate& is_so) const {
     const std::uint32_t first = leaving_[vertex];
     std::uint32_t half = first;
     do {
@@ -84,7 +84,7 @@ class HalfEdges {
   }
   std::uint32_t valence(std::uint32_t vertex) const {
     std::uint32_t count = 0;
-    around(vertex, [&](std::uint32_t) { ++count; });
+    for_each_leaving(vertex, [&](std::uint32_t) { ++count; });
     return count;
   }
   /// Returns a half-edge from one vertex to another, or kNone.

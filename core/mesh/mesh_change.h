@@ -24,11 +24,11 @@ struct MeshChange {
 };
 
 /// The triangles that a change makes and those that it removes. A new vertex has the number that it will get.
-struct Exchange {
+struct TriangleExchange {
   std::vector<PlacedTriangle> made;
-  std::vector<std::uint32_t> gone;
+  std::vector<std::uint32_t> removed;
 };
-Exchange exchange_by(const MeshOnSurface& mesh, const MeshChange& change);
+TriangleExchange exchange_by(const MeshOnSurface& mesh, const MeshChange& change);
 
 /// Calls visit(PlacedTriangle) for each triangle that a change makes.
 template <typename Visit>
@@ -49,7 +49,7 @@ void for_each_made(const MeshOnSurface& mesh, const MeshChange& change, const Vi
     }
     case MeshChange::Kind::collapse: {
       const std::uint32_t b = links.to(change.where);
-      links.around(links.from(change.where), [&](std::uint32_t edge) {
+      links.for_each_leaving(links.from(change.where), [&](std::uint32_t edge) {
         const std::uint32_t c = links.to(edge), d = links.opposite(edge);
         if (c != b && d != b) visit(placed(b, c, d));
       });
@@ -69,7 +69,7 @@ void for_each_made(const MeshOnSurface& mesh, const MeshChange& change, const Vi
       }
       break;
     case MeshChange::Kind::move:
-      links.around(change.where, [&](std::uint32_t half) {
+      links.for_each_leaving(change.where, [&](std::uint32_t half) {
         PlacedTriangle moved = placed(change.where, links.to(half), links.opposite(half));
         moved.at[0] = change.at.position;
         visit(moved);
@@ -79,7 +79,7 @@ void for_each_made(const MeshOnSurface& mesh, const MeshChange& change, const Vi
 
 /// Calls visit(triangle) for each triangle that a change removes.
 template <typename Visit>
-void for_each_gone(const MeshOnSurface& mesh, const MeshChange& change, const Visit& visit) {
+void for_each_removed(const MeshOnSurface& mesh, const MeshChange& change, const Visit& visit) {
   const HalfEdges& links = mesh.links();
   switch (change.kind) {
     case MeshChange::Kind::flip:
@@ -91,23 +91,23 @@ void for_each_gone(const MeshOnSurface& mesh, const MeshChange& change, const Vi
       visit(change.where);
       break;
     case MeshChange::Kind::collapse:
-      links.around(links.from(change.where), [&](std::uint32_t half) { visit(half / 3); });
+      links.for_each_leaving(links.from(change.where), [&](std::uint32_t half) { visit(half / 3); });
       break;
     case MeshChange::Kind::move:
-      links.around(change.where, [&](std::uint32_t half) { visit(half / 3); });
+      links.for_each_leaving(change.where, [&](std::uint32_t half) { visit(half / 3); });
   }
 }
 
 /// True if the first vertex of an edge may be merged into the second. A vertex on a crease may only move along the
 /// crease, a vertex where creases end or meet must stay, and two creases must not fall together.
-bool may_vanish(const MeshOnSurface& mesh, std::uint32_t half);
+bool is_mergeable(const MeshOnSurface& mesh, std::uint32_t half);
 
-/// True if no triangle that a change makes would pass through triangles that the guard of the mesh watches.
-bool crosses_nothing(const MeshOnSurface& mesh, const MeshChange& change);
+/// True if no triangle that a change makes would pass through guarded triangles of the mesh.
+bool is_free_of_crossings(const MeshOnSurface& mesh, const MeshChange& change);
 
 /// Makes a change. A collapse that takes a vertex off its crease, or removes a pinned vertex of a crease, pins the
 /// vertex that remains.
-void make(MeshOnSurface& mesh, const MeshChange& change);
+void apply_change(MeshOnSurface& mesh, const MeshChange& change);
 
 /// Returns the point of the surface below the midpoint of an edge, for a crease edge the point on the crease; nothing
 /// if the surface is another sheet there.

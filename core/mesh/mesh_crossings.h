@@ -124,34 +124,34 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings_of(
     std::span<const std::uint32_t> some, std::span<const glm::dvec3> positions,
     std::span<const std::array<std::uint32_t, 3>> triangles);
 
-/// Checks changes of a mesh for crossings around watched vertices, with the triangles at these in a grid. The grid may
+/// Checks changes of a mesh for crossings around guarded vertices, with the triangles at these in a grid. The grid may
 /// still list triangles that have changed or were removed; they are inspected in their present state.
 class CrossingGuard {
  public:
-  /// Watches nothing at first. `links` and `positions` are those of the guarded mesh and must outlive the guard.
+  /// Guards nothing at first. `links` and `positions` are those of the guarded mesh and must outlive the guard.
   CrossingGuard(const HalfEdges& links, const std::vector<glm::dvec3>& positions)
-      : links_(links), positions_(positions), watched_(links.vertex_count(), 0) {}
+      : links_(links), positions_(positions), guards_(links.vertex_count(), 0) {}
 
-  /// Watches the vertices in these balls permanently.
-  void watch(std::span<const Ball> places) { mark(places, kLasting); }
-  /// Watches the vertices around these triangles until release().
-  void watch_around(std::span<const std::uint32_t> triangles);
+  /// Guards the vertices in these balls permanently.
+  void guard_balls(std::span<const Ball> places) { mark(places, kPermanent); }
+  /// Guards the vertices around these triangles until release().
+  void guard_around(std::span<const std::uint32_t> triangles);
   void release();
-  bool watches(std::uint32_t vertex) const { return watched_[vertex] != 0; }
+  bool is_guarded(std::uint32_t vertex) const { return guards_[vertex] != 0; }
 
-  /// Adds a new vertex between a and b, which is watched if one of these is.
-  void add_vertex(std::uint32_t a, std::uint32_t b) { watched_.push_back(watched_[a] | watched_[b]); }
-  /// Notes that vertex a is merged into another one, which is then watched if either was.
-  void merge_vertex(std::uint32_t a, std::uint32_t into) { watched_[into] |= watched_[a]; }
+  /// Adds a new vertex between a and b, which is guarded if one of these is.
+  void add_vertex(std::uint32_t a, std::uint32_t b) { guards_.push_back(guards_[a] | guards_[b]); }
+  /// Notes that vertex a is merged into another one, which is then guarded if either was.
+  void merge_vertex(std::uint32_t a, std::uint32_t into) { guards_[into] |= guards_[a]; }
   /// Lists a triangle that is new or has moved.
   void add(std::uint32_t triangle);
   /// Renumbers vertices after HalfEdges::compact(), which returned `old_vertices`.
   void compact(std::span<const std::uint32_t> old_vertices);
 
-  /// Returns the number of crossing pairs that exist once `made` replace the triangles `gone`: pairs of the new
+  /// Returns the number of crossing pairs that exist once `made` replace the triangles `removed`: pairs of the new
   /// triangles, which are neighbours, and pairs of a new triangle and a listed one that remains. Stops counting at
   /// `enough`. Not safe to call from several threads at once.
-  std::size_t crossings(std::span<const PlacedTriangle> made, std::span<const std::uint32_t> gone,
+  std::size_t crossings(std::span<const PlacedTriangle> made, std::span<const std::uint32_t> removed,
                         std::size_t enough = kAll) const;
   PlacedTriangle placed(std::uint32_t triangle) const;
   /// Returns the number of triangles that all calls so far inspected: a measure of cost that is the same for any number
@@ -159,21 +159,21 @@ class CrossingGuard {
   std::uint64_t work() const { return work_; }
 
  private:
-  /// Bits that tell how a vertex is watched.
-  static constexpr std::uint8_t kLasting = 1, kForNow = 2;
+  /// Bits that tell how a vertex is guarded.
+  static constexpr std::uint8_t kPermanent = 1, kTemporary = 2;
   static constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
-  void mark(std::span<const Ball> places, std::uint8_t how);
+  void mark(std::span<const Ball> places, std::uint8_t bits);
   void list();
-  void list_near(std::span<const PlacedTriangle> made, std::span<const std::uint32_t> gone) const;
+  void list_near(std::span<const PlacedTriangle> made, std::span<const std::uint32_t> removed) const;
 
   const HalfEdges& links_;
   const std::vector<glm::dvec3>& positions_;
-  std::vector<std::uint8_t> watched_;  ///< bits of each vertex
+  std::vector<std::uint8_t> guards_;  ///< bits of each vertex
   BoxGrid grid_;
   // The scratch memory of the last query, which is why queries are not thread-safe.
   mutable std::vector<std::pair<Box, PlacedTriangle>> near_;
   mutable std::vector<std::uint32_t> seen_;  ///< per triangle: the number of the query that last met it
-  mutable std::uint32_t question_ = 0;
+  mutable std::uint32_t query_ = 0;
   mutable std::uint64_t work_ = 0;
 };
 

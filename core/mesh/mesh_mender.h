@@ -39,7 +39,7 @@ class MeshMender {
   void mend_only(std::span<const std::uint32_t> triangles);
   /// Inserts vertices at these points, or moves vertices there, where nothing comes to cross by that; these vertices
   /// are pinned.
-  void reach(std::span<const PointAtTriangle> points);
+  void insert_points(std::span<const PointAtTriangle> points);
 
  private:
   /// The attributes of a vertex that a change inserts or moves.
@@ -51,16 +51,16 @@ class MeshMender {
   };
 
   struct Candidate {
-    std::ptrdiff_t fewer;  ///< how many fewer faults remain after the change
-    double gain;           ///< increase of the score
+    std::ptrdiff_t fewer_faults;  ///< how many fewer faults remain after the change
+    double gain;                  ///< increase of the score
     MeshChange change;
   };
   using Candidates = std::vector<Candidate>;
 
   /// Caches the faults of triangles that changes would remove, while the mesh stays as it is.
-  class WrongNow;
+  class FaultCache;
 
-  bool is_wrong(std::uint32_t triangle) const;
+  bool is_faulty(std::uint32_t triangle) const;
   bool is_too_short(std::uint32_t half) const;
   bool may_merge(std::uint32_t half) const;
   template <typename Visit>
@@ -71,14 +71,14 @@ class MeshMender {
   double score_after(const MeshChange& change, bool steep, double bar = -std::numeric_limits<double>::infinity()) const;
   double score_before(const MeshChange& change, bool steep) const;
   std::size_t forbidden(std::span<const PlacedTriangle> made, std::size_t enough) const;
-  std::ptrdiff_t fewer_wrong(const Exchange& exchange, WrongNow& now) const;
+  std::ptrdiff_t fault_reduction(const TriangleExchange& exchange, FaultCache& faults) const;
   bool is_sliver(std::uint32_t triangle) const;
   Candidates better_changes(std::uint32_t triangle) const;
-  Candidates righting_changes(std::uint32_t triangle) const;
-  static void put_best_first(Candidates& candidates, bool sliver);
-  bool make_first(const Candidates& candidates);
-  std::vector<std::optional<Candidates>> changes_of_first(std::span<const std::uint32_t> bad,
-                                                          std::span<const std::uint8_t> doubtful);
+  Candidates repairing_changes(std::uint32_t triangle) const;
+  static void sort_candidates(Candidates& candidates, bool sliver);
+  bool apply_first(const Candidates& candidates);
+  std::vector<std::optional<Candidates>> find_independent_changes(std::span<const std::uint32_t> bad,
+                                                                  std::span<const std::uint8_t> doubtful);
   bool has_changed_around(std::uint32_t triangle) const;
   void mend(std::vector<std::uint32_t> bad, std::vector<std::uint8_t> doubtful);
 

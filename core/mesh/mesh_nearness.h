@@ -31,21 +31,22 @@ class MeshNearness {
 
   /// Requires the mesh to come near the vertices and centroids of this one, and near places along creases, which
   /// coarser meshes bridge.
-  void ask_for(const BaseMesh& base);
+  void set_targets(const BaseMesh& base);
   /// Returns a place of a triangle that is too far from the surface; nothing if there is none. Safe to call from
   /// several threads.
-  std::optional<glm::dvec3> far_place(const MeshOnSurface& mesh, const PlacedTriangle& triangle) const;
+  std::optional<glm::dvec3> find_far_place(const MeshOnSurface& mesh, const PlacedTriangle& triangle) const;
   /// Returns the triangles that are too far from the surface, and those nearest to places that are too far from the
   /// mesh; away from creases neither occurs without the other. Each has the point of the surface that it should reach,
   /// if that is known; triangles are in ascending order. Triangles that did not change since the last call are known to
   /// be near the surface.
-  std::vector<PointAtTriangle> too_far(MeshOnSurface& mesh);
+  std::vector<PointAtTriangle> find_far_triangles(MeshOnSurface& mesh);
   /// True if the mesh is also near the vertices of a fine one. Otherwise those that it is far from have to be reached
   /// from now on.
-  bool reaches_all(const MeshOnSurface& mesh);
+  bool reaches_fine_vertices(const MeshOnSurface& mesh);
 
  private:
-  SurfacePoint near(const MeshOnSurface& mesh, const glm::dvec3& x, const std::array<std::uint32_t, 3>& corners) const;
+  SurfacePoint nearest_point(const MeshOnSurface& mesh, const glm::dvec3& x,
+                             const std::array<std::uint32_t, 3>& corners) const;
   void add_bridges(const MeshOnSurface& mesh, std::vector<PointAtTriangle>& points);
   const SurfaceDistance& distance() const;
   const std::vector<SurfacePoint>& fine_vertices();
@@ -53,8 +54,9 @@ class MeshNearness {
   const Surface& surface_;
   const SurfaceWalk& walk_;
   const EvenSizes& sizes_;
-  std::vector<SurfacePoint> to_reach_;  ///< places that the mesh has to come near
-  std::vector<std::uint64_t> near_;  ///< per place to reach: the key of a triangle that was near it; 0: none is known
+  std::vector<SurfacePoint> targets_;  ///< places that the mesh has to come near
+  std::vector<std::uint64_t>
+      near_keys_;  ///< per place to reach: the key of a triangle that was near it; 0: none is known
   std::vector<SurfacePoint> fine_vertices_;  ///< computed on first use
   mutable std::once_flag distance_made_;
   mutable std::optional<SurfaceDistance> distance_;

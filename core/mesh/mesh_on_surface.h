@@ -61,14 +61,14 @@ class WorstQuality {
   double worst_ = 1.0;
 };
 
-/// The qualities of triangles (even_sizes.h), cached as long as nothing around them changes.
+/// The qualities of triangles (remesh_tuning.h), cached as long as nothing around them changes.
 class TriangleQuality {
  public:
   /// All three arguments must outlive this object.
   TriangleQuality(const HalfEdges& links, const std::vector<glm::dvec3>& positions,
                   const std::vector<MeshVertex>& vertices)
       : links_(links), positions_(positions), vertices_(vertices) {
-    make_room();
+    extend();
   }
 
   /// Returns the quality of a triangle of these vertices, the first of them at x; less kFold if the triangle is folded
@@ -81,16 +81,16 @@ class TriangleQuality {
   double score_around(std::uint32_t vertex, const glm::dvec3& x) const;
 
   /// Computes and caches the qualities of all triangles.
-  void find_all();
+  void compute_all();
   void remember(std::uint32_t triangle, double quality) { known_[triangle] = static_cast<float>(quality); }
   void forget(std::uint32_t triangle) { known_[triangle] = kUnknown, stale_[triangle] = 1; }
   void forget_all();
   /// Marks a triangle with edges that have to be checked for flips again.
-  void make_stale(std::uint32_t triangle) { stale_[triangle] = 1; }
+  void mark_stale(std::uint32_t triangle) { stale_[triangle] = 1; }
   /// Returns the marks, true for each stale triangle, and clears them.
   std::vector<std::uint8_t> take_stale();
   /// Makes room for triangles that were added.
-  void make_room();
+  void extend();
   /// Renumbers triangles; to be called before HalfEdges::compact().
   void compact();
 
@@ -157,12 +157,12 @@ class MeshOnSurface {
 
   /// If true, triangles may lean as far as RemeshTuning::least_cosine; otherwise as little as the wanted edges let
   /// them.
-  void let_lean(bool as_they_have_to);
+  void allow_lean(bool allowed);
   /// Multiplies the wanted length of edges around a vertex, and leaves cached qualities to the caller.
   void scale_size(std::uint32_t vertex, float factor);
 
  private:
-  void settle(std::uint32_t vertex, const SurfacePoint& at, std::uint32_t crease);
+  void update_vertex(std::uint32_t vertex, const SurfacePoint& at, std::uint32_t crease);
   void add_vertex(std::uint32_t a, std::uint32_t b, const SurfacePoint& at, std::uint32_t crease);
   void note_changes_around(std::uint32_t vertex);
   float least_cosine(std::uint32_t vertex) const;

@@ -142,23 +142,23 @@ void PlanarTriangulation::flip(Edge edge) {
 }
 
 std::vector<int> PlanarTriangulation::star(int vertex) const {
-  std::vector<int> around;
+  std::vector<int> triangles;
   const int first = triangle_of_[vertex];
   int t = first;
   do {
-    around.push_back(t);
+    triangles.push_back(t);
     int i = 0;
     while (triangles_[t].vertex[i] != vertex) ++i;
     t = triangles_[t].neighbor[next(i)];
   } while (t >= 0 && t != first);
-  if (t == first) return around;
+  if (t == first) return triangles;
   t = first;  // a corner of the box: walk the other way too
   while (true) {
     int i = 0;
     while (triangles_[t].vertex[i] != vertex) ++i;
     t = triangles_[t].neighbor[previous(i)];
-    if (t < 0) return around;
-    around.push_back(t);
+    if (t < 0) return triangles;
+    triangles.push_back(t);
   }
 }
 

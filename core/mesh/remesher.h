@@ -10,7 +10,7 @@
 namespace meniscus {
 
 /// Remeshes by splits, collapses, flips and moves of vertices (Botsch & Kobbelt, "A remeshing approach to
-/// multiresolution modeling", 2004, section 4). Where the guard of the mesh watches, no pass lets triangles pass
+/// multiresolution modeling", 2004, section 4). Around guarded vertices (CrossingGuard) no pass lets triangles pass
 /// through others.
 class Remesher {
  public:
@@ -26,7 +26,7 @@ class Remesher {
 
  private:
   /// True if passes may change the edge.
-  bool busy(std::uint32_t half) const;
+  bool is_changeable(std::uint32_t half) const;
   /// Splits the edges longer than `limit` times the wanted length; returns how many.
   std::uint32_t split_long(double limit);
   bool split(std::uint32_t half);

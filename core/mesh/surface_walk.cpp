@@ -79,13 +79,13 @@ void SurfaceWalk::list_sides(std::uint32_t f) {
   });
 }
 
-SurfaceWalk::Look SurfaceWalk::look_at_sphere(const glm::dvec3& x, std::uint32_t face, const glm::dvec3& center,
-                                              double radius) const {
+SurfaceWalk::Projection SurfaceWalk::project_to_sphere(const glm::dvec3& x, std::uint32_t face,
+                                                       const glm::dvec3& center, double radius) const {
   const glm::dvec3 out = x - center;
   const double length = glm::length(out);
-  Look found;
+  Projection found;
   if (!(length > 1e-3 * radius)) {
-    found.lost = true;
+    found.is_lost = true;
     return found;
   }
   found.foot = center + (radius / length) * out;
@@ -97,9 +97,9 @@ SurfaceWalk::Look SurfaceWalk::look_at_sphere(const glm::dvec3& x, std::uint32_t
   return found;
 }
 
-SurfaceWalk::Look SurfaceWalk::look_at_torus(const glm::dvec3& x, std::uint32_t face,
-                                             const ToroidalPatch& torus) const {
-  Look found;
+SurfaceWalk::Projection SurfaceWalk::project_to_torus(const glm::dvec3& x, std::uint32_t face,
+                                                      const ToroidalPatch& torus) const {
+  Projection found;
   const double probe = surface_.probe_radius;
   const glm::dvec3 from_center = x - torus.center;
   const double along = glm::dot(from_center, torus.axis);
@@ -108,9 +108,9 @@ SurfaceWalk::Look SurfaceWalk::look_at_torus(const glm::dvec3& x, std::uint32_t 
   const glm::dvec3 outward = away > 0.0 ? across / away : torus.start;
   const double inwards = torus.radius - away, length = std::hypot(inwards, along);
   if (!(length > 1e-3 * probe)) {
-    found.lost = probe > 0.0;
+    found.is_lost = probe > 0.0;
     found.foot = torus.center + torus.radius * outward;
-    if (found.lost) return found;
+    if (found.is_lost) return found;
   } else {
     found.foot =
         torus.center + (torus.radius - probe * inwards / length) * outward + (probe * along / length) * torus.axis;
@@ -129,17 +129,17 @@ SurfaceWalk::Look SurfaceWalk::look_at_torus(const glm::dvec3& x, std::uint32_t 
   if (found.crossed || !surface_.spindle(torus)) return found;
   // Past its axis the tube of a spindle is not part of the surface; on the other side is the other piece.
   const bool second = torus.piece(face - torus.first_face) == 1;
-  found.lost = (tube > 0.0) != second || torus.radius * length < probe * inwards;
+  found.is_lost = (tube > 0.0) != second || torus.radius * length < probe * inwards;
   return found;
 }
 
-SurfaceWalk::Look SurfaceWalk::look(const glm::dvec3& x, std::uint32_t f) const {
+SurfaceWalk::Projection SurfaceWalk::project(const glm::dvec3& x, std::uint32_t f) const {
   const Face& face = surface_.faces[f];
-  if (face.kind == PatchKind::toroidal) return look_at_torus(x, f, surface_.toroidal[face.patch]);
+  if (face.kind == PatchKind::toroidal) return project_to_torus(x, f, surface_.toroidal[face.patch]);
   if (face.kind == PatchKind::concave)
-    return look_at_sphere(x, f, surface_.concave[face.patch].center, surface_.probe_radius);
+    return project_to_sphere(x, f, surface_.concave[face.patch].center, surface_.probe_radius);
   const Ball& atom = surface_.atoms[surface_.convex[face.patch].atom];
-  return look_at_sphere(x, f, atom.center, atom.radius);
+  return project_to_sphere(x, f, atom.center, atom.radius);
 }
 
 /// True if a foot lies on the patch of a face. The borders of the face are not all cuts of its patch: beyond other cuts
@@ -162,10 +162,11 @@ bool SurfaceWalk::on_patch(const glm::dvec3& foot, std::uint32_t f) const {
 std::optional<SurfacePoint> SurfaceWalk::below(const glm::dvec3& x, std::uint32_t face) const {
   std::uint32_t before = kNone;
   for (int step = 0; step < kLongestWalk; ++step) {
-    const Look here = look(x, face);
-    if (here.lost) return std::nullopt;
-    if (!here.crossed) return on_patch(here.foot, face) ? std::optional(SurfacePoint{here.foot, face}) : std::nullopt;
-    const Side& side = *here.crossed;
+    const Projection projection = project(x, face);
+    if (projection.is_lost) return std::nullopt;
+    if (!projection.crossed)
+      return on_patch(projection.foot, face) ? std::optional(SurfacePoint{projection.foot, face}) : std::nullopt;
+    const Side& side = *projection.crossed;
     if (barred_[side.border]) return std::nullopt;
     if (side.beyond == before) {  // over a shallow cusp, where both spheres point to each other
       const auto at = on_border(x, side.border);
@@ -193,7 +194,7 @@ std::optional<glm::dvec3> SurfaceWalk::on_border(const glm::dvec3& x, std::uint3
 
 std::optional<SurfacePoint> SurfaceWalk::on_near_cusp(const glm::dvec3& x, std::uint32_t face) const {
   std::optional<SurfacePoint> nearest;
-  const auto look_around = [&](std::uint32_t f) {
+  const auto visit_cusps_of = [&](std::uint32_t f) {
     for (std::uint32_t s = first_[f]; s < first_[f + 1]; ++s) {
       const Border& border = surface_.borders[sides_[s].border];
       if (border.kind != BorderKind::cusp) continue;
@@ -203,9 +204,9 @@ std::optional<SurfacePoint> SurfaceWalk::on_near_cusp(const glm::dvec3& x, std::
       if (!nearest || glm::distance(x, at) < glm::distance(x, nearest->position)) nearest = SurfacePoint{at, f};
     }
   };
-  look_around(face);
+  visit_cusps_of(face);
   for (std::uint32_t s = first_[face]; s < first_[face + 1]; ++s)
-    if (!barred_[sides_[s].border]) look_around(sides_[s].beyond);
+    if (!barred_[sides_[s].border]) visit_cusps_of(sides_[s].beyond);
   return nearest;
 }
 

@@ -54,17 +54,17 @@ class SurfaceWalk {
     Wall wall = Wall::plane;
   };
   /// The projection of x seen from a face: the foot on its sphere or torus, and the wall that x is farthest beyond.
-  struct Look {
+  struct Projection {
     glm::dvec3 foot{0.0};
     const Side* crossed = nullptr;  ///< null: x is beyond no wall
-    bool lost = false;  ///< true if there is no foot: x is in the middle of a sphere, or past the tip of a spindle
+    bool is_lost = false;  ///< true if there is no foot: x is in the middle of a sphere, or past the tip of a spindle
   };
 
   void list_sides(std::uint32_t face);
   bool on_patch(const glm::dvec3& foot, std::uint32_t face) const;
-  Look look(const glm::dvec3& x, std::uint32_t face) const;
-  Look look_at_sphere(const glm::dvec3& x, std::uint32_t face, const glm::dvec3& center, double radius) const;
-  Look look_at_torus(const glm::dvec3& x, std::uint32_t face, const ToroidalPatch& torus) const;
+  Projection project(const glm::dvec3& x, std::uint32_t face) const;
+  Projection project_to_sphere(const glm::dvec3& x, std::uint32_t face, const glm::dvec3& center, double radius) const;
+  Projection project_to_torus(const glm::dvec3& x, std::uint32_t face, const ToroidalPatch& torus) const;
 
   const Surface& surface_;
   std::vector<bool> barred_;

@@ -58,13 +58,13 @@ class Tessellation {
 
   TriangleMesh run() {
     fill_faces();
-    tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t f) { part_doubled_edges(faces_[f]); });
-    part_shared_edges();
+    tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t f) { split_doubled_edges(faces_[f]); });
+    split_shared_edges();
     tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t f) {
       color_face(surface_, surface_.faces[f], faces_[f], options_.split_colors);
       faces_[f].rim_edges = {};
       faces_[f].bridges = {};
-      give_back_room(faces_[f]);
+      shrink_lists(faces_[f]);
     });
     number_vertices();
     add_sharp_edges();
@@ -89,21 +89,21 @@ class Tessellation {
   }
 
   /// True if an edge of a rim has an end inside a seam.
-  bool on_seam(const FaceMesh& mesh, const std::array<int, 2>& edge) const {
+  bool is_on_seam(const FaceMesh& mesh, const std::array<int, 2>& edge) const {
     return mesh.rim[edge[0]].border == kSeam || mesh.rim[edge[1]].border == kSeam;
   }
   std::size_t bridge_count() const {
     std::size_t count = 0;
     for (const FaceMesh& mesh : faces_) {
       count += mesh.bridges.size();
-      for (const auto& edge : mesh.rim_edges) count += on_seam(mesh, edge);
+      for (const auto& edge : mesh.rim_edges) count += is_on_seam(mesh, edge);
     }
     for (std::uint32_t b = 0; b < surface_.borders.size(); ++b) count += samples_->segment_count(b);
     return count;
   }
 
   /// Splits inner edges that two faces draw between the same two rim points, so that each gets a vertex of its own.
-  void part_shared_edges() {
+  void split_shared_edges() {
     struct Bridge {
       BorderPoint a, b;
       std::uint32_t face;
@@ -125,7 +125,7 @@ class Tessellation {
         add(f, u, w, f, i);
       }
       for (const auto& edge : faces_[f].rim_edges) {
-        if (on_seam(faces_[f], edge)) add(f, edge[0], edge[1], kNone, 0);
+        if (is_on_seam(faces_[f], edge)) add(f, edge[0], edge[1], kNone, 0);
       }
     }
     for (std::uint32_t b = 0; b < surface_.borders.size(); ++b) {
@@ -168,7 +168,7 @@ class Tessellation {
       for (std::uint32_t k = ring ? 0 : 1; k < n; ++k, ++next) mesh_.positions.push_back(samples_->position(b, k));
     }
     mesh_.border_point_count = next - mesh_.corner_count;
-    make_room();
+    reserve_rows();
   }
 
   /// Returns the number of vertices that no other face has.
@@ -178,7 +178,7 @@ class Tessellation {
       if (name.border == kSeam) seam.insert(name.index);
     return static_cast<std::uint32_t>(mesh.points.size() - mesh.rim.size() + seam.size());
   }
-  void make_room() {
+  void reserve_rows() {
     std::size_t vertices = mesh_.positions.size(), triangles = 0;
     for (const FaceMesh& mesh : faces_) {
       vertices += own_vertex_count(mesh);
@@ -211,13 +211,13 @@ class Tessellation {
     return part.domain->corner_normal(part.points[v[k]], part.points[v[(k + 1) % 3]], part.points[v[(k + 2) % 3]]);
   }
 
-  /// Calls look(triangle, corner, vertex) for the corners of a face's triangles at shared vertices.
-  template <typename Look>
-  void for_each_shared_corner(const FaceMesh& part, const Look& look) const {
+  /// Calls visit(triangle, corner, vertex) for the corners of a face's triangles at shared vertices.
+  template <typename Visit>
+  void for_each_shared_corner(const FaceMesh& part, const Visit& visit) const {
     for (std::size_t t = 0; t < part.triangles.size(); ++t)
       for (int k = 0; k < 3; ++k) {
         const std::uint32_t v = part.triangles[t][k];
-        if (is_shared(part, v)) look(t, k, number(part.rim[v]));
+        if (is_shared(part, v)) visit(t, k, number(part.rim[v]));
       }
   }
 

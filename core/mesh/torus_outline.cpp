@@ -36,7 +36,7 @@ class TorusRim {
   FaceOutline build() {
     if (!patch_.free()) {
       walk_strip();
-    } else if (domain_->spindle()) {
+    } else if (domain_->is_spindle()) {
       walk_drop();
     } else {
       walk_ring();
@@ -71,7 +71,7 @@ class TorusRim {
   }
 
   bool is_contact(const Half& half) const { return surface_.borders[half.border].kind == BorderKind::contact; }
-  bool with_axis(std::uint32_t border) const { return glm::dot(surface_.borders[border].axis, patch_.axis) > 0.0; }
+  bool runs_with_axis(std::uint32_t border) const { return glm::dot(surface_.borders[border].axis, patch_.axis) > 0.0; }
   /// Returns the tube angle of a contact circle: that of the nearer atom's contact.
   double contact_tube(std::uint32_t border) const {
     const double tube = tube_angle(patch_, arc_point(surface_.borders[border], 0.0));
@@ -80,7 +80,7 @@ class TorusRim {
   /// Returns theta along a contact arc of a strip, which spans the whole sweep.
   double strip_theta(std::uint32_t border, double t) const {
     const double share = t / surface_.borders[border].sweep;
-    return patch_.sweep * (with_axis(border) ? share : 1.0 - share);
+    return patch_.sweep * (runs_with_axis(border) ? share : 1.0 - share);
   }
   /// Returns theta at the start or the end of a contact arc of a strip.
   double end_theta(const Half& half, bool at_end) const {
@@ -114,7 +114,7 @@ class TorusRim {
         } else {
           point.angles = {theta, tube_angle(patch_, point.position)};
           if (k == 0 && is_contact(before)) point.angles.y = contact_tube(before.border);
-          if (k == 0 && !is_contact(before) && domain_->spindle()) point.angles.y = domain_->tip_angle();
+          if (k == 0 && !is_contact(before) && domain_->is_spindle()) point.angles.y = domain_->tip_angle();
         }
         add(name, point, {half.border, std::min(from, to)});
       }
@@ -139,13 +139,13 @@ class TorusRim {
   std::vector<Sample> circle(const Half& half, double near_theta) const {
     const Border& border = surface_.borders[half.border];
     const std::uint32_t n = samples_.segment_count(half.border);
-    const bool rising = with_axis(half.border) != half.backwards;
+    const bool rising = runs_with_axis(half.border) != half.backwards;
     const double tube = contact_tube(half.border);
     const glm::dvec3 side = glm::cross(patch_.axis, patch_.start);
     const double start = std::atan2(glm::dot(border.start, side), glm::dot(border.start, patch_.start));
     auto theta = [&](std::uint32_t k) {
       const double t = samples_.parameter(half.border, k);
-      return start + (with_axis(half.border) ? t : -t);
+      return start + (runs_with_axis(half.border) ? t : -t);
     };
     auto apart = [&](std::uint32_t k) { return std::remainder(theta(k) - near_theta, kTurn); };
     std::uint32_t first = 0;

@@ -51,7 +51,7 @@ class EdgeLists {
   std::size_t size() const { return ends_.size(); }
 
   /// True if each edge is there once in each direction, and none ends where it begins.
-  bool paired() const {
+  bool is_paired() const {
     for (std::size_t v = 0; v + 1 < starts_.size(); ++v) {
       if ((starts_[v + 1] - starts_[v]) % 2 != 0) return false;
       for (std::size_t i = starts_[v]; i < starts_[v + 1]; i += 2) {
@@ -72,15 +72,15 @@ class EdgeLists {
     }
   };
 
-  template <typename Look>
-  void for_each_edge(const TriangleMesh& mesh, std::uint32_t component, const Look& look) const {
+  template <typename Visit>
+  void for_each_edge(const TriangleMesh& mesh, std::uint32_t component, const Visit& visit) const {
     const std::size_t count = starts_.size() - 1;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
       if (component != kNone && mesh.component[i] != component) continue;
       const auto& t = mesh.triangles[i];
       for (int k = 0; k < 3; ++k) {
         const std::uint32_t from = t[k], to = t[(k + 1) % 3], lower = std::min(from, to);
-        if (lower >= first_ && lower - first_ < count) look(lower - first_, {std::max(from, to), from < to});
+        if (lower >= first_ && lower - first_ < count) visit(lower - first_, {std::max(from, to), from < to});
       }
     }
   }
@@ -176,7 +176,7 @@ MeshMeasure measure(const TriangleMesh& mesh, std::uint32_t component) {
   m.closed = true;
   for (std::size_t first = 0; first < mesh.positions.size(); first += EdgeLists::kVertices) {
     const EdgeLists edges(mesh, component, static_cast<std::uint32_t>(first));
-    m.closed = m.closed && edges.paired();
+    m.closed = m.closed && edges.is_paired();
     directed += edges.size();
   }
   m.closed = m.closed && directed > 0;

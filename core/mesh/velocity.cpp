@@ -75,13 +75,13 @@ SurfaceVelocity::SurfaceVelocity(const Surface& surface, std::span<const glm::dv
   for (const ConcavePatch& c : surface.concave) {
     const std::span atoms(surface.contacts.data() + c.first_contact, c.contact_count);
     const glm::dvec3 guess = mean(atom_, atoms);
-    LeastSquares held;
+    LeastSquares conditions;
     for (const std::uint32_t a : atoms) {
       const glm::dvec3 direction = glm::normalize(c.center - surface.atoms[a].center);
-      held.add(direction, glm::dot(direction, atom_[a] - guess));
+      conditions.add(direction, glm::dot(direction, atom_[a] - guess));
     }
-    held.keep_near(glm::dvec3(0.0), kOpen);
-    probe_.push_back(limited(guess + held.solve(), atoms));
+    conditions.keep_near(glm::dvec3(0.0), kOpen);
+    probe_.push_back(limited(guess + conditions.solve(), atoms));
   }
 }
 
@@ -112,14 +112,14 @@ glm::dvec3 SurfaceVelocity::of_rolling_probe(std::uint32_t toroidal, const glm::
     rolled = at_end[0] + (at_end[1] - at_end[0]) * share_of_arc(t, outward);
   }
   const glm::dvec3 guess = carried(t, s);
-  LeastSquares held;
+  LeastSquares conditions;
   for (const std::uint32_t a : t.atom) {
     const glm::dvec3 direction = glm::normalize(s - surface_.atoms[a].center);
-    held.add(direction, glm::dot(direction, atom_[a] - guess));
+    conditions.add(direction, glm::dot(direction, atom_[a] - guess));
   }
-  held.add(along, rolled);
-  held.keep_near(glm::dvec3(0.0), kOpen);
-  return limited(guess + held.solve(), t.atom);
+  conditions.add(along, rolled);
+  conditions.keep_near(glm::dvec3(0.0), kOpen);
+  return limited(guess + conditions.solve(), t.atom);
 }
 
 glm::dvec3 SurfaceVelocity::on_probe(const glm::dvec3& s, const glm::dvec3& velocity,
@@ -153,9 +153,9 @@ glm::dvec3 SurfaceVelocity::at(PatchKind kind, std::uint32_t patch, const glm::d
 namespace {
 
 /// Combines the velocities that the faces at each vertex of a mesh have there.
-class VertexVotes {
+class VertexVelocities {
  public:
-  VertexVotes(const Surface& surface, const TriangleMesh& mesh, const SurfaceVelocity& velocity)
+  VertexVelocities(const Surface& surface, const TriangleMesh& mesh, const SurfaceVelocity& velocity)
       : mesh_(mesh), limit_(2.0 * surface.probe_radius), mean_(mesh.positions.size(), glm::dvec3(0.0)) {
     std::vector<std::uint32_t> corners(mesh.positions.size(), 0);
     each_corner([&](std::uint32_t v, std::size_t t, const glm::dvec3& normal, bool) {
@@ -200,7 +200,7 @@ class VertexVotes {
 
 std::vector<glm::dvec3> vertex_velocities(const Surface& surface, const TriangleMesh& mesh,
                                           std::span<const glm::dvec3> atom_velocity) {
-  return VertexVotes(surface, mesh, SurfaceVelocity(surface, atom_velocity)).take();
+  return VertexVelocities(surface, mesh, SurfaceVelocity(surface, atom_velocity)).take();
 }
 
 }  // namespace meniscus

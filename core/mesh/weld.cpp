@@ -33,9 +33,9 @@ class Welder {
   Welder(std::span<const glm::dvec3> positions, std::vector<Triangle>& triangles, double step, double scale,
          double longest_fin)
       : positions_(positions), triangles_(triangles), step_(step), scale_(scale), longest_fin_(longest_fin) {
-    made_.into.resize(positions.size());
-    std::iota(made_.into.begin(), made_.into.end(), 0u);
-    made_.gone.assign(triangles.size(), false);
+    result_.into.resize(positions.size());
+    std::iota(result_.into.begin(), result_.into.end(), 0u);
+    result_.removed.assign(triangles.size(), false);
   }
 
   void join_short_edges() {
@@ -64,16 +64,16 @@ class Welder {
       bool any = false;
       for (const std::uint32_t t : flat_) {
         const auto local = static_cast<std::uint32_t>(std::ranges::lower_bound(part_, t) - part_.begin());
-        if (links_->lives(3 * local)) any = flip(local, changed) || any;
+        if (links_->is_alive(3 * local)) any = flip(local, changed) || any;
       }
       put_back_triangles();
       if (!any) break;
     }
     find_flat_triangles();
-    made_.flat = flat_.size();
+    result_.flat = flat_.size();
   }
 
-  Welding take() { return std::move(made_); }
+  Welding take() { return std::move(result_); }
 
  private:
   struct Edge {
@@ -124,7 +124,7 @@ class Welder {
   void find_flat_triangles() {
     flat_.clear();
     for (std::uint32_t t = 0; t < triangles_.size(); ++t)
-      if (!made_.gone[t] && is_flat(triangles_[t])) flat_.push_back(t);
+      if (!result_.removed[t] && is_flat(triangles_[t])) flat_.push_back(t);
   }
 
   /// Links the triangles at short edges and at flat triangles.
@@ -137,7 +137,7 @@ class Welder {
     std::vector<Triangle> triangles;
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
       const auto& [a, b, c] = triangles_[t];
-      if (made_.gone[t] || !(linked_[a] || linked_[b] || linked_[c])) continue;
+      if (result_.removed[t] || !(linked_[a] || linked_[b] || linked_[c])) continue;
       part_.push_back(t);
       triangles.push_back(triangles_[t]);
     }
@@ -145,20 +145,20 @@ class Welder {
     links_ = HalfEdges::of_part(triangles, corners);
     for (const Triangle& t : triangles)
       for (const std::uint32_t v : t)
-        if (linked_[v] && !go_around_once(triangles, corners.at(v))) linked_[v] = false;
+        if (linked_[v] && !is_closed_fan(triangles, corners.at(v))) linked_[v] = false;
   }
 
   /// Copies the linked triangles back to the mesh.
   void put_back_triangles() {
     for (std::uint32_t local = 0; local < part_.size(); ++local) {
-      if (links_->lives(3 * local))
+      if (links_->is_alive(3 * local))
         triangles_[part_[local]] = links_->corners(local);
       else
-        made_.gone[part_[local]] = true;
+        result_.removed[part_[local]] = true;
     }
   }
 
-  bool may_change(std::uint32_t v) const { return linked_[v] && links_->vertex_lives(v); }
+  bool may_change(std::uint32_t v) const { return linked_[v] && links_->is_vertex_alive(v); }
 
   /// True if the mesh keeps its topology when two vertices are merged, once this many tips of fins next to them are
   /// removed. `to_come` is 0 for two vertices with an edge; for others it is 2, as an edge would give each of them one
@@ -173,13 +173,13 @@ class Welder {
     Fin fin{half, {}, links_->opposite(half)};
     std::uint32_t to_tip = HalfEdges::next(half), from_tip = HalfEdges::last(half);
     while (fin.tips.size() < most) {
-      const std::uint32_t beside = links_->twin(to_tip), other = links_->twin(from_tip);
-      const std::uint32_t foot = links_->opposite(beside);
-      if (links_->opposite(other) != foot) break;
+      const std::uint32_t first = links_->twin(to_tip), second = links_->twin(from_tip);
+      const std::uint32_t foot = links_->opposite(first);
+      if (links_->opposite(second) != foot) break;
       fin.tips.push_back(fin.foot);
       fin.foot = foot;
-      to_tip = HalfEdges::next(beside);
-      from_tip = HalfEdges::last(other);
+      to_tip = HalfEdges::next(first);
+      from_tip = HalfEdges::last(second);
     }
     return fin;
   }
@@ -216,9 +216,9 @@ class Welder {
     for (const Fin& fin : fins)
       for (std::size_t n = 0; n < fin.tips.size(); ++n) links_->unpoke(fin.half);
     links_->collapse(half);
-    made_.fins += tips;
-    made_.into[drop] = keep;
-    ++made_.joined;
+    result_.fins += tips;
+    result_.into[drop] = keep;
+    ++result_.joined;
     // Edges that were short at the dropped vertex are so at the other one from now on.
     for (auto& [one, other] : short_) {
       if (one == drop) one = keep;
@@ -267,14 +267,14 @@ class Welder {
     if (joins)
       collapse(std::min(c, d), std::max(c, d), kNoFin);
     else
-      ++made_.flipped;
+      ++result_.flipped;
     return true;
   }
 
   std::span<const glm::dvec3> positions_;
   std::vector<Triangle>& triangles_;
   double step_, scale_, longest_fin_;
-  Welding made_;
+  Welding result_;
   std::vector<Edge> short_;
   std::vector<std::uint32_t> flat_;
   std::vector<std::uint32_t> part_;  ///< the linked triangles, ascending
@@ -313,7 +313,7 @@ Welding weld(TriangleMesh& mesh, double step, double scale) {
   for (auto& edge : mesh.sharp_edges)
     for (std::uint32_t& v : edge) v = made.into[v];
   std::erase_if(mesh.sharp_edges, [](const auto& edge) { return edge[0] == edge[1]; });
-  std::vector<bool> keep = made.gone;
+  std::vector<bool> keep = made.removed;
   keep.flip();
   const std::vector<std::uint32_t> place = keep_triangles(mesh, keep, flipped);
   for (std::uint32_t& v : made.into) v = place[v];

@@ -19,11 +19,11 @@ struct TriangleMesh;
 struct Welding {
   /// Per vertex: itself, or the vertex that it was merged into; kNone: it was removed.
   std::vector<std::uint32_t> into;
-  std::vector<bool> gone;   ///< per triangle: true if it was removed
-  std::size_t joined = 0;   ///< number of edges with ends that were merged
-  std::size_t fins = 0;     ///< number of tips of fins that were removed first
-  std::size_t flipped = 0;  ///< number of edges that were flipped
-  std::size_t flat = 0;     ///< number of triangles that remain without area
+  std::vector<bool> removed;  ///< per triangle: true if it was removed
+  std::size_t joined = 0;     ///< number of edges with ends that were merged
+  std::size_t fins = 0;       ///< number of tips of fins that were removed first
+  std::size_t flipped = 0;    ///< number of edges that were flipped
+  std::size_t flat = 0;       ///< number of triangles that remain without area
 };
 
 /// Merges the ends of edges that are shorter than `step` (Å), or whose ends are the same point in multiples of it, at

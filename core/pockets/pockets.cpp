@@ -57,12 +57,12 @@ class PocketFinder {
         request_(request),
         compute_(compute),
         clearance_(request.large_probe_radius + request.trim + request.probe_radius),
-        hull_(closed(request.large_probe_radius)),
+        hull_(closed_surface(request.large_probe_radius)),
         cells_(atoms, request.probe_radius, hull_, clearance_ - request.tolerance - kSamePlace) {}
 
   Pockets run() {
     found_.request = request_;
-    found_.between_volume = hull_.volume() - closed(request_.probe_radius).volume;
+    found_.between_volume = hull_.volume() - closed_surface(request_.probe_radius).volume;
     if (cells_.count() == 0) return std::move(found_);
     close_mouths();
     const std::vector<Part> parts = list_parts();
@@ -73,7 +73,7 @@ class PocketFinder {
 
  private:
   /// Returns the closed surface of the molecule for a probe radius (Å).
-  Surface closed(double probe_radius) const {
+  Surface closed_surface(double probe_radius) const {
     Surface surface = compute_(atoms_, probe_radius);
     require_closed(surface);
     return surface;
@@ -129,16 +129,16 @@ class PocketFinder {
     for (std::uint32_t c = 0; c < s.components.size(); ++c) {
       if (reached[c] || s.components[c].kind != ComponentKind::outer) continue;
       const std::vector<std::uint32_t> atoms = atoms_of(c);
-      Part* around = nullptr;
+      Part* enclosing = nullptr;
       for (Part& part : parts)
         if (winding_number(s, part.components.front(), s.atoms[atoms.front()].center) != 0 &&
-            (!around || part.cavity.volume < around->cavity.volume))
-          around = &part;
-      if (!around) continue;
-      around->components.push_back(c);
-      around->cavity.volume -= s.components[c].volume;
-      around->cavity.area += s.components[c].area;
-      around->cavity.atoms.insert(around->cavity.atoms.end(), atoms.begin(), atoms.end());
+            (!enclosing || part.cavity.volume < enclosing->cavity.volume))
+          enclosing = &part;
+      if (!enclosing) continue;
+      enclosing->components.push_back(c);
+      enclosing->cavity.volume -= s.components[c].volume;
+      enclosing->cavity.area += s.components[c].area;
+      enclosing->cavity.atoms.insert(enclosing->cavity.atoms.end(), atoms.begin(), atoms.end());
     }
   }
 

@@ -46,13 +46,13 @@ class CellFinder {
       high = glm::max(high, atom.center);
     }
     // The hull is no larger than the convex hull of the balls.
-    low -= largest();
-    const glm::ivec3 size = glm::ivec3(glm::ceil((high + largest() - low) / (2 * kCoarsest)));
+    low -= largest_radius();
+    const glm::ivec3 size = glm::ivec3(glm::ceil((high + largest_radius() - low) / (2 * kCoarsest)));
     int edge = kRegion;
     while (edge < std::max({size.x, size.y, size.z})) edge *= 2;
     std::vector<std::uint32_t> all(atoms_.size());
     std::iota(all.begin(), all.end(), 0u);
-    std::vector<Corner> regions;
+    std::vector<CubeRange> regions;
     divide({low, glm::ivec3(0), size}, edge, all, regions);
     std::vector<std::vector<Box>> found(regions.size());
     tbb::parallel_for(std::size_t{0}, regions.size(),
@@ -64,7 +64,7 @@ class CellFinder {
 
  private:
   /// A range of cubes of half edge kCoarsest, counted from the low corner of the searched space.
-  struct Corner {
+  struct CubeRange {
     glm::dvec3 low;
     glm::ivec3 first, size;  // the first cube of the range; the number of cubes in all
     std::vector<std::uint32_t> near = {};
@@ -73,12 +73,12 @@ class CellFinder {
   };
 
   /// Returns eighth n of a range with `edge` cubes along each axis.
-  static Corner eighth_of(const Corner& corner, int edge, int n) {
+  static CubeRange eighth_of(const CubeRange& corner, int edge, int n) {
     return {corner.low, corner.first + edge / 2 * glm::ivec3(n & 1, n >> 1 & 1, n >> 2), corner.size};
   }
 
   /// Returns the largest SAS radius (Å).
-  double largest() const {
+  double largest_radius() const {
     double radius = 0.0;
     for (const Ball& atom : atoms_) radius = std::max(radius, atom.radius);
     return radius + probe_radius_;
@@ -86,9 +86,10 @@ class CellFinder {
 
   /// Divides a range into regions in which there may be cells, with the atoms near them. A ball far larger than others
   /// makes the space so large that most of it must be left out as a whole.
-  void divide(const Corner& corner, int edge, std::span<const std::uint32_t> near, std::vector<Corner>& regions) const {
+  void divide(const CubeRange& corner, int edge, std::span<const std::uint32_t> near,
+              std::vector<CubeRange>& regions) const {
     if (glm::any(glm::greaterThanEqual(corner.first, corner.size))) return;
-    const Region region = part_of(near, corner, edge, 2 * hull_.surface().probe_radius);
+    const Region region = region_of(near, corner, edge, 2 * hull_.surface().probe_radius);
     if (holds_no_cell(region)) return;
     if (edge == kRegion) {
       regions.push_back(corner);
@@ -100,7 +101,7 @@ class CellFinder {
 
   /// Returns the region of a range with `edge` cubes along each axis, and those of the atoms that are no farther than
   /// `away` from it.
-  Region part_of(std::span<const std::uint32_t> atoms, const Corner& corner, int edge, double away) const {
+  Region region_of(std::span<const std::uint32_t> atoms, const CubeRange& corner, int edge, double away) const {
     Region region{corner.middle(glm::dvec3(0.5 * edge)), kCoarsest * edge, {}};
     const double far = region.reach() + away + kRounding;
     std::ranges::copy_if(atoms, std::back_inserter(region.near), [&](std::uint32_t a) {
@@ -123,9 +124,10 @@ class CellFinder {
   }
 
   /// Visits the cubes of a range with `edge` cubes along each axis.
-  void visit_cubes(const Corner& corner, int edge, std::span<const std::uint32_t> near, std::vector<Box>& found) const {
+  void visit_cubes(const CubeRange& corner, int edge, std::span<const std::uint32_t> near,
+                   std::vector<Box>& found) const {
     if (glm::any(glm::greaterThanEqual(corner.first, corner.size))) return;
-    const Region region = part_of(near, corner, edge, probe_radius_);
+    const Region region = region_of(near, corner, edge, probe_radius_);
     if (edge == 1) return visit(region, found);
     for (int n = 0; n < 8; ++n) visit_cubes(eighth_of(corner, edge, n), edge / 2, region.near, found);
   }
@@ -133,10 +135,10 @@ class CellFinder {
   /// Adds the cells of a cube, which is divided if only a part of it may belong to cells.
   void visit(const Region& cube, std::vector<Box>& found) const {
     const double reach = cube.reach();
-    if (in_one_ball(cube)) return;
+    if (is_in_one_ball(cube)) return;
     const double away = hull_.to_probe(cube.middle);
     if (away < clearance_ - reach) return;
-    if (cube.half <= kFinest || (away >= clearance_ + reach && in_no_ball(cube))) {
+    if (cube.half <= kFinest || (away >= clearance_ + reach && is_in_no_ball(cube))) {
       found.push_back({cube.middle - cube.half, cube.middle + cube.half});
       return;
     }
@@ -147,14 +149,14 @@ class CellFinder {
   }
 
   /// True if one grown ball covers the cube.
-  bool in_one_ball(const Region& cube) const {
+  bool is_in_one_ball(const Region& cube) const {
     return std::ranges::any_of(cube.near, [&](std::uint32_t a) {
       return glm::distance(cube.middle, atoms_[a].center) < atoms_[a].radius + probe_radius_ - cube.reach();
     });
   }
 
   /// True if no grown ball meets the cube.
-  bool in_no_ball(const Region& cube) const {
+  bool is_in_no_ball(const Region& cube) const {
     return std::ranges::all_of(cube.near, [&](std::uint32_t a) {
       return glm::distance(cube.middle, atoms_[a].center) > atoms_[a].radius + probe_radius_ + cube.reach();
     });

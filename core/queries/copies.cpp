@@ -239,7 +239,7 @@ struct PlacedBalls {
   std::vector<Ball> balls;
 };
 
-PlacedBalls place(std::span<const CopiedBalls> groups) {
+PlacedBalls place_copies(std::span<const CopiedBalls> groups) {
   PlacedBalls placed;
   for (std::uint32_t g = 0; g < groups.size(); ++g) {
     for (std::uint32_t c = 0; c < groups[g].motions.size(); ++c) {
@@ -255,7 +255,7 @@ PlacedBalls place(std::span<const CopiedBalls> groups) {
 }  // namespace
 
 std::optional<CopyContact> closest_contact(std::span<const CopiedBalls> groups, double probe_radius) {
-  const PlacedBalls placed = place(groups);
+  const PlacedBalls placed = place_copies(groups);
   double largest = 0.0;
   for (const Ball& ball : placed.balls) largest = std::max(largest, ball.radius);
   const BallGrid grid(std::span<const Ball>(placed.balls), largest + probe_radius);

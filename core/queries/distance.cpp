@@ -39,7 +39,7 @@ Box box_of_circle(const glm::dvec3& center, const glm::dvec3& axis, double radiu
 }
 
 /// A point in the cylindrical coordinates of a circle (Å): along its axis, and away from it.
-struct BesideAxis {
+struct CylindricalPoint {
   double along, away;
   glm::dvec3 outward;  ///< unit, across the axis; on the axis itself any direction does, and it is `start`
 };
@@ -47,7 +47,8 @@ struct BesideAxis {
 /// Returns the cylindrical coordinates of x. Close to the axis, the part of x across it is a difference of nearly equal
 /// numbers, with a rounding error that points anywhere, along the axis, too. It is therefore projected across the axis
 /// once more. If that leaves less than half of it, it was rounding error alone.
-BesideAxis beside_axis(const glm::dvec3& x, const glm::dvec3& center, const glm::dvec3& axis, const glm::dvec3& start) {
+CylindricalPoint cylindrical_point(const glm::dvec3& x, const glm::dvec3& center, const glm::dvec3& axis,
+                                   const glm::dvec3& start) {
   const glm::dvec3 from_center = x - center;
   const double along = glm::dot(from_center, axis);
   const glm::dvec3 across = from_center - along * axis;
@@ -98,7 +99,7 @@ Foot foot_on(const Surface& s, const ConcavePatch& patch, const glm::dvec3& x, d
 /// the tube does not pass the axis, so along either circle through the foot other points are farther. From a place of
 /// the probe's centre all of the tube is equally far, and its borders are as near.
 Foot foot_on(const Surface& s, const ToroidalPatch& t, const glm::dvec3& x, double limit) {
-  const BesideAxis at = beside_axis(x, t.center, t.axis, t.start);
+  const CylindricalPoint at = cylindrical_point(x, t.center, t.axis, t.start);
   const double across = at.away - t.radius, length = std::sqrt(across * across + at.along * at.along);
   const double distance = std::abs(length - s.probe_radius);
   if (!(distance < limit) || !(length > 0.0) || (!t.free() && !passes(at.outward, t.axis, t.start, t.sweep))) return {};
@@ -116,7 +117,7 @@ Foot foot_on(const Surface& s, const ToroidalPatch& t, const glm::dvec3& x, doub
 /// rolling probe.
 template <typename Turning>
 Foot foot_on_arc(const Turning& turning, bool whole, const glm::dvec3& x, double limit) {
-  const BesideAxis at = beside_axis(x, turning.center, turning.axis, turning.start);
+  const CylindricalPoint at = cylindrical_point(x, turning.center, turning.axis, turning.start);
   const double across = at.away - turning.radius, distance = std::sqrt(across * across + at.along * at.along);
   if (!(distance < limit)) return {};
   if (!whole && !passes(at.outward, turning.axis, turning.start, turning.sweep)) return {};
@@ -157,14 +158,14 @@ Foot nearest_foot(const glm::dvec3& x, const Search<Wanted>& search, const BoxTr
   Foot nearest;
   tree.nearest(x, search.limit, [&](std::uint32_t n, double limit) {
     std::size_t table = 0;
-    const auto ask = [&](const auto& foot_of_table) {
+    const auto visit = [&](const auto& foot_of_table) {
       if (n >= tables.first[table] && n < tables.first[table + 1]) {
         const Foot foot = foot_of_table(n - tables.first[table], limit);
         nearest.take(foot.distance, foot.point);
       }
       ++table;
     };
-    (ask(foot_of), ...);
+    (visit(foot_of), ...);
     return std::min(limit, search.wanted(nearest));
   });
   return nearest;
@@ -175,7 +176,7 @@ Foot nearest_foot(const glm::dvec3& x, const Search<Wanted>& search, const BoxTr
 struct SurfaceDistance::Index {
   explicit Index(const Surface& surface)
       : s(surface),
-        reach(most_radii()),
+        reach(find_reach()),
         balls(s.atoms, reach),
         accessible(list_accessible()),
         accessible_tree(accessible.boxes),
@@ -184,7 +185,7 @@ struct SurfaceDistance::Index {
 
   /// Returns the largest SAS radius, except for a few that are far larger than all others; their atoms are listed in
   /// `large`.
-  double most_radii() {
+  double find_reach() {
     constexpr std::size_t kFew = 64;
     constexpr double kFarLarger = 4.0;
     std::vector<double> radii;

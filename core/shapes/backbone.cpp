@@ -136,20 +136,20 @@ struct Section {
 /// Sweeps an ellipse along the spline through a piece.
 class Sweep {
  public:
-  Sweep(const std::vector<Guide>& piece, double radius) : piece_(piece), radius_(radius) { place(); }
+  Sweep(const std::vector<Guide>& piece, double radius) : piece_(piece), radius_(radius) { add_sections(); }
 
   const std::vector<Section>& sections() const { return sections_; }
 
   /// Appends a body with round ends to the mesh.
   void add_to(MeshShape& mesh) const {
     const Section &first = sections_.front(), &last = sections_.back();
-    std::uint32_t ring = cap(mesh, first, -1.0);
+    std::uint32_t ring = add_start_cap(mesh, first, -1.0);
     for (std::size_t n = 0; n < sections_.size(); ++n) {
       const std::uint32_t next = add_ring(mesh, sections_[n], 1.0, 0.0);
-      band(mesh, ring, next);
+      add_band(mesh, ring, next);
       ring = next;
     }
-    cap_end(mesh, last, ring);
+    add_end_cap(mesh, last, ring);
   }
 
  private:
@@ -165,7 +165,7 @@ class Sweep {
   }
 
   /// Adds the sections of the whole piece.
-  void place() {
+  void add_sections() {
     const std::size_t last = piece_.size() - 1;
     for (std::size_t n = 0; n < last; ++n) {
       const bool arrow = ends_strand(n + 1);
@@ -233,7 +233,7 @@ class Sweep {
   }
 
   /// Adds the triangles between two rings of vertices.
-  static void band(MeshShape& mesh, std::uint32_t low, std::uint32_t high) {
+  static void add_band(MeshShape& mesh, std::uint32_t low, std::uint32_t high) {
     for (std::uint32_t k = 0; k < kSides; ++k) {
       const std::uint32_t after = (k + 1) % kSides;
       mesh.triangles.push_back({low + k, low + after, high + after});
@@ -242,7 +242,7 @@ class Sweep {
   }
 
   /// Adds a round end before the first section; returns its last ring.
-  std::uint32_t cap(MeshShape& mesh, const Section& s, double direction) const {
+  std::uint32_t add_start_cap(MeshShape& mesh, const Section& s, double direction) const {
     const auto tip = static_cast<std::uint32_t>(mesh.positions.size());
     add_vertex(mesh, s.center + direction * s.half_height * s.tangent, direction * s.tangent, s.atom);
     std::uint32_t ring = 0;
@@ -252,18 +252,18 @@ class Sweep {
       if (n == kCapRings)
         for (std::uint32_t k = 0; k < kSides; ++k) mesh.triangles.push_back({tip, next + (k + 1) % kSides, next + k});
       else
-        band(mesh, ring, next);
+        add_band(mesh, ring, next);
       ring = next;
     }
     return ring;
   }
 
   /// Adds a round end after the last section, from its ring on.
-  void cap_end(MeshShape& mesh, const Section& s, std::uint32_t ring) const {
+  void add_end_cap(MeshShape& mesh, const Section& s, std::uint32_t ring) const {
     for (int n = 1; n <= kCapRings; ++n) {
       const double angle = 0.5 * std::numbers::pi * n / (kCapRings + 1);
       const std::uint32_t next = add_ring(mesh, s, std::cos(angle), std::sin(angle));
-      band(mesh, ring, next);
+      add_band(mesh, ring, next);
       ring = next;
     }
     const auto tip = static_cast<std::uint32_t>(mesh.positions.size());

@@ -32,7 +32,7 @@ struct Base {
 constexpr std::array<std::string_view, 10> kLetters{"", "NC", "CN", "NC", "CN", "CN", "CN", "NC", "CN", "NC"};
 
 /// Adds an atom to a base if it is one of its ring or its sugar.
-void take(Base& base, const Atom& atom, std::uint32_t place) {
+void add_atom(Base& base, const Atom& atom, std::uint32_t place) {
   if (atom.name == "C1'" || atom.name == "C1*") base.sugar = place;
   if (atom.name.size() != 2 || atom.name[1] < '1' || atom.name[1] > '9') return;
   const auto number = static_cast<std::size_t>(atom.name[1] - '0');
@@ -54,7 +54,7 @@ std::vector<Base> bases_of(const std::vector<Atom>& atoms, const std::vector<boo
       found.back().residue = atom.residue;
       found.back().copy = atom.copy;
     }
-    if (selected[n]) take(found.back(), atom, n);
+    if (selected[n]) add_atom(found.back(), atom, n);
   }
   return found;
 }
@@ -71,10 +71,9 @@ class BaseDrawer {
   }
 
   void draw(const Base& base) {
-    const bool six = fill(base, {1, 2, 3, 4, 5, 6});
-    if (!six) return;
-    fill(base, {4, 5, 7, 8, 9});
-    if (base.sugar) join(base);
+    if (!fill_ring(base, {1, 2, 3, 4, 5, 6})) return;
+    fill_ring(base, {4, 5, 7, 8, 9});
+    if (base.sugar) add_rung(base);
   }
 
   Shapes shapes;
@@ -83,7 +82,7 @@ class BaseDrawer {
   const glm::dvec3& position(std::uint32_t atom) const { return structure_.atoms[atom].position; }
 
   /// Fills a ring; returns false if it is incomplete or not closed.
-  bool fill(const Base& base, std::initializer_list<std::size_t> numbers) {
+  bool fill_ring(const Base& base, std::initializer_list<std::size_t> numbers) {
     std::vector<std::uint32_t> atoms;
     for (const std::size_t number : numbers) {
       if (!base.ring[number]) return false;
@@ -100,7 +99,7 @@ class BaseDrawer {
     }
     if (glm::length(area) < 1e-3) return false;
     for (std::size_t n = 0; n < atoms.size(); ++n) {
-      stick(position(atoms[n]), position(atoms[(n + 1) % atoms.size()]), atoms[n], atoms[(n + 1) % atoms.size()]);
+      add_stick(position(atoms[n]), position(atoms[(n + 1) % atoms.size()]), atoms[n], atoms[(n + 1) % atoms.size()]);
       shapes.spheres.push_back({position(atoms[n]), radius_, atoms[n]});
     }
     add_plate(shapes.mesh, polygon, glm::normalize(area), radius_, *base.ring[4]);
@@ -108,17 +107,17 @@ class BaseDrawer {
   }
 
   /// Adds a rung from the ring's nearest atom by C1' to the middle line.
-  void join(const Base& base) {
+  void add_rung(const Base& base) {
     const glm::dvec3& sugar = position(*base.sugar);
     std::uint32_t nearest = *base.ring[1];
     for (const std::optional<std::uint32_t>& atom : base.ring)
       if (atom && glm::distance(position(*atom), sugar) < glm::distance(position(nearest), sugar)) nearest = *atom;
     const double length = glm::distance(position(nearest), sugar);
     if (length == 0.0 || length > kLongestBaseBond) return;
-    stick(position(nearest), sugar, nearest, *base.sugar);
+    add_stick(position(nearest), sugar, nearest, *base.sugar);
     shapes.spheres.push_back({sugar, radius_, *base.sugar});
     if (const std::optional<MiddlePoint> foot = foot_of(base)) {
-      stick(sugar, foot->position, *base.sugar, foot->atom);
+      add_stick(sugar, foot->position, *base.sugar, foot->atom);
       shapes.spheres.push_back({foot->position, radius_, foot->atom});
     }
   }
@@ -146,7 +145,7 @@ class BaseDrawer {
     return line_[best];
   }
 
-  void stick(const glm::dvec3& from, const glm::dvec3& to, std::uint32_t from_atom, std::uint32_t to_atom) {
+  void add_stick(const glm::dvec3& from, const glm::dvec3& to, std::uint32_t from_atom, std::uint32_t to_atom) {
     shapes.cylinders.push_back({from, to, radius_, from_atom, to_atom});
   }
 

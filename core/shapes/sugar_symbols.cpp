@@ -59,7 +59,7 @@ Solid prism(const std::vector<glm::dvec2>& outline, double half_height) {
 }
 
 /// Returns the outline of a regular polygon, or of a star with every other corner at the radius `inner`.
-std::vector<glm::dvec2> regular(std::uint32_t count, double inner) {
+std::vector<glm::dvec2> regular_outline(std::uint32_t count, double inner) {
   std::vector<glm::dvec2> outline;
   for (std::uint32_t k = 0; k < count; ++k) {
     const double angle = 2.0 * std::numbers::pi * k / count, radius = k % 2 == 1 ? inner : 1.0;
@@ -108,11 +108,11 @@ class SymbolDrawer {
       case SugarSolid::divided_diamond:
         return draw(symbol, octahedron(symbol.sugar->is_divided()));
       case SugarSolid::star:
-        return draw(symbol, prism(regular(10, 0.45), 0.4));
+        return draw(symbol, prism(regular_outline(10, 0.45), 0.4));
       case SugarSolid::hexagon:
-        return draw(symbol, prism(regular(6, 1.0), 0.3));
+        return draw(symbol, prism(regular_outline(6, 1.0), 0.3));
       case SugarSolid::pentagon:
-        return draw(symbol, prism(regular(5, 1.0), 0.3));
+        return draw(symbol, prism(regular_outline(5, 1.0), 0.3));
       case SugarSolid::cone:
         return draw_cone(symbol);
     }
@@ -120,7 +120,7 @@ class SymbolDrawer {
 
  private:
   /// Returns the vector with these coordinates along side, front and up.
-  static glm::dvec3 turned(const Symbol& symbol, const glm::dvec3& p) {
+  static glm::dvec3 to_world(const Symbol& symbol, const glm::dvec3& p) {
     return p.x * symbol.side + p.y * glm::cross(symbol.up, symbol.side) + p.z * symbol.up;
   }
 
@@ -129,7 +129,7 @@ class SymbolDrawer {
     const double edge = kEdgeShare * kSymbolRadius;
     std::vector<glm::dvec3> corners;
     for (const glm::dvec3& corner : solid.corners)
-      corners.push_back(symbol.center + (kSymbolRadius - edge) * turned(symbol, corner));
+      corners.push_back(symbol.center + (kSymbolRadius - edge) * to_world(symbol, corner));
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edges;
     std::vector<std::uint32_t> colors(corners.size(), symbol.color);
     for (std::size_t n = 0; n < solid.faces.size(); ++n) {
@@ -191,7 +191,7 @@ class SymbolDrawer {
     MeshShape& mesh = shapes_.mesh;
     const auto add = [&](const std::pair<glm::dvec2, glm::dvec2>& at, double angle) {
       const auto placed = [&](const glm::dvec2& v) {
-        return turned(symbol, {v.x * std::cos(angle), v.x * std::sin(angle), v.y});
+        return to_world(symbol, {v.x * std::cos(angle), v.x * std::sin(angle), v.y});
       };
       mesh.positions.push_back(symbol.center + placed(at.first));
       mesh.normals.emplace_back(placed(at.second));
@@ -264,7 +264,7 @@ std::vector<Symbol> symbols_of(const Structure& structure, const std::vector<boo
 }
 
 /// Adds sticks from each symbol to what its anomeric carbon is bonded to beyond its residue.
-void link(const Structure& structure, const std::vector<Symbol>& symbols, double radius, Shapes& shapes) {
+void add_links(const Structure& structure, const std::vector<Symbol>& symbols, double radius, Shapes& shapes) {
   std::map<std::uint32_t, std::size_t> symbol_of;
   for (std::size_t n = 0; n < symbols.size(); ++n)
     for (const std::uint32_t atom : symbols[n].atoms) symbol_of[atom] = n;
@@ -303,7 +303,7 @@ Shapes sugar_symbols(const Structure& structure, const std::vector<bool>& select
   const std::vector<Symbol> symbols = symbols_of(structure, selected, file_order(structure.atoms));
   SymbolDrawer drawer(shapes);
   for (const Symbol& symbol : symbols) drawer.draw(symbol);
-  link(structure, symbols, radius, shapes);
+  add_links(structure, symbols, radius, shapes);
   return shapes;
 }
 

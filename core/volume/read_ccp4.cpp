@@ -44,7 +44,7 @@ class Ccp4Reader {
       stride[axis_of[n]] = run;
       run *= static_cast<std::size_t>(stored[n]);
     }
-    place(axis_of, frame);
+    set_frame(axis_of, frame);
     return {path_, frame, values(frame, stride)};
   }
 
@@ -76,7 +76,7 @@ class Ccp4Reader {
   }
 
   /// Sets the steps and the origin of the grid.
-  void place(const std::array<int, 3>& axis_of, VolumeFrame& frame) const {
+  void set_frame(const std::array<int, 3>& axis_of, VolumeFrame& frame) const {
     glm::dvec3 angle(90.0), length(0.0), start(0.0);
     for (int axis = 0; axis < 3; ++axis) {
       const std::int32_t intervals = word(8 + axis);
