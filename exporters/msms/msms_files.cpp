@@ -60,7 +60,7 @@ void weld_for_files(MsmsMesh& made) {
   made.vertices.resize(next);
   std::size_t kept = 0;
   for (std::size_t t = 0; t < corners.size(); ++t) {
-    if (welding.gone[t]) continue;
+    if (welding.removed[t]) continue;
     made.triangles[kept] = made.triangles[t];
     for (std::size_t k = 0; k < 3; ++k) made.triangles[kept].corner[k] = place[corners[t][k]];
     ++kept;
