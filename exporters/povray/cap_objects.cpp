@@ -22,9 +22,9 @@ namespace {
 
 constexpr double kPixelShare = 0.1, kFinest = 0.002, kCoarsest = 0.02;  // Å
 constexpr std::size_t kCapFlushBytes = std::size_t{1} << 20;
-constexpr double kStripesBefore = 1e4;  // whole ones, so that all are counted upwards
+constexpr double kStripesBefore = 1e4;  // a whole number of stripes that keeps the argument of mod() positive
 
-/// "texture{...}" of a hatched cap.
+/// Appends the "texture{...}" of a hatched cap. distance: from one stripe to the next, Å.
 void append_hatching(SceneText& out, std::uint32_t color, const ClipPlane& plane, double distance,
                      const glm::dvec3& origin) {
   const glm::dvec3 along = glm::normalize(hatching_direction(plane.normal)) / distance;

@@ -20,12 +20,13 @@ namespace meniscus::povray {
 namespace {
 
 constexpr std::size_t kFlushBytes = std::size_t{1} << 20;
-constexpr double kLeastShare = 1e-6;  // of a radius: less is its middle
+constexpr double kLeastShare = 1e-6;  // the least scale towards the centre of a sphere, as a share of its radius
 
 bool is_identity(const RigidMotion& motion) {
   return motion.rotation == glm::dmat3(1.0) && motion.translation == glm::dvec3(0.0);
 }
 
+/// Returns the index after the last piece that has the kind and the colour of piece `begin`.
 std::size_t group_end(const std::vector<ColoredPiece>& pieces, std::size_t begin) {
   std::size_t end = begin;
   while (end < pieces.size() && pieces[end].kind == pieces[begin].kind && pieces[end].color == pieces[begin].color)
@@ -39,8 +40,8 @@ void flush(OutputFile& file, SceneText& out, std::size_t limit) {
   out.clear();
 }
 
-/// The outside of a convex patch's sphere is the solvent; that of a torus or a probe is the solid. moved: how the
-/// textures are.
+/// Appends the textures of both sides of a piece. The outside of the sphere of a convex patch is solvent; the outside
+/// of a torus or a probe is solid. moved: the transformation of the textures as scene text.
 void append_textures(SceneText& out, const ColoredPiece& piece, std::string_view moved) {
   const bool convex = piece.kind == PatchKind::convex;
   const auto side = [&](std::string_view property, std::string_view name) {
@@ -153,8 +154,8 @@ bool Geometry::has_own_way(std::size_t object, const ColoredPiece& piece) const 
   return coloring.volume && coloring.volume->offset != 0.0 && piece.by_map;
 }
 
-// A point that is moved along the normal of a sphere is moved towards the middle or away from it, in proportion; one of
-// a torus towards the middle of its tube.
+// Moving all points of a sphere along their normals scales the sphere about its centre. Moving a point of a torus along
+// its normal moves it towards the centre line of the tube or away from it.
 void Geometry::append_offset_textures(SceneText& out, std::size_t object, const ColoredPiece& piece) const {
   const Surface& surface = objects_[object].surface;
   const double offset = objects_[object].coloring.volume->offset;
@@ -191,7 +192,8 @@ void Geometry::append_offset_textures(SceneText& out, std::size_t object, const 
   out.literal("}\n");
 }
 
-// POV-Ray multiplies rows: the first three are the images of the axes. Scene coordinates are relative to the origin.
+// POV-Ray multiplies row vectors by matrices: the first three rows are the images of the axes. Scene coordinates are
+// relative to the origin.
 void Geometry::append_copy(SceneText& out, std::size_t object, const RigidMotion& motion) const {
   out.literal("object{object_").count(object + 1);
   if (!is_identity(motion)) {

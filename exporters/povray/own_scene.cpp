@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the names that a scene declares, and writes the include that takes them back.
+// Finds the names that a scene declares, and writes the include that undefines them.
 #include "exporters/povray/own_scene.h"
 
 #include <algorithm>
@@ -16,13 +16,13 @@ namespace {
 
 using Names = std::set<std::string_view>;
 
-/// What stands for an own scene itself, and what is meant to stay.
+/// True for the names that the include is meant to declare, and for the one that marks a scene of the user's own.
 bool stays(std::string_view name) {
   return name == "Meniscus_Own_Scene" || name == "Meniscus_Surface" || name == "Meniscus_Shapes" ||
          name.starts_with("Meniscus_Object_");
 }
 
-/// The names behind each of these words.
+/// Adds the identifiers that follow each occurrence of `word` in `text`.
 void add_names(std::string_view text, std::string_view word, Names& names) {
   constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_0123456789";
   for (std::size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at)) {
@@ -35,7 +35,7 @@ void add_names(std::string_view text, std::string_view word, Names& names) {
 }  // namespace
 
 std::string own_scene_text(std::string_view name, std::span<const std::string_view> texts, bool maps) {
-  const std::string colors = colors_text({}, {});  // of a run each frame may have its own
+  const std::string colors = colors_text({}, {});  // each frame of a run may have its own list of colours
   std::vector<std::string_view> all(texts.begin(), texts.end());
   all.insert(all.end(),
              {colors, template_text(povray_templates(), "caps.inc"), template_text(povray_templates(), "shapes.inc")});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks names letter by letter, and writes the harmless ones as comments.
+// Checks names character by character, and writes the harmless ones as comments.
 #include "exporters/povray/scene_names.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks what goes into a scene.
+// Checks the objects and options of a scene, and composes notes for its report.
 #include "exporters/povray/scene_report.h"
 
 #include <algorithm>
@@ -44,7 +44,7 @@ glm::dvec3 middle(const Box& extent) { return glm::round((extent.low + extent.hi
 
 std::vector<std::string> notes(std::span<const SurfaceObject> objects, const Geometry& geometry, const Camera& camera) {
   std::vector<std::string> sentences;
-  // Rays begin on the plane through an orthographic camera, here as in the ray caster.
+  // Rays of an orthographic camera begin on the plane through it, in POV-Ray as in the ray caster.
   const glm::dvec3 forward = view_basis(camera).forward;
   std::size_t behind = 0, cut_away = 0;
   for (const SurfaceObject& object : objects) {
