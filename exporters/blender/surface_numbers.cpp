@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Assigns curvatures to vertices, areas of patches to triangles, and areas of atoms to atoms.
+// Computes curvatures of vertices, areas of the patches of triangles, and areas of atoms.
 #include "exporters/blender/surface_numbers.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace meniscus::blender {
 namespace {
 
-/// The text with kUsualSurfaceNumbers for each word "usual".
+/// Returns the text with kUsualSurfaceNumbers in place of each word "usual".
 std::string with_usual(std::string_view text) {
   std::string expanded;
   for (std::size_t first = 0; first <= text.size();) {
@@ -28,7 +28,7 @@ std::string with_usual(std::string_view text) {
   return expanded;
 }
 
-/// Of each vertex, 0 where it lies on no patch.
+/// Returns the curvature at each vertex, and 0 for a vertex that lies on no patch.
 std::vector<Curvature> exact_curvatures(const Surface& surface, const MeshedObject& object) {
   const TriangleMesh& mesh = object.mesh;
   const std::vector<std::uint32_t> face = object.vertex_face.empty() ? vertex_faces(mesh) : object.vertex_face;
@@ -40,11 +40,13 @@ std::vector<Curvature> exact_curvatures(const Surface& surface, const MeshedObje
 
 std::vector<float> floats(const std::vector<double>& values) { return {values.begin(), values.end()}; }
 
+/// Adds requested columns of curvatures to an object.
 class Adding {
  public:
   Adding(MeshedObject& object, const SurfaceNumbers& wanted) : object_(object), wanted_(wanted) {}
 
-  /// make() -> a Curvature a vertex, which is called if one of the two is wanted.
+  /// Adds mean and Gaussian curvature if they are requested. make() returns a Curvature per vertex; it is called only
+  /// if at least one of the two is requested.
   template <class Make>
   void add_curvatures(const std::string& prefix, const Make& make) {
     const bool mean = wants(prefix + "mean_curvature"), gaussian = wants(prefix + "gaussian_curvature");
@@ -68,7 +70,8 @@ class Adding {
   const SurfaceNumbers& wanted_;
 };
 
-/// The sentence of what is left out; empty: nothing.
+/// Adds smoothed curvatures if they are requested. Returns a sentence if they are left out, or an empty text. Throws
+/// RequestError instead if the user named them.
 std::string add_smoothed(MeshedObject& object, Adding& adding, bool by_name) {
   if (!object.mesh.partly_hidden && object.cap_plane.empty()) {
     adding.add_curvatures("smooth_", [&] { return smoothed_curvatures(object.mesh); });

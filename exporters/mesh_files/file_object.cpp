@@ -29,11 +29,12 @@ std::array<std::uint8_t, 3> bytes_of(const glm::vec3& color) {
   return {byte(color.x), byte(color.y), byte(color.z)};
 }
 
-/// Rows of vertices at their new places; those without one go.
+/// Moves the row of each vertex to its new place, and removes the rows of vertices whose place is kNone. count: the
+/// number of places.
 template <class T>
 void move_rows(std::vector<T>& rows, const std::vector<std::uint32_t>& place, std::size_t count) {
   std::vector<T> moved(count);
-  for (std::size_t v = place.size(); v-- > 0;)  // of vertices that became one the first counts
+  for (std::size_t v = place.size(); v-- > 0;)  // backwards, so that the first of merged vertices determines the row
     if (place[v] != kNone) moved[place[v]] = std::move(rows[v]);
   rows = std::move(moved);
 }
@@ -64,7 +65,8 @@ MeshFileMaker::MeshFileMaker(FileRequest request, std::string about) : request_(
   for (const Atom& atom : request_.atoms) file_.atoms.push_back(file_atom(atom));
 }
 
-/// A map, the sky, and pixels of a camera differ from place to place.
+// True if all places of an object can share one mesh. Values of a volume map, the open sky, and tolerances in pixels of
+// a camera differ from place to place.
 bool MeshFileMaker::may_share(const SurfaceObject& object) const {
   return request_.places && !object.coloring.volume && !request_.fineness.tolerance_at &&
          std::ranges::none_of(request_.numbers,

@@ -27,7 +27,7 @@ using Values = std::vector<float>;
 
 constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
 
-/// value(vertex) for each.
+/// Returns value(vertex) for each vertex.
 template <typename Value>
 Values of_vertices(const NumberSource& source, const Value& value) {
   Values values;
@@ -36,14 +36,14 @@ Values of_vertices(const NumberSource& source, const Value& value) {
   return values;
 }
 
-/// value(atom) for the atom of each.
+/// Returns value(atom) for the atom of each vertex.
 template <typename Value>
 Values of_atoms(const NumberSource& source, const Value& value) {
   return of_vertices(
       source, [&](std::uint32_t v) { return value(source.atoms[source.object.atom[source.mesh.vertex_atom[v]]]); });
 }
 
-/// value(face) for the face of each.
+/// Returns value(face, vertex) for the face of each vertex, and NaN for vertices without a face.
 template <typename Value>
 Values of_faces(const NumberSource& source, const Value& value) {
   return of_vertices(source, [&](std::uint32_t v) -> float {
@@ -83,7 +83,7 @@ Values component_of(const NumberSource& source) {
   return values;
 }
 
-/// Of shapes beside the surface there is none.
+/// Returns the open sky at each vertex, and NaN for vertices of shapes.
 Values skies(const NumberSource& source) {
   const std::vector<float> seen = vertex_open_sky(source.object.surface, source.mesh.mesh);
   return of_faces(source, [&](std::uint32_t, std::uint32_t v) { return seen[v]; });

@@ -23,7 +23,7 @@ using nlohmann::json;
 
 json node(const char* kind, json params) { return {{"kind", kind}, {"params", std::move(params)}}; }
 
-/// To a thousandth of an Å, in as few digits.
+/// Returns a length rounded to 0.001 Å, which has few digits as text.
 double rounded(double value) { return std::round(1000.0 * value) / 1000.0; }
 json place(const glm::dvec3& v) { return {rounded(v.x), rounded(v.y), rounded(v.z)}; }
 
@@ -32,7 +32,7 @@ std::string word_of(const glm::vec3& linear) {
   return fmt::format("#{:02x}{:02x}{:02x}", display_byte(color.x), display_byte(color.y), display_byte(color.z));
 }
 
-/// A group of triangles is what has one colour.
+/// Returns the node of a mesh. Its triangles are grouped by colour.
 json mesh_node(const path_tracers::SceneMesh& mesh, const glm::dvec3& origin) {
   json vertices = json::array(), indices = json::array(), groups = json::array();
   json colors = json::object();
@@ -56,7 +56,8 @@ json mesh_node(const path_tracers::SceneMesh& mesh, const glm::dvec3& origin) {
                             {"group_colors", std::move(colors)}});
 }
 
-/// x -> R x + t of coordinates that count from the origin, of those of the molecule; columns one after the other.
+/// Returns a motion x -> R x + t of coordinates relative to the origin as a matrix for coordinates of the molecule, in
+/// column-major order.
 json matrix_of(const RigidMotion& copy, const glm::dvec3& origin) {
   const glm::dvec3 shift = copy.translation + origin - copy.rotation * origin;
   json matrix = json::array();
@@ -69,7 +70,7 @@ json matrix_of(const RigidMotion& copy, const glm::dvec3& origin) {
   return matrix;
 }
 
-/// What has one opacity is one node, for nodes have it, not what is in them.
+/// Returns one node for each opacity, because nodes have an opacity, and the primitives in them do not.
 std::vector<json> nodes_of(const path_tracers::SceneItem& item, const glm::dvec3& origin) {
   std::map<float, json, std::greater<>> parts;
   const auto part = [&](float opacity) -> json& { return parts.try_emplace(opacity, json::array()).first->second; };
@@ -102,9 +103,9 @@ std::vector<json> nodes_of(const path_tracers::SceneItem& item, const glm::dvec3
   return nodes;
 }
 
-/// Viewers multiply the distance to the target by 1 / (2 sin(fov / 2)), fov being their own field of view. So the
-/// camera is put where the picture is as high at the target as that of `camera`. MolViewSpec cannot name the
-/// projection.
+/// Returns the node of a camera. Viewers multiply the distance to the target by 1 / (2 sin(fov / 2)), with a field of
+/// view fov of their own. So the camera is placed where the picture is as high at the target as that of `camera`.
+/// MolViewSpec cannot specify the projection.
 json camera_node(const Camera& camera) {
   const double half_angle = 0.5 * camera.vertical_fov * std::numbers::pi / 180.0;
   const glm::dvec3 reach = camera.position - camera.target;

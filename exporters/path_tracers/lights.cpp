@@ -15,7 +15,7 @@
 namespace meniscus::path_tracers {
 namespace {
 
-/// Over all copies of an item.
+/// Calls include(point, radius) for the balls that bound each copy of an item.
 template <class Include>
 void include_places(const SceneItem& item, const Include& include) {
   const auto everywhere = [&](const glm::dvec3& x, double radius) {
@@ -61,7 +61,7 @@ Lights lights_of(const Scene& scene) {
   };
   add(from(-0.45, 0.75, 0.45), 2.5 * extent.radius, 4.0f);
   add(from(0.9, 0.1, 0.3), 1.5 * extent.radius, 2.0f);
-  // All of the picture, and what glass bends into it.
+  // The background softbox fills the picture, with a margin for rays that glass refracts.
   const double depth = glm::dot(extent.center - (scene.camera.position - scene.origin), view.forward) + away;
   const double seen = glm::length(half_extent(scene.camera, static_cast<double>(scene.width) / scene.height)) *
                       (scene.camera.projection == Projection::perspective ? depth : 1.0);
