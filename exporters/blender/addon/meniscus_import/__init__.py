@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender add-on: imports surfaces and sequences of them, and computes surfaces itself. Pure Python and numpy, Blender 3.4 on."""
+"""Blender add-on that imports surfaces and sequences of them, and computes surfaces. It consists of Python with numpy
+only, and runs in Blender 3.4 and later."""
 
 bl_info = {
     "name": "Meniscus",
@@ -38,7 +39,7 @@ class Looks:
         name="Standard view transform", description="Show colours as they are; Filmic and AgX make them paler", default=False)
 
     def tell(self, context):
-        """Shows colours in solid views, and says what makes them look different."""
+        """Shows colours in solid views, and reports a view transform that changes them."""
         compat.color_solid_views(context)
         view = context.scene.view_settings
         if self.standard_view:
@@ -67,7 +68,7 @@ class IMPORT_SCENE_OT_meniscus(Looks, bpy.types.Operator, ImportHelper):
         "them: Recalculate Outside would turn these", default=False)
 
     def invoke(self, context, event):
-        if self.filepath and hasattr(self, "invoke_popup"):  # a file that was dropped
+        if self.filepath and hasattr(self, "invoke_popup"):  # a file was dropped into the window
             return self.invoke_popup(context)
         return ImportHelper.invoke(self, context, event)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cameras as a target, a turn and a distance, and the way from one to the next, with numpy alone; knows nothing of Blender."""
+"""Cameras as a target, a rotation and a distance, and the path from one to the next. Uses numpy only, not Blender."""
 
 import math
 
@@ -7,8 +7,14 @@ import numpy as np
 
 
 class Pose:
-    """target: Å. turn: quaternion (w, x, y, z) of the axes right, up, back. distance: Å. tangent: of half the vertical angle.
-    height: Å. is_flat: the projection is orthographic."""
+    """The pose of a camera.
+
+    target: the point it looks at, Å.
+    turn: quaternion (w, x, y, z) of the axes right, up, back.
+    distance: from the target, Å.
+    tangent: the tangent of half the vertical angle of view, or None.
+    height: the height of the picture at the target, Å, or None.
+    is_flat: True if the projection is orthographic."""
 
     def __init__(self, target, turn, distance, tangent, height, is_flat):
         self.target, self.turn, self.distance = target, turn, distance
@@ -16,7 +22,7 @@ class Pose:
 
 
 def pose_of(camera):
-    """Of a camera as in a .mns header. What its projection has not is None."""
+    """Returns the Pose of a camera of a .mns header. The member that its projection does not have is None."""
     position, target, up = (np.array(camera[key], dtype=np.float64) for key in ("position", "target", "up"))
     distance = float(np.linalg.norm(target - position))
     forward = (target - position) / distance
@@ -28,7 +34,8 @@ def pose_of(camera):
 
 
 def quaternion(matrix):
-    """Of a rotation: the eigenvector of the greatest eigenvalue (I. Y. Bar-Itzhack, 2000), with w >= 0."""
+    """Returns the quaternion (w, x, y, z) of a rotation matrix with w >= 0: the eigenvector of the greatest eigenvalue of
+    a symmetric form (I. Y. Bar-Itzhack, 2000)."""
     (a, b, c), (d, e, f), (g, h, i) = matrix
     form = np.array([[a + e + i, h - f, c - g, d - b], [h - f, a - e - i, b + d, c + g],
                      [c - g, b + d, e - a - i, f + h], [d - b, c + g, f + h, i - a - e]])
@@ -37,9 +44,10 @@ def quaternion(matrix):
 
 
 def complete(poses):
-    """Gives poses, in their order, what their projections lack, as the film has it: on the way to another projection the first one
-    stays, and ends with what the second shows in the plane of its target. So an orthographic pose gets the angle of the one before
-    and the distance from which that shows as much. `extra`: how much farther away its camera is in truth."""
+    """Sets the members of poses that their projections lack, in the same way as the film, and returns the poses in their
+    order. During a transition to another projection the first projection remains, and ends with a picture that agrees
+    with the second in the plane of its target. So an orthographic pose gets the angle of the previous pose, and the
+    distance from which that angle shows the same height. `extra`: the true distance of its camera minus this one."""
     lens = next((pose.tangent for pose in poses if not pose.is_flat), math.tan(math.radians(15.0)))
     for number, pose in enumerate(poses):
         pose.extra = 0.0
@@ -51,15 +59,15 @@ def complete(poses):
         if number and not poses[number - 1].is_flat:
             own, pose.distance = pose.distance, pose.height / (2.0 * lens)
             pose.extra = own - pose.distance
-    for before, pose in zip(poses, poses[1:]):  # the short way round
+    for before, pose in zip(poses, poses[1:]):  # takes the shorter of both rotations
         if np.dot(before.turn, pose.turn) < 0.0:
             pose.turn = -pose.turn
     return poses
 
 
 def turned(one, other, share):
-    """How much of the way from one quaternion to another is done along a straight line whose points are made unit ones, where the
-    turn has done a share of its way."""
+    """Returns the share of a normalized straight line from one quaternion to another (nlerp) at which a `share` of the
+    rotation angle is done (slerp)."""
     half = math.acos(min(max(float(np.dot(one, other)), -1.0), 1.0))
     if half < 1e-6:
         return np.asarray(share, dtype=np.float64)
@@ -68,13 +76,15 @@ def turned(one, other, share):
 
 
 def grown(one, other, share):
-    """How much of the way from one number above 0 to another is done where their logarithms have done a share of theirs."""
+    """Returns the share of the difference between two positive numbers at which their logarithm has changed by `share`.
+    """
     ratio = math.log(other / one)
     return np.asarray(share, dtype=np.float64) if abs(ratio) < 1e-9 else np.expm1(ratio * share) / math.expm1(ratio)
 
 
 def grown_lens(one, other, share):
-    """The same of the lens of a camera, which is 1 / tan(half the angle): the angle's logarithm goes on steadily."""
+    """Returns the share of the difference between two lenses at which the logarithm of the angle of view has changed by
+    `share`. The lens is 1 / tan(half the angle), and `one` and `other` are tangents of half the angles."""
     angles = np.arctan([one, other])
     lens = 1.0 / np.tan(np.exp(np.log(angles[0]) + share * np.log(angles[1] / angles[0])))
     return np.asarray(share, dtype=np.float64) if abs(one / other - 1.0) < 1e-9 else (lens - 1.0 / one) / (1.0 / other - 1.0 / one)

@@ -8,12 +8,14 @@ import numpy as np
 
 from . import camera_path, curves, keys
 
-#: What a camera may be off its way, seen from its target, degrees; and of its distance, angle and height, a share.
+#: The tolerance of a camera's path: the angle seen from its target in degrees, and the relative error of its distance,
+#: angle of view and height.
 TURN, SIZE = 0.2, 1e-3
 
 
 def add(collection, board, name, scale, origin):
-    """The camera, whose parent is at the target."""
+    """Adds the camera of a storyboard to a collection and returns its object. Its parent is an empty object at the target.
+    """
     poses = camera_path.complete([camera_path.pose_of(scene.camera) for scene in board.scenes])
     target = bpy.data.objects.new(f"{name}.target", None)
     target.rotation_mode = "QUATERNION"
@@ -44,7 +46,8 @@ def add(collection, board, name, scale, origin):
 
 
 def reach_all(item, board, points_of_scenes, scale):
-    """Has the camera see all that any scene shows. points_of_scenes: (n, 3) Å for each."""
+    """Sets the clipping of the camera so that it shows everything in all scenes. points_of_scenes: the atoms of each
+    scene, (n, 3) Å."""
     reach = max(float(np.linalg.norm(points - np.array(scene.camera["position"]), axis=1).max())
                 for scene, points in zip(board.scenes, points_of_scenes)) * scale
     item.data.clip_start, item.data.clip_end = max(1e-4 * reach, 1e-6), 4.0 * reach
@@ -64,14 +67,18 @@ def _tolerance_of_size(before, after):
 
 
 def transitions(board):
-    """Pairs of scenes, one after the other, and whether there is a picture between them."""
+    """Returns each pair of successive scenes, and True if there is a picture between them."""
     return [(before, after, after.first > before.last + 1) for before, after in zip(board.scenes, board.scenes[1:])]
 
 
 def key(board, owner, path, values, now, way=lambda before, after, share: share, tolerance=lambda before, after: 1e-6, channels=None):
-    """Keys of a property of a data block. values: of each scene, those of all channels. now: the property, which gets those of the
-    first; None: it has no channels, and its value. way(before, after, share): how much of the straight way between the values of two
-    scenes is done. tolerance(before, after): keys.follow. channels: those to be keyed, if not all."""
+    """Adds key frames to a property of a data block.
+
+    values: the values of all channels for each scene.
+    now: the property, which gets the values of the first scene; None for a property without channels.
+    way(before, after, share): returns how much of the straight line between the values of two scenes is done.
+    tolerance(before, after): the tolerance of keys.follow().
+    channels: the channels to key; None for all."""
     channels = tuple(range(len(values[0]))) if channels is None else channels
     values = [[float(value[channel]) for channel in channels] for value in values]
     ways = [keys.Way(board.scenes[0].last, part) for part in values[0]]
@@ -91,7 +98,7 @@ def key(board, owner, path, values, now, way=lambda before, after, share: share,
 
 
 def _step(board, owner, path, values, index=-1):
-    """Keys of what stays until the next scene is there."""
+    """Adds key frames to a property that is constant until the next scene begins."""
     way = keys.Way(board.scenes[0].first, values[0])
     for scene, value in zip(board.scenes[1:], values[1:]):
         way.go_on(scene.first, value, keys.CONSTANT)

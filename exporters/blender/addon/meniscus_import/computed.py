@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Objects whose mesh is computed from the request they store: in the background, on the timeline, and again after undo."""
+"""Objects whose mesh is computed from the request that they store: in the background, on the timeline, and again after
+undo."""
 
 import dataclasses
 import time as clock
@@ -11,21 +12,21 @@ from . import compat, libraries, mns_reader, molecular_nodes, motion, showing
 from .computing import process
 from .showing import SHOWN, Shown, _kept, empty, frame_count, is_computed, keep, place_at, show
 
-#: Seconds between two looks at whether something is done.
+#: Seconds between two checks for finished results.
 TICK = 0.005
-#: Seconds between two looks at how far it is.
+#: Seconds between two updates of the displayed progress.
 TELL = 0.2
-#: Frames that are computed ahead of the one that shows.
+#: The number of frames that are computed ahead of the one that shows.
 AHEAD = 4
 
 _process = None
-_told = 0.0  # when sidebars were last drawn anew
-_awaited = {}  # key -> process.Job of a frame to come
+_told = 0.0  # time when sidebars were last redrawn
+_awaited = {}  # key -> process.Job of a later frame
 
 
 class Wanted:
-    """One look at an object: the request, the atoms if they come from Blender, with their other attributes, and how they come
-    into a mesh."""
+    """The surface that an object requests at one time: its request, its atoms with their other attributes if they come
+    from Blender, and the scale and colours of its mesh."""
 
     def __init__(self, item, place, in_motion=False):
         settings = item.meniscus
@@ -40,7 +41,7 @@ class Wanted:
         self.key = f"{shape} {self.scale:.6g} {int(self.crisp)} " + ",".join(each.name for each in self.others)
 
     def ask(self, owner, urgency=process.NOW):
-        """A process.Job whose result is for Shown."""
+        """Returns a process.Job whose result becomes a Shown."""
         about = {"request": dataclasses.asdict(self.request), "atoms": self.atoms and vars(self.atoms), "scale": self.scale,
                  "crisp": self.crisp, "others": [vars(each) for each in self.others]}
         job = working().ask(owner, self.key, "surface", about, urgency)
@@ -49,7 +50,7 @@ class Wanted:
 
 
 def working():
-    """The process that computes, as the preferences want it now."""
+    """Returns the process that computes, with the tools of the current preferences."""
     global _process
     found = bpy.context.preferences.addons.get(__package__)
     chosen = found.preferences if found else None
@@ -62,13 +63,14 @@ def working():
 
 
 def look_for_tools():
-    """Looks again, because they may have been installed since. Returns what was found, as works.Tools.told does."""
+    """Searches for the tools again, because they may have been installed meanwhile. Returns the result of
+    works.Tools.told()."""
     end()
     return working().told()
 
 
 def told_tools():
-    """Lines for people."""
+    """Yields lines for the user about the tools that were found."""
     try:
         found = working().told()
     except mns_reader.MnsError as error:
@@ -79,7 +81,7 @@ def told_tools():
 
 
 def end():
-    """Ends what computes; it starts again when it is needed."""
+    """Ends the process that computes. It starts again when it is needed."""
     global _process
     if _process is not None:
         _process.end()
@@ -88,14 +90,14 @@ def end():
 
 
 def changed(item):
-    """A property changed: the surface follows in the background, if that is switched on."""
+    """Updates the surface in the background after a property of the object changed, if live updates are switched on."""
     if is_computed(item) and item.meniscus.live and not bpy.app.background:
         ask(item, in_motion=True)
 
 
 def ask(item, in_motion=False):
-    """Has the surface computed in the background; what waits for the same object falls away. in_motion: a proxy, where the object
-    wants that, which a fine mesh follows."""
+    """Requests the surface of an object in the background. Waiting requests of the same object are dropped. in_motion:
+    True to request a proxy first if the settings of the object say so; a fine mesh follows."""
     _wait_for_rest(item, in_motion)
     try:
         if needs_frames(item):
@@ -109,7 +111,7 @@ def ask(item, in_motion=False):
             if in_motion and item.data.get(SHOWN) != wanted.key and wanted.key not in _kept:
                 wanted = Wanted(item, place, True)
             if item.data.get(SHOWN) == wanted.key or wanted.key in _kept:
-                working().drop(compat.identity(item))  # what was asked for before an undo
+                working().drop(compat.identity(item))  # drops requests from before an undo
                 _show_kept(item, wanted.key)
                 return
             wanted.ask(compat.identity(item))
@@ -134,7 +136,7 @@ def _wait_for_rest(item, in_motion):
 
 
 def _come_to_rest():
-    """Asks for the fine meshes that are due, once their proxies are there."""
+    """Requests the fine meshes that are due, as soon as their proxies are done."""
     for owner in motion.at_rest():
         item = compat.of_identity(owner)
         if not is_computed(item):
@@ -144,7 +146,7 @@ def _come_to_rest():
 
 
 def come_to_rest(item):
-    """Shows its fine mesh now, or says what went wrong."""
+    """Computes and shows the fine mesh of an object, or reports the error."""
     try:
         compute_now(item)
     except (mns_reader.MnsError, OSError) as error:
@@ -161,7 +163,7 @@ def _run_key(item):
 
 
 def _ask_for_frames(item):
-    """How many the run has."""
+    """Requests the number of frames of an object's run, and returns the process.Job."""
     return working().ask(compat.identity(item), _run_key(item), "count", {"request": dataclasses.asdict(item.meniscus.request(1))})
 
 
@@ -170,20 +172,21 @@ def _take_frames(item, job):
 
 
 def count_frames(item):
-    """Has its run counted, if that is not known, and waits for it."""
+    """Computes the number of frames of an object's run, if it is not known yet."""
     if needs_frames(item):
         _take_frames(item, _finished(_ask_for_frames(item)))
 
 
 def compute_now(item, time=None, in_motion=False):
-    """The same, and waits for it. Raises MnsError or OSError, and leaves the mesh as it was."""
+    """Computes and shows the surface of an object, and waits for it. Raises MnsError or OSError, and then leaves the mesh
+    unchanged."""
     working().drop(compat.identity(item))
     count_frames(item)
     show_place(item, place_at(item, bpy.context.scene.frame_current_final if time is None else time), in_motion)
 
 
 def show_place(item, place, in_motion=False):
-    """Computes what an object shows at a place of its run, None for nothing, and waits for it."""
+    """Computes and shows the surface of an object at a place of its run, and waits for it. place: None shows nothing."""
     if place is None:
         empty(item)
         libraries.succeed(item)
@@ -196,7 +199,7 @@ def show_place(item, place, in_motion=False):
 
 
 def _show_kept(item, key):
-    """Shows what was computed, unless the object shows it already."""
+    """Shows a kept surface, unless the object shows it already."""
     if item.data.get(SHOWN) == key:
         libraries.succeed(item)
     else:
@@ -204,7 +207,7 @@ def _show_kept(item, key):
 
 
 def _finished(job):
-    """Waits; raises what went wrong."""
+    """Waits for a job and returns it. Raises the error of the job."""
     _deliver([other for other in working().wait(job) if other is not job])
     if job.error is not None:
         raise job.error
@@ -217,7 +220,8 @@ def fail(item, error):
 
 
 def redraw():
-    """Redraws the sidebars, which show the progress; views are drawn again when a mesh has changed, which takes longer."""
+    """Redraws the sidebars, which show the progress. Views are not redrawn, because that takes longer; Blender does it
+    when a mesh changes."""
     for window in getattr(bpy.context.window_manager, "windows", ()):
         for area in window.screen.areas:
             if area.type == "VIEW_3D":
@@ -227,7 +231,7 @@ def redraw():
 
 
 def _tick():
-    """While something is computed."""
+    """Shows finished surfaces. It is a timer that runs while something is computed."""
     global _told
     done = working().take()
     _deliver(done)
@@ -239,7 +243,7 @@ def _tick():
 
 
 def _deliver(done):
-    """Shows what was asked for in the background, and keeps what was computed ahead."""
+    """Shows the results of jobs that were requested in the background, and keeps those that were computed ahead."""
     for job in done:
         if job.make is not None and job.error is None:
             keep(job.key, job.make(job.result))
@@ -267,17 +271,17 @@ def _deliver(done):
 
 
 def progress_of(item):
-    """Stage and seconds of what is computed for an object, or None."""
+    """Returns the stage and the elapsed seconds of an object's computation, or None."""
     job = _process and _process.job_of(compat.identity(item))
     return None if job is None else (job.stage, clock.monotonic() - job.began)
 
 
 def cancel(item):
-    """At once, whatever is done for it. True if there was something."""
+    """Stops the computation of an object immediately. Returns True if there was one."""
     if not working().stop(compat.identity(item)):
         return False
     _awaited.clear()
-    for job in working().take():  # they ended with it
+    for job in working().take():  # other jobs ended with the process
         other = _item_of(job)
         if is_computed(other):
             ask(other)
@@ -289,7 +293,7 @@ def _item_of(job):
 
 
 def wait():
-    """Until nothing is computed any more, and shows it: for scripts and tests."""
+    """Waits until nothing is computed any more, and shows the results. For scripts and tests."""
     while working().is_busy():
         _deliver(working().take(1.0))
 
@@ -297,7 +301,8 @@ def wait():
 # ---- time
 
 def compute_ahead(item, places, in_motion=False):
-    """Has frames of its run computed, and no others. Only its own frames: where atoms that come from Blender will be is not known."""
+    """Requests frames of an object's run in advance, and drops earlier requests for other frames. It works for runs of
+    files only, because later positions of atoms that come from Blender are not known."""
     wanted_keys = set()
     for place in filter(None, places):
         wanted = Wanted(item, place, in_motion)
@@ -311,7 +316,7 @@ def compute_ahead(item, places, in_motion=False):
 
 
 def follow(scene):
-    """Every computed object shows what its atoms and its request are at the scene's time."""
+    """Makes every computed object of a scene show the surface of its atoms and its request at the scene's time."""
     time, in_motion = scene.frame_current_final, motion.is_playing()
     for item in list(scene.objects):
         if item.type != "MESH" or item.meniscus.source == "NONE" or item.data.is_editmode:
@@ -328,7 +333,7 @@ def follow(scene):
             compute_now(item, time, in_motion)
             if frame_count(item) > 1:
                 compute_ahead(item, [place_at(item, time + step) for step in range(1, AHEAD + 1)], in_motion)
-        except Exception as error:  # a handler that raises changes nothing: Blender goes on and renders
+        except Exception as error:  # Blender ignores exceptions of handlers, and would render a wrong picture
             empty(item)
             fail(item, error)
 
@@ -340,10 +345,10 @@ def on_frame_change(scene, _depsgraph=None):
 
 @persistent
 def on_undo(*_arguments):
-    """The request of before is there again, the mesh perhaps of another."""
+    """Updates objects after undo, which restores their requests but may restore meshes of other requests."""
     if bpy.app.background:
         catch_up()
-    elif not bpy.app.timers.is_registered(catch_up):  # nothing may be changed before undo is done
+    elif not bpy.app.timers.is_registered(catch_up):  # data must not change before undo is complete
         bpy.app.timers.register(catch_up, first_interval=0.0)
 
 
@@ -364,7 +369,7 @@ def on_load(*_arguments):
 
 
 def come_last():
-    """Behind handlers that move atoms; they are called in the order in which they came."""
+    """Moves the handler after handlers that move atoms. Handlers are called in the order in which they were added."""
     handlers = bpy.app.handlers.frame_change_pre
     if on_frame_change in handlers:
         handlers.remove(on_frame_change)
@@ -373,7 +378,7 @@ def come_last():
 
 @persistent
 def on_render(scene, *_arguments):
-    """Computes the fine meshes at once: pictures do not wait for objects to come to rest."""
+    """Computes fine meshes before a render, which does not wait until objects are at rest."""
     motion.set_rendering(True)
     for item in [item for item in scene.objects if motion.is_moving(compat.identity(item)) and is_computed(item)]:
         motion.rests(compat.identity(item))

@@ -1,20 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Handles of the curves between key frames, fitted to a way, with numpy alone; knows nothing of Blender."""
+"""Fits the handles of curves between key frames to a path. Uses numpy only, not Blender."""
 
 import numpy as np
 
-#: Moments at which a way is fitted.
+#: The times at which a path is fitted.
 TIMES = np.linspace(0.0, 1.0, 201)
-#: Handles that make a straight line, and one that starts and ends slowly: t² (3 - 2 t).
+#: The handles of a straight line, and of a curve that starts and ends slowly: t² (3 - 2 t).
 EVEN, SMOOTH = (1 / 3, 1 / 3, 2 / 3, 2 / 3), (1 / 3, 0.0, 2 / 3, 1.0)
 
 
 def bezier(handles, times=TIMES):
-    """The height at times of Blender's curve from (0, 0) to (1, 1) with the handles (x, y, x, y)."""
+    """Returns the heights at `times` of Blender's curve from (0, 0) to (1, 1) with the handles (x, y, x, y)."""
     x1, y1, x2, y2 = handles
     place = times.copy()
     low, high = np.zeros_like(times), np.ones_like(times)
-    for _ in range(50):  # halving finds it wherever the slope is none
+    for _ in range(50):  # bisection works even where the slope is zero
         along = 3 * (1 - place) ** 2 * place * x1 + 3 * (1 - place) * place ** 2 * x2 + place ** 3
         low, high = np.where(along < times, place, low), np.where(along < times, high, place)
         place = 0.5 * (low + high)
@@ -22,8 +22,8 @@ def bezier(handles, times=TIMES):
 
 
 def fitted(way, start):
-    """Handles of the curve nearest to a way, its heights at TIMES, by Levenberg's and Marquardt's method from `start`; and the
-    largest distance from it."""
+    """Returns the handles of the curve nearest to a path, and the largest distance between both. The path is given by its
+    heights at TIMES. The fit uses the method of Levenberg and Marquardt from the handles `start`."""
     handles = np.array(start, dtype=np.float64)
     rest, damping = bezier(handles) - way, 1e-6
     for _ in range(40):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Key frames of a property, with the curves between them."""
+"""Key frames of a property, and the curves between them."""
 
 import numpy as np
 
@@ -9,20 +9,21 @@ CONSTANT, LINEAR = "CONSTANT", "LINEAR"
 
 
 class Way:
-    """Key frames of one value: points are pairs of a frame and a value, ways between two of them CONSTANT, LINEAR or the handles
-    of a curve, as curves.bezier has them."""
+    """Key frames of one value. points: pairs of a frame and a value. ways: the curve between two successive points, which
+    is CONSTANT, LINEAR or the handles of curves.bezier()."""
 
     def __init__(self, frame, value):
         self.points, self.ways = [(frame, value)], []
 
     def go_on(self, frame, value, way=LINEAR):
-        """Nothing is to be done at the frame of the last point, and where a value stays that changes in steps."""
+        """Appends a key frame. It does nothing at the frame of the last point, and if a value that changes in steps only
+        remains the same."""
         if frame > self.points[-1][0] and not (way == CONSTANT and value == self.points[-1][1] and {CONSTANT}.issuperset(self.ways)):
             self.points.append((frame, value))
             self.ways.append(way)
 
     def insert(self, owner, path, index=-1):
-        """As the animation of a data block; index: of an array."""
+        """Inserts the key frames into the animation of a data block. index: the index of an array element, or -1."""
         owner.keyframe_insert(path, index=index, frame=self.points[0][0])
         curve = next(each for each in compat.action_curves(owner) if each.data_path == path and each.array_index == max(index, 0))
         curve.keyframe_points[0].co[1] = self.points[0][1]
@@ -41,9 +42,10 @@ class Way:
 
 
 def follow(ways, frames, ends, share, tolerance, start, most=2):
-    """Goes on from the first to the second of `frames` with several Ways at once, from the values of the first to those of the
-    second of `ends`. share: of the way at a share of the time. With two keys each, and keys in between where the curve would miss
-    by more than `tolerance` of the way; halved `most` times at most. start: handles to begin the fit with."""
+    """Appends key frames to several Ways, from the first to the second of `frames`, and from the values of the first to
+    those of the second of `ends`. share(time): returns the share of the path that is done at a share of the time. If the
+    curve would deviate by more than `tolerance` of the path, keys are added by halving the time, up to `most` times.
+    start: the initial handles of the fit."""
     low, high = (float(share(time)) for time in (0.0, 1.0))
     handles, missed = curves.fitted((share(curves.TIMES) - low) / (high - low), start)
     if missed * abs(high - low) > tolerance and most > 0 and frames[1] - frames[0] >= 2:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The panel Meniscus in the sidebar of 3-D views: makes objects with computed surfaces, and changes what they show."""
+"""The panel Meniscus in the sidebar of 3-D views, which makes objects with computed surfaces and edits their settings."""
 
 import os
 
@@ -12,14 +12,14 @@ from .settings import DETAILS, OF_NUMBERS, OWN_COLORS
 
 
 def new_object(context, name, source, **values):
-    """An object without geometry in the active collection, or in the scene's where that is left out of the view layer; selected
-    and active."""
+    """Returns a new selected and active object without geometry. It is in the active collection, or in the collection of
+    the scene if the active one is excluded from the view layer. values: settings of the object."""
     item = bpy.data.objects.new(name, bpy.data.meshes.new(name))
     for key, value in values.items():
         setattr(item.meniscus, key, value)
-    item.meniscus.source = source  # last: before, nothing is computed
+    item.meniscus.source = source  # set last, because it starts computing
     context.collection.objects.link(item)
-    context.view_layer.update()  # so that it knows the object
+    context.view_layer.update()  # adds the object to the view layer
     if item.name not in context.view_layer.objects:
         context.collection.objects.unlink(item)
         context.scene.collection.objects.link(item)
@@ -32,9 +32,9 @@ def new_object(context, name, source, **values):
 
 
 def start(operator, item):
-    """In the background where there is a window, else at once."""
+    """Computes the surface of a new object, in the background if there is a window. Returns the result of the operator."""
     if not bpy.app.background and not operator.wait:
-        computed.ask(item, in_motion=True)  # a proxy comes first
+        computed.ask(item, in_motion=True)  # shows a proxy first
         return {"FINISHED"}
     try:
         computed.compute_now(item)
@@ -50,7 +50,7 @@ class Waiting:
 
 
 class Making(Waiting):
-    """What operators that make a surface share."""
+    """The properties of operators that make a surface."""
 
     detail: bpy.props.EnumProperty(name="Detail", default="AUTO", items=DETAILS)
 
@@ -94,7 +94,7 @@ class OBJECT_OT_meniscus_from_atoms(Making, bpy.types.Operator):
         atoms = context.active_object
         scale = molecular_nodes.scale_of(atoms)
         item = new_object(context, atoms.name + ".surface", "OBJECT", atoms=atoms, scale=scale, selection=self.selection, detail=self.detail)
-        item.parent = atoms  # without the inverse: it stands where its atoms are
+        item.parent = atoms  # without an inverse matrix, so that it has the place of its atoms
         computed.come_last()
         return start(self, item)
 
@@ -174,7 +174,7 @@ def is_surface(item):
 
 
 class InSidebar:
-    """Where all panels are."""
+    """The place of all panels."""
 
     bl_category = "Meniscus"
     bl_space_type = "VIEW_3D"
@@ -182,7 +182,7 @@ class InSidebar:
 
 
 class BelowPanel(InSidebar):
-    """Where those are that belong to the first one."""
+    """The place of panels inside the first one."""
 
     bl_parent_id = "VIEW3D_PT_meniscus"
 
@@ -209,7 +209,7 @@ class VIEW3D_PT_meniscus(InSidebar, bpy.types.Panel):
         self.draw_request(item)
 
     def draw_error(self, item):
-        """True if there is one."""
+        """Draws the last error of an object. Returns True if there is one."""
         said = item.get(libraries.ERROR) if item is not None else None
         for line in wrapped(said or "", 40):
             self.layout.label(text=line, icon="ERROR")
@@ -319,7 +319,7 @@ class VIEW3D_PT_meniscus_look(BelowPanel, bpy.types.Panel):
 
 
 def wrapped(text, width):
-    """Lines of a panel, which does not wrap."""
+    """Yields a text as lines of at most `width` characters, because panels do not wrap text."""
     line = ""
     for word in text.split():
         if line and len(line) + len(word) >= width:

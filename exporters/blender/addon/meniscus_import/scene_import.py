@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Brings scene files of Meniscus into Blender: as a surface of the panel where it has fields for all that they say, else as the program exports them."""
+"""Imports scene files of Meniscus. A scene becomes a surface of the panel if the panel has fields for all of its values.
+Otherwise the program exports it, and the export is imported."""
 
 import os
 import subprocess
@@ -34,7 +35,7 @@ class OBJECT_OT_meniscus_from_scene(panel.Waiting, bpy.types.Operator, ImportHel
         return panel.start(self, item)
 
     def make(self, context, scene):
-        """An object of the panel, which computes nothing before all of its fields are set."""
+        """Returns an object of the panel. It computes nothing before all of its fields are set."""
         fields = dict(scene.fields)
         for name in set(fields) & set(scene_reader.FILES):
             fields[name] = build.remembered_path(fields[name])
@@ -62,7 +63,7 @@ class OBJECT_OT_meniscus_from_scene(panel.Waiting, bpy.types.Operator, ImportHel
                 sequence.bake(os.path.join(target, "surface_sequence.json"), context)
                 return
             for item in build.import_file(target, context).surfaces:
-                del item["meniscus_file"]  # which goes
+                del item["meniscus_file"]  # the file is temporary
 
 
 def register():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The settings of a computed surface, stored in its object, and where the add-on finds the engine."""
+"""The settings of a computed surface, which its object stores, and the paths of the tools that compute."""
 
 import zlib
 
@@ -8,34 +8,34 @@ import bpy
 from . import libraries, sequence_reader
 from .computing import preparation, preparation_table, request
 
-#: The first colours keep their places, which are in files of 0.2.0.
+#: The first colours, whose order must not change because files of 0.2.0 store their places.
 _FIRST_COLORS = (
     ("element", "Element", "Chemical element, in pale colours"), ("element-cpk", "Element (CPK)", "In the colours of models"),
     ("chain", "Chain", "Chains in order of appearance"), ("residue", "Residue", "Residue type"),
     ("bfactor", "B-factor", "B-factor; viridis, smallest to largest"), ("occupancy", "Occupancy", "Occupancy; viridis"),
     ("hydrophobicity", "Hydrophobicity", "Hydropathy of the amino acid"), ("charge", "Charge", "Partial charge, of PQR files"),
     ("radial", "Radial", "Distance from the middle"), ("kind", "Patch", "Kind of patch: convex, toroidal, concave"))
-#: Colours as the user writes them.
+#: The choice of colours that the user writes as text.
 OWN_COLORS = "own"
-#: What the program colours by. Numbers of the others come from their words, since the list may grow.
+#: All choices of colours. The numbers of the others are checksums of their names, because the list may grow.
 COLORS = (*((*row, "", place) for place, row in enumerate(_FIRST_COLORS)),
           *((word, word.replace("-", " ").capitalize(), "The program meniscus computes it" if of_more else "", "", 1000 + zlib.crc32(word.encode()) % 10**6)
             for word, of_more in preparation_table.SCHEMES if word not in {row[0] for row in _FIRST_COLORS}),
           (OWN_COLORS, "As written", "The colours below", "", 999))
-#: Schemes of numbers that a file has.
+#: Schemes that need a file with numbers.
 OF_NUMBERS = ("file", "conservation")
 
-#: Their numbers are in files of 0.2.0.
+#: The choices of the fineness of a mesh. Their numbers must not change because files of 0.2.0 store them.
 DETAILS = (("AUTO", "Fine at rest", "A proxy while sliders move and while the timeline plays, else a fine mesh", "", 2),
            ("PROXY", "Proxy", "Even triangles, by vertices per Å²", "", 0),
            ("FINE", "Fine", "Within a tolerance of the exact surface, for pictures", "", 1))
-#: What changes no surface; the frame by hand is keyed, and looked up when it shows.
+#: Settings without effect on the surface. A keyed frame is evaluated when it is shown.
 APART = ("frame", "live", "center")
 
 
 def on_change(settings, _context):
-    """Of a property that changes the surface."""
-    from . import computed  # which needs the settings
+    """Updates the object after a property that affects the surface has changed."""
+    from . import computed  # imported late, because it needs the settings
 
     libraries.note(settings.id_data)
     computed.changed(settings.id_data)
@@ -46,7 +46,7 @@ def _is_atoms(settings, item):
 
 
 def _field(row):
-    """The property of a row of preparation_table.py."""
+    """Returns the property for a row of preparation_table.py."""
     common = {"name": preparation.label_of(row), "description": preparation.help_of(row), "update": on_change,
               "default": preparation.default_of(row)}
     if row.type == "flag":
@@ -62,7 +62,7 @@ def _field(row):
 
 
 class MeniscusSettings(bpy.types.PropertyGroup):
-    """Of an object that shows a computed surface. All but the timing is what it is computed from: its stored request."""
+    """The settings of an object that shows a computed surface. All of them except the timing are its stored request."""
 
     source: bpy.props.EnumProperty(
         name="Source", default="NONE",
@@ -127,16 +127,16 @@ class MeniscusSettings(bpy.types.PropertyGroup):
     frame: bpy.props.FloatProperty(name="Frame", description="Place in the run, from 1", default=1.0)
 
     def preparation(self):
-        """What differs from how the program reads a file by itself."""
+        """Returns the preparation of the file that differs from the program's defaults, as pairs of name and value."""
         if self.source != "FILE":
             return ()
         rows = [*preparation.OF_MOLECULE, *(preparation.OF_RUN if self.is_run else ())]
-        if self.is_run and not self.trajectory:  # whose frames are the models
+        if self.is_run and not self.trajectory:  # the frames are the models of the file
             rows = [row for row in rows if preparation.name_of(row) != "model"]
         return preparation.asked(rows, lambda name: getattr(self, name))
 
     def asked(self):
-        """All values that say which surfaces show when, to be compared."""
+        """Returns all values that determine the shown surfaces and their times. Equal lists mean equal surfaces."""
         return [getattr(self, name) for name in type(self).__annotations__ if name not in APART]
 
     def written_color(self):
@@ -146,11 +146,11 @@ class MeniscusSettings(bpy.types.PropertyGroup):
         return sequence_reader.Timing(self.start, self.speed, self.outside)
 
     def has_proxy(self, in_motion):
-        """Whether a proxy shows. in_motion: a slider moves, or the timeline plays."""
+        """True if a proxy is shown. in_motion: True if a slider moves or the timeline plays."""
         return self.detail == "PROXY" or (self.detail == "AUTO" and in_motion)
 
     def request(self, place=0, in_motion=False):
-        """A request.Request; place: in the run, from 1, or 0."""
+        """Returns the request.Request of these settings. place: the place of the frame in the run, from 1, or 0."""
         of_file = self.source == "FILE"
         return request.Request(
             file=libraries.path_of(self.id_data, "file") if of_file else "",
@@ -171,12 +171,12 @@ if bpy.app.version >= (4, 5, 0):
 
 
 def short(value):
-    """The number that was typed: a property has single precision."""
+    """Returns the number that the user typed, which a property stores in single precision."""
     return float(f"{value:.6g}")
 
 
 class MeniscusPreferences(bpy.types.AddonPreferences):
-    """Where what computes is, if Python and the shell do not find it by themselves."""
+    """The paths of the tools that compute, if Python and the shell do not find them."""
 
     bl_idname = __package__
 

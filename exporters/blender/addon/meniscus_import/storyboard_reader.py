@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads and checks a storyboard, and computes its cameras between scenes, with numpy alone; knows nothing of Blender (FORMAT.md)."""
+"""Reads and checks a storyboard (FORMAT.md), and computes the progress of its transitions. Uses numpy only, not Blender."""
 
 import os
 
@@ -7,14 +7,14 @@ import numpy as np
 
 try:
     from . import header_values, mns_reader
-except ImportError:  # outside of the add-on
+except ImportError:  # imported outside of the add-on
     import header_values
     import mns_reader
 
 VERSION = 1
-#: Longer than any film.
+#: The greatest number of frames, which is longer than any film.
 MOST_FRAMES = 10_000_000
-#: Values of a storyboard, which are needed, and of one of its scenes, which are but for title and background.
+#: Tests of the values of a storyboard, all of which are needed, and of a scene, of which title and background are optional.
 VALUES = {"origin": header_values.VECTOR, "scale": header_values.POSITIVE, "fps": header_values.POSITIVE,
           "ease": (lambda value: value in ("smooth", "even"), "smooth or even")}
 OF_SCENE = {"name": header_values.TEXT, "title": header_values.TEXT, "file": header_values.TEXT, "camera": header_values.DICT,
@@ -22,8 +22,8 @@ OF_SCENE = {"name": header_values.TEXT, "title": header_values.TEXT, "file": hea
 
 
 class Scene:
-    """name, title: texts. path: of its .mns file. first, last: the frames that show it. camera: a dict as in a .mns header.
-    background: sRGB, or None."""
+    """A scene of a storyboard. name, title: texts. path: its .mns file. first, last: the range of frames that show it.
+    camera: a dict with the keys of a .mns header. background: sRGB, or None."""
 
     def __init__(self, name, title, path, first, last, camera, background):
         self.name, self.title, self.path = name, title, path
@@ -32,7 +32,8 @@ class Scene:
 
 
 class Storyboard:
-    """scenes: list of Scene, two or more. origin: Å. scale: Blender units per Å. is_smooth: transitions start and end slowly."""
+    """A storyboard. scenes: list of two or more Scene. origin: Å. scale: Blender units per Å. fps: frames per second.
+    is_smooth: True if transitions start and end slowly."""
 
     def __init__(self, path, header, scenes):
         self.path, self.scenes = path, scenes
@@ -45,12 +46,12 @@ class Storyboard:
         return os.path.splitext(os.path.basename(self.path))[0]
 
     def share(self, time):
-        """How much of the way of a transition is done after a share of its time."""
+        """Returns the progress of a transition, from 0 to 1, after a share of its time."""
         return time * time * (3.0 - 2.0 * time) if self.is_smooth else time
 
 
 def read(path):
-    """The storyboard that a file describes. Its .mns files may not be there yet. Raises MnsError or OSError."""
+    """Returns the storyboard that a file describes. Its .mns files need not exist yet. Raises MnsError or OSError."""
     header = mns_reader.read_manifest(path, "meniscus storyboard", "a storyboard of Meniscus", VERSION, VALUES, VALUES,
                                       ", such as meniscus film --to blender writes")
     entries = header.get("scenes")

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The atoms of a surface, and files of them (`meniscus export atoms`, FORMAT.md of Meniscus)."""
+"""The atoms of a surface, and files of atoms (`meniscus export atoms`, FORMAT.md of Meniscus)."""
 
 import numpy as np
 
 from .. import joined, mns_reader
 
-#: Arrays a file of atoms cannot do without, and their columns.
+#: Arrays that a file of atoms must have, and their columns.
 NEEDED = {"atom.center": 3, "atom.radius": 1, "atom.color": 3, "atom.index": 1}
 #: Numbers by atom that a file may have.
 NUMBERS = ("atom.file_index", "atom.b_factor", "atom.atomic_number", "atom.res_id", "atom.chain_id", "atom.name_id",
@@ -13,10 +13,15 @@ NUMBERS = ("atom.file_index", "atom.b_factor", "atom.atomic_number", "atom.res_i
 
 
 class Atoms:
-    """positions: (n, 3) Å. radii: (n,) Å. colors: (n, 3) sRGB. index: (n,) what each is called by, its place among the atoms of
-    its source. numbers: name of an array of .mns files -> (n,). chain_names: what atom.chain_id points to; names: key of .mns headers -> what
-    the others point to. kind_colors: sRGB of
-    convex, toroidal and concave patches instead of colors, or None. source: a name for people."""
+    """The atoms of a surface.
+
+    positions: (n, 3) Å. radii: (n,) Å. colors: (n, 3) sRGB.
+    index: (n,) the number of each atom, which is its place among the atoms of its source.
+    numbers: name of an array of .mns files -> (n,).
+    chain_names: the list that atom.chain_id refers to.
+    names: key of .mns headers -> the list that another array of numbers refers to.
+    kind_colors: sRGB of convex, toroidal and concave patches, which replaces colors, or None.
+    source: a name for the user."""
 
     def __init__(self, positions, radii, colors, index, numbers=None, chain_names=(), kind_colors=None, source="",
                  names=None):
@@ -30,24 +35,25 @@ class Atoms:
         return len(self.radii)
 
     def at(self, positions):
-        """The same atoms elsewhere."""
+        """Returns the same atoms at other positions."""
         return Atoms(positions, self.radii, self.colors, self.index, self.numbers, self.chain_names, self.kind_colors, self.source,
                      self.names)
 
 
 class AtomFile:
-    """atoms: an Atoms, as the file lists them. numbers: of the frames of the run, in the trajectory; none for a still one."""
+    """A file of atoms. atoms: the Atoms of the file. numbers: frame numbers of the trajectory; empty if there is no run.
+    positions: (frames, n, 3) Å, or None."""
 
     def __init__(self, path, atoms, numbers, positions):
         self.path, self.atoms, self.numbers, self.positions = path, atoms, numbers, positions
 
     def frame(self, place):
-        """The atoms in the frame in this place of the run, from 1. Read from the disk when it is asked for."""
+        """Returns the atoms in the frame at a place of the run, from 1. They are read from the disk by this call."""
         return self.atoms.at(self.positions[place - 1])
 
 
 def read(path):
-    """An AtomFile. Raises mns_reader.MnsError with one sentence, or OSError."""
+    """Returns the AtomFile of a path. Raises mns_reader.MnsError with one sentence, or OSError."""
     header, arrays = mns_reader.read_arrays(path)
     if header.get("format") != "meniscus atoms":
         raise mns_reader.MnsError(f"{path}: it holds no atoms (`meniscus export atoms` writes such files)")
@@ -76,7 +82,8 @@ def read(path):
 
 
 def _frames_of(path, arrays, frames, count):
-    """(frames, atoms, 3); no frame is looked at before it is asked for: a run may be larger than the memory."""
+    """Returns the positions in all frames, (frames, atoms, 3). They are mapped but not read, because a run may be larger
+    than the memory."""
     positions = arrays.get("frame.position")
     if positions is None or positions.shape != (frames * count, 3):
         raise mns_reader.MnsError(f"{path}: array frame.position is not that of {frames} frames of {count} atoms")

@@ -17,48 +17,50 @@ from .. import joined, mns_reader
 from . import atoms as atom_files
 from . import measures, molecules, preparation, wording
 
-#: Options of the program, by what a request has.
+#: The kind of a surface in a request -> the value of the program's option.
 SURFACES = {"SES": "ses", "SAS": "sas", "VDW": "vdw"}
 SAYS = "meniscus: error: "
-POLL = 0.05  # s, between two looks at a program and at whether it is still wanted
+POLL = 0.05  # s between two checks if the program has ended and if its result is still needed
 
 
 class EngineError(mns_reader.MnsError):
-    """The program or the library is missing, or refused; one sentence in the words of the panel."""
+    """The program or the library is missing, or reported an error. The text is one sentence in the terms of the panel."""
 
     def __init__(self, text):
         super().__init__(wording.for_panel(text))
 
 
 class Cancelled(Exception):
-    """Nobody waits for it any more."""
+    """The result of a task is no longer needed."""
 
 
 class Tools:
-    """library: the package meniscus with libmeniscus, or None; program: path of the program, or None; missing: why the library is
-    none."""
+    """The tools that compute. library: the package meniscus with libmeniscus, or None. program: the path of the program,
+    or None. missing: the reason why there is no library."""
 
     def __init__(self, library, program, missing=""):
         self.library, self.program, self.missing = library, program, missing
 
     def needed_program(self, purpose, instead=""):
-        """Its path. purpose, instead: what needs it, and what goes without, for people."""
+        """Returns the path of the program, or raises EngineError. purpose: the task that needs it; instead: an alternative
+        that does not, both as parts of the message."""
         if self.program is None:
             raise EngineError(f"{purpose} needs the program meniscus, which is not found; name it in the add-on's preferences{instead}")
         return self.program
 
     def program_for_files(self):
-        """Its path, where there is no library."""
+        """Returns the path of the program for reading a file without the library, or raises EngineError."""
         return self.needed_program(f"without libmeniscus ({self.missing}) a file")
 
 
 def find_tools(package="", program=""):
-    """package: folder of the Python package, "": where Python finds it. program: its path, "": where the shell finds it."""
+    """Returns the Tools. package: the folder of the Python package; "" searches where Python does. program: the path of
+    the program; "" searches where the shell does."""
     library, missing = None, ""
     try:
         library = _import(package)
         library.version()  # loads libmeniscus
-    except Exception as error:  # of whatever the package or the loader says
+    except Exception as error:  # the package and the loader may raise anything
         library, missing = None, str(error) or type(error).__name__
     found = shutil.which(program or "meniscus")
     return Tools(library, found and os.path.abspath(found), missing)
@@ -75,7 +77,7 @@ def _import(folder):
     if spec is None or not os.path.exists(file):
         raise ImportError(f"{folder}: no Python package")
     module = importlib.util.module_from_spec(spec)
-    sys.modules["meniscus"] = module  # as its own modules look for it
+    sys.modules["meniscus"] = module  # where its own modules look for it
     try:
         spec.loader.exec_module(module)
     except BaseException:
@@ -85,7 +87,7 @@ def _import(folder):
 
 
 def surface_by_library(library, atoms, request, task):
-    """A mns_reader.Surface of atoms.Atoms, of all components. Raises EngineError in the library's words."""
+    """Returns a mns_reader.Surface of atoms.Atoms with all components. Raises EngineError with the library's message."""
     if not len(atoms):
         raise EngineError("there are no atoms")
     key = request.shape_key(atoms)
@@ -101,7 +103,7 @@ def surface_by_library(library, atoms, request, task):
 
 
 def _shape(library, atoms, request, task):
-    """Header and arrays as if they had been written to a .mns file and read, without those of the atoms."""
+    """Returns header and arrays like those of a .mns file, without the arrays of atoms."""
     task.say("Surface")
     made = library.surface(atoms.positions, atoms.radii, request.probe, kind=SURFACES[request.kind])
     task.check()
@@ -128,7 +130,7 @@ def _shape(library, atoms, request, task):
 
 
 def _painted(shape, atoms):
-    """The surface of a shape with the atoms as they are now: a change of colours computes nothing again."""
+    """Returns the surface of a shape with the current atoms, so that a change of colours needs no computation."""
     header, arrays = shape
     header = {**header, "source": {"file": atoms.source}, "chain_names": atoms.chain_names, **atoms.names}
     if atoms.kind_colors is not None:
@@ -136,12 +138,12 @@ def _painted(shape, atoms):
     arrays = {**arrays, "atom.center": np.asarray(atoms.positions, np.float64), "atom.radius": np.asarray(atoms.radii, np.float64),
               "atom.color": np.asarray(atoms.colors, np.float32), "atom.index": np.asarray(atoms.index), **atoms.numbers}
     surface = mns_reader.Surface(f"{atoms.source or 'atoms'} in memory", header, arrays)
-    surface.known_closed = True  # the library gives no other
+    surface.known_closed = True  # surfaces of the library are always closed
     return surface
 
 
 def surface_by_program(tools, request, folder, task):
-    """The same of a request about a file. folder: for files that go again."""
+    """Returns a mns_reader.Surface of a request about a file. folder: a folder for temporary files. Raises EngineError."""
     program = tools.program_for_files()
     task.say("Program")
     with tempfile.TemporaryDirectory(dir=folder, prefix="surface_") as inner:
@@ -164,8 +166,9 @@ def surface_by_program(tools, request, folder, task):
 
 
 def read_atoms(tools, request, folder, task):
-    """The atoms.AtomFile of a request about a file, of all frames of its run if it has a place there. Read once."""
-    if request.needs_program():  # whose colours are those of a surface
+    """Returns the atoms.AtomFile of a request about a file, with all frames of its run if it has a place there. The last
+    files are kept."""
+    if request.needs_program():  # its colours belong to the surface, not to the atoms
         request = dataclasses.replace(request, color="element", numbers="")
     key = (request.atoms_key(), request.place > 0)
     with _reading:
@@ -179,7 +182,7 @@ def read_atoms(tools, request, folder, task):
 
 
 def _fresh_atoms(tools, request, folder, task):
-    """The library reads all but trajectories and frames that are prepared."""
+    """Reads atoms by the library or, for trajectories and prepared frames, by the program."""
     prepared = preparation.run_names(request.preparation)
     if tools.library is not None and not request.trajectory and not prepared:
         return _said_by(tools.library, molecules.read, tools.library, request)
@@ -196,10 +199,10 @@ def _fresh_atoms(tools, request, folder, task):
         _run([program, "export", "atoms", request.file, *_about_atoms(request), *run, "--force", "-q", "-o", path], task)
         return atom_files.read(path)
     finally:
-        os.remove(path)  # what is mapped stays readable
+        os.remove(path)  # a mapped file stays readable
 
 
-#: Files that were read, by what they were asked for, and shapes that were computed; the oldest first.
+#: Files that were read and shapes that were computed, by the keys of their requests, the oldest first.
 _files, _shapes = {}, {}
 _reading = threading.Lock()
 MOST_FILES, MOST_SHAPES = 4, 4
@@ -212,11 +215,11 @@ def forget():
 
 
 def _said_by(library, work, *arguments):
-    """What work(*arguments) gives. Raises EngineError with what the library, or a file, says."""
+    """Returns work(*arguments). Raises EngineError with the message of the library or of a file."""
     try:
         return work(*arguments)
     except (library.Error, mns_reader.MnsError) as error:
-        raise EngineError(str(error).splitlines()[0]) from None  # other lines point into a selection
+        raise EngineError(str(error).splitlines()[0]) from None  # further lines mark a place in a selection
 
 
 def _about_atoms(request):
@@ -238,7 +241,8 @@ def _about_run(request, frames):
 
 
 def _run(words, task):
-    """Runs the program to its end, or ends it when its result is no longer wanted. Raises EngineError in its words."""
+    """Runs the program to its end, or kills it when its result is no longer needed. Raises EngineError with its message,
+    or Cancelled."""
     with tempfile.TemporaryFile() as said:
         child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=said)
         try:
@@ -260,8 +264,9 @@ def _run(words, task):
 
 
 def compute(tools, request, atoms, folder, task):
-    """A mns_reader.Surface, or None where the request is about cavities alone and there are none. atoms: those that come from
-    Blender, or None: then they are those of the request's file."""
+    """Returns the mns_reader.Surface of a request, or None if it asks for parts that do not exist, such as cavities.
+    atoms: atoms that come from Blender, or None for those of the request's file. folder: a folder for temporary files.
+    """
     surface = _all_of_it(tools, request, atoms, folder, task)
     if request.cavities == "KEEP":
         return surface

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Atoms of molecule files as libmeniscus reads them: what `meniscus export atoms` would write."""
+"""Reads atoms of molecule files by libmeniscus, with the same content that `meniscus export atoms` writes."""
 
 import os
 
@@ -9,13 +9,13 @@ from .. import mns_reader, sequence_reader
 from . import preparation
 from .atoms import AtomFile, Atoms
 
-#: sRGB of convex, toroidal and concave patches, which atoms do not have.
+#: sRGB of convex, toroidal and concave patches, which colour a surface by the kind of its patches.
 _KINDS = (np.array([[0x00, 0x9e, 0x73], [0x56, 0xb4, 0xe9], [0xd5, 0x5e, 0x00]]) / 255).tolist()
 
 
 def read(library, request):
-    """An atoms.AtomFile of a request about a file without a trajectory; its frames are the file's models. library: the package
-    meniscus. Raises its Error, or MnsError."""
+    """Returns the atoms.AtomFile of a request about a file without a trajectory. Its frames are the models of the file.
+    library: the package meniscus. Raises the library's Error, or MnsError."""
     if not request.place:
         return AtomFile(request.file, _atoms(_structure(library, request), request.colors()[0]), [], None)
     numbers = _frames(library, request)
@@ -24,7 +24,8 @@ def read(library, request):
 
 
 class Models:
-    """Positions of atoms by the place of a frame in the run, from 0, read when they are asked for."""
+    """The positions of atoms by the place of a frame in the run, from 0. They are read when they are needed. Raises
+    MnsError for a frame with other atoms than the first."""
 
     def __init__(self, library, request, numbers, first):
         self._library, self._request, self._numbers = library, request, numbers
@@ -39,7 +40,7 @@ class Models:
 
 
 def _structure(library, request, number=None):
-    """number: of the frame, from 0; None: no run."""
+    """Returns the structure of a request. number: the frame number, from 0; None if there is no run."""
     prepared = preparation.library_arguments(request.preparation)
     if number is not None:
         prepared["model"] = number + 1
@@ -62,7 +63,7 @@ def _names(structure):
 
 
 def _in_order(names):
-    """The names, each once, in the order in which they come; and the place of each among them."""
+    """Returns the distinct names in the order of their first occurrence, and the index of each name among them."""
     found, first, place = np.unique(names, return_index=True, return_inverse=True)
     order = np.argsort(first)
     rank = np.empty(len(order), dtype=np.int32)

@@ -1,25 +1,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rewrites messages of the program and of libmeniscus in the words of the panel, which has fields instead of
-options."""
+"""Rewrites messages of the program and of libmeniscus in the terms of the panel, which has fields instead of options."""
 
 import re
 
 from . import preparation
 
-#: Option of the program -> the label of the panel's field, or of the value of a field.
+#: Options of the program -> labels of fields of the panel, or of values of fields.
 FIELDS = {
     "--select": "Selection", "--color": "Colour", "--surface": "Surface", "--probe": "Probe", "--tolerance": "Tolerance",
     "--density": "Density", "--trajectory": "Trajectory", "--trajectory-atoms": "Trajectory's atoms", "--frames": "Frames",
     "--cavities": "Cavities", "--color-by-file": "Numbers", **{preparation.option_of(row): preparation.label_of(row) for row in preparation.ROWS},
 }
-#: Options as libmeniscus spells them.
+#: Options in the spelling of libmeniscus.
 OF_LIBRARY = re.compile(r"\A(?:select|%s)(?=: )|\b(?:keep_water|keep_ions|unknown_element)\b|(?<=another )color\b" %
                         "|".join(map(preparation.name_of, preparation.OF_MOLECULE)))
 OPTION = re.compile(r"(?<![\w/-])--([a-z][a-z0-9]*(?:-[a-z0-9]+)*)")
 
 
 def for_panel(text):
-    """The message with fields for options. Those that the panel lacks lose their dashes, and the message says what they are."""
+    """Returns a message with labels of fields in place of options. Options without a field are quoted without dashes, and
+    the message explains them."""
     lacking = []
 
     def field(found):
