@@ -19,7 +19,10 @@ from meniscus_import import looks  # noqa: E402
 
 BLEND, CATALOG = "meniscus_assets.blend", "blender_assets.cats.txt"
 #: The identifiers of catalogues, which do not change when a catalogue is renamed.
-NAMES = {"materials": uuid.uuid5(uuid.NAMESPACE_URL, "meniscus/materials"), "colours": uuid.uuid5(uuid.NAMESPACE_URL, "meniscus/colours")}
+NAMES = {
+    "materials": uuid.uuid5(uuid.NAMESPACE_URL, "meniscus/materials"),
+    "colours": uuid.uuid5(uuid.NAMESPACE_URL, "meniscus/colours")
+}
 
 
 def mark(item, catalog, text, *tags):

@@ -4,9 +4,9 @@ package inside.
 
     make_extension.py WHEELS OUT [PLATFORM...]
 
-WHEELS: a folder with meniscus_ses-VERSION-py3-none-*.whl in the version of the add-on. OUT: a folder, created if it does
-not exist, for meniscus_import-VERSION-PLATFORM.zip. Without PLATFORM, all platforms are made. The same files give the
-same bytes."""
+WHEELS: a folder with meniscus_ses-VERSION-py3-none-*.whl in the version of the add-on. OUT: a folder, created if it
+does not exist, for meniscus_import-VERSION-PLATFORM.zip. Without PLATFORM, all platforms are made. The same files give
+the same bytes."""
 
 import fnmatch
 import os
@@ -17,8 +17,10 @@ import zipfile
 ADDON = os.path.join(os.path.dirname(os.path.abspath(__file__)), "addon", "meniscus_import")
 MANIFEST = "blender_manifest.toml"
 #: Blender's names of platforms, and patterns of the tags of their wheels.
-PLATFORMS = {"linux-x64": ("*linux*_x86_64",), "linux-arm64": ("*linux*_aarch64",), "windows-x64": ("win_amd64",),
-             "macos-arm64": ("macosx_*_arm64", "macosx_*_universal2"), "macos-x64": ("macosx_*_x86_64", "macosx_*_universal2")}
+PLATFORMS = {
+    "linux-x64": ("*linux*_x86_64",), "linux-arm64": ("*linux*_aarch64",), "windows-x64": ("win_amd64",),
+    "macos-arm64": ("macosx_*_arm64", "macosx_*_universal2"), "macos-x64": ("macosx_*_x86_64", "macosx_*_universal2")
+}
 LICENSE = 'license = ["SPDX:GPL-3.0-or-later"]'
 LICENSES = 'license = ["SPDX:GPL-3.0-or-later", "SPDX:BSD-3-Clause"]'
 

@@ -2,16 +2,16 @@
 """Renders a .mns file, or frames of a sequence of them, in Blender without a window, and returns an exit code.
 
   blender -b --factory-startup --python-exit-code 3 --python render_mns.py -- FILE.mns --output picture.png
-  ... -- FILE.mns --passes passes.exr       depth, normals and unlit colours through pixel centres, 32-bit, no anti-aliasing
+  ... -- FILE.mns --passes passes.exr      depth, normals, unlit colours through pixel centres; 32-bit, not anti-aliased
   ... -- SEQUENCE.json --frames 0-99:10,250 --output DIR/frame_#####
 
 --camera FILE replaces the camera of the file by one of --save-camera; for a sequence it applies to all frames.
-For a sequence, --frames names frames of the trajectory (default: all of the run), and --scene-frames names frames of the
-scene, from 1. A run of # in a path stands for the frame number of the trajectory. --motion-blur 0.5 blurs half a frame.
---mode driver, the default, keeps one frame in memory; bake puts all frames into the scene; stream lets the handler of the
-add-on read them. With the last two, --blend saves the scene. One unit is one Å unless --scale says otherwise.
---look selects a look of the add-on. All of them except flat need light (--style film, their default); flat may have
-outlines (--lines). --engine eevee draws by OpenGL, also without a screen.
+For a sequence, --frames names frames of the trajectory (default: all of the run), and --scene-frames names frames of
+the scene, from 1. A run of # in a path stands for the frame number of the trajectory. --motion-blur 0.5 blurs half a
+frame. --mode driver, the default, keeps one frame in memory; bake puts all frames into the scene; stream lets the
+handler of the add-on read them. With the last two, --blend saves the scene. One unit is one Å unless --scale says
+otherwise. --look selects a look of the add-on. All of them except flat need light (--style film, their default); flat
+may have outlines (--lines). --engine eevee draws by OpenGL, also without a screen.
 
 Errors and warnings of Blender and Cycles go to standard error, with --verbose everything they print. Standard output
 contains, after Blender's name, one JSON line per frame. For a sequence it is
@@ -36,7 +36,8 @@ import bpy
 import mathutils
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from meniscus_import import build, camera_reader, compat, looks, materials, mns_reader, sequence, sequence_reader  # noqa: E402
+from meniscus_import import (build, camera_reader, compat, looks, materials, mns_reader, sequence,  # noqa: E402
+                             sequence_reader)
 
 #: The lights of the studio style: the direction towards the light in the camera's axes (right, up, back), and the
 #: radiance of a white matt surface that faces the light. They agree with the POV-Ray scenes of Meniscus.
@@ -56,10 +57,12 @@ THROUGH = ("wax", "glass")
 NOISE = 0.02
 GLASS_BOUNCES = 32
 LIGHTS = {"studio": STUDIO, "film": FILM, "flat": ()}
-#: The surroundings of glass: pairs of a position, from 0 behind the molecule to 1 behind the camera (half the cosine plus
-#: 0.5), and a brightness. A bright wall in a dark room makes edges visible, which is how photographers light glass.
+#: The surroundings of glass: pairs of a position, from 0 behind the molecule to 1 behind the camera (half the cosine
+#: plus 0.5), and a brightness. A bright wall in a dark room makes edges visible, which is how photographers light
+#: glass.
 BRIGHT_FIELD = ((0.0, 1.0), (0.02, 1.0), (0.06, 0.45), (0.15, 0.12), (0.5, 0.05), (0.8, 0.3), (1.0, 0.8))
-#: The angular diameter in degrees of the lamp that lights glass. Bumps of atoms would reflect a smaller lamp as white dots.
+#: The angular diameter in degrees of the lamp that lights glass. Bumps of atoms would reflect a smaller lamp as white
+#: dots.
 GLASS_LAMP = 60.0
 
 
@@ -81,13 +84,16 @@ def parse(arguments):
     parser.add_argument("--camera", metavar="FILE", help="as --save-camera writes it, instead of that of the file")
     parser.add_argument("--size", help="WIDTHxHEIGHT in pixels; default: that of the file")
     parser.add_argument("--scale", type=float, default=1.0, help="Blender units per Å")
-    parser.add_argument("--samples", type=int, help="of a pixel, at most where a look has light go through; default: 32, 128 for Cycles' wax and glass")
+    parser.add_argument(
+        "--samples", type=int,
+        help="of a pixel, at most where a look has light go through; default: 32, 128 for Cycles' wax and glass")
     parser.add_argument("--style", choices=tuple(LIGHTS),
                         help="studio: matt, no shadows, as the POV-Ray scenes; film: soft shadows and sky light; "
                         "flat: colours as they are, no light; default: studio, film with --look")
     parser.add_argument("--look", choices=[name.lower() for name in looks.LOOKS], help="a material of the add-on's")
     parser.add_argument("--lines", action="store_true", help="outlines by Line Art")
-    parser.add_argument("--engine", choices=("cycles", "eevee"), default="cycles", help="of --output; --passes are by Cycles")
+    parser.add_argument("--engine", choices=("cycles", "eevee"), default="cycles",
+                        help="of --output; --passes are by Cycles")
     parser.add_argument("--blend", help="save the scene here, too")
     parser.add_argument("--transparent", action="store_true", help="no background")
     parser.add_argument("--verbose", action="store_true", help="what Blender and Cycles print, too")
@@ -141,7 +147,8 @@ def lamps_of(camera, style, look):
     share, angle = camera.get("meniscus_shadows", 0.0), 2.0 * camera.get("meniscus_shadow_softness", 0.0)
     if look in ("glass", "flat") or style == "flat":
         if share > 0.0:
-            sys.stderr.write("render_mns: note: the scene's shadows are left out: " + ("glass has a light of its own\n" if look == "glass" else "flat has no light\n"))
+            sys.stderr.write("render_mns: note: the scene's shadows are left out: " +
+                             ("glass has a light of its own\n" if look == "glass" else "flat has no light\n"))
         return ((*lamps[0][:2], GLASS_LAMP),) if look == "glass" else lamps
     if share == 0.0:
         return lamps
@@ -158,21 +165,24 @@ def add_lights(scene, camera, style, look):
         compat.cast_shadows(light, bool(angle))
         item = bpy.data.objects.new(light.name, light)
         item.parent = camera
-        item.visible_transmission = look != "glass"  # a lamp seen through glass makes grain, so it makes highlights only
+        item.visible_transmission = look != "glass"  # lamps seen through glass make grain, so they make highlights only
         item.rotation_euler = mathutils.Vector(direction).to_track_quat("Z", "Y").to_euler()
         scene.collection.objects.link(item)
     world = bpy.data.worlds.new("Meniscus world")
     tree = compat.node_tree(world)
     background = compat.find_or_add(tree, "BACKGROUND", "ShaderNodeBackground")
-    tree.links.new(background.outputs[0], compat.find_or_add(tree, "OUTPUT_WORLD", "ShaderNodeOutputWorld").inputs["Surface"])
+    tree.links.new(background.outputs[0],
+                   compat.find_or_add(tree, "OUTPUT_WORLD", "ShaderNodeOutputWorld").inputs["Surface"])
     background.inputs["Color"].default_value = (0.85, 0.92, 1.0, 1.0)
     background.inputs["Strength"].default_value = 0.35 if style == "film" else 0.0
     if look == "glass":
         background.inputs["Strength"].default_value = 1.0
         seen = tree.nodes.new("ShaderNodeLightPath").outputs["Is Camera Ray"]
-        tree.links.new(compat.mix_colors(tree, seen, bright_field(tree, camera), (1.0, 1.0, 1.0, 1.0)), background.inputs["Color"])
+        tree.links.new(compat.mix_colors(tree, seen, bright_field(tree, camera), (1.0, 1.0, 1.0, 1.0)),
+                       background.inputs["Color"])
     elif look == "flat":  # it emits, so it needs no light
-        background.inputs["Color"].default_value, background.inputs["Strength"].default_value = (1.0, 1.0, 1.0, 1.0), 1.0
+        background.inputs["Color"].default_value, background.inputs["Strength"].default_value = (1.0, 1.0, 1.0,
+                                                                                                 1.0), 1.0
     scene.world = world
 
 
@@ -202,9 +212,12 @@ def apply_style(style):
     for material in our_materials() if style != "film" else ():
         shader = materials.shader_of(material)
         specular = compat.principled_input(shader, "Specular IOR Level", "Specular")
-        specular.default_value = 0.0 if style == "flat" or "specular" not in material[materials.MARK] else specular.default_value
+        specular.default_value = (0.0 if style == "flat" or "specular" not in material[materials.MARK] else
+                                  specular.default_value)
         if style == "flat":
-            colors = {link.to_socket.name: link.from_socket for link in material.node_tree.links if link.to_node == shader}
+            colors = {
+                link.to_socket.name: link.from_socket for link in material.node_tree.links if link.to_node == shader
+            }
             color = colors.get("Emission Color") or colors.get("Emission") or colors["Base Color"]
             for link in list(shader.inputs["Base Color"].links):
                 material.node_tree.links.remove(link)
@@ -290,8 +303,8 @@ def use_passes(scene, wanted):
 
 
 def dress(scene, camera, options, items):
-    """Sets lights, picture size, style and look, and saves the scene if --blend is given. Raises MnsError without a camera.
-    """
+    """Sets lights, picture size, style and look, and saves the scene if --blend is given. Raises MnsError without a
+    camera."""
     if camera is None:
         raise mns_reader.MnsError(f"{options.file}: the file holds no camera")
     if options.size:
@@ -365,7 +378,10 @@ class Stage:
         graph = bpy.context.evaluated_depsgraph_get()
         evaluated = self.item.evaluated_get(graph)
         # The evaluated object of a bake has a mesh of its own or an instance.
-        shown = [evaluated.data, *(each.object.data for each in graph.object_instances if each.is_instance and each.parent == evaluated)]
+        shown = [
+            evaluated.data,
+            *(each.object.data for each in graph.object_instances if each.is_instance and each.parent == evaluated)
+        ]
         return sum(len(mesh.polygons) for mesh in shown)
 
 
@@ -375,7 +391,8 @@ def numbered(pattern, number):
 
 
 def chosen_frames(options, frames):
-    """Returns pairs of a scene frame and its frame number in the trajectory. Exits with code 2 for an invalid choice."""
+    """Returns pairs of a scene frame and its frame number in the trajectory. Exits with code 2 for an invalid
+    choice."""
     try:
         if options.scene_frames:
             places = sequence_reader.parse_frames(options.scene_frames, range(1, len(frames.frames) + 1))
@@ -470,7 +487,10 @@ def tell_faults():
     sys.stdout.flush()
     ctypes.CDLL(None).fflush(None)  # the C library buffers lines
     said = os.pread(CHATTER.fileno(), 1 << 24, 0)
-    faults = [line for line in said.decode("utf-8", "replace").splitlines(True) if re.search(r"\b(error|warning|failed)\b", line, re.IGNORECASE)]
+    faults = [
+        line for line in said.decode("utf-8", "replace").splitlines(True)
+        if re.search(r"\b(error|warning|failed)\b", line, re.IGNORECASE)
+    ]
     sys.stderr.write("".join(faults))
 
 

@@ -7,8 +7,12 @@ from . import compat
 
 #: Types of attributes that can be copied: the field of a value, its columns, its numpy type.
 TYPES = {
-    "FLOAT": ("value", 1, np.float32), "INT": ("value", 1, np.int32), "BOOLEAN": ("value", 1, bool),
-    "FLOAT_VECTOR": ("vector", 3, np.float32), "FLOAT2": ("vector", 2, np.float32), "FLOAT_COLOR": ("color", 4, np.float32),
+    "FLOAT": ("value", 1, np.float32),
+    "INT": ("value", 1, np.int32),
+    "BOOLEAN": ("value", 1, bool),
+    "FLOAT_VECTOR": ("vector", 3, np.float32),
+    "FLOAT2": ("vector", 2, np.float32),
+    "FLOAT_COLOR": ("color", 4, np.float32),
     "BYTE_COLOR": ("color", 4, np.float32),
 }
 DOMAINS = ("POINT", "FACE", "CORNER")
@@ -32,7 +36,9 @@ class Kept:
             return self
         count = max(len(self.known), len(older.known))
         for kept in (self, older):
-            kept.values = np.concatenate([kept.values, np.zeros((count - len(kept.values), kept.values.shape[1]), kept.values.dtype)])
+            kept.values = np.concatenate(
+                [kept.values,
+                 np.zeros((count - len(kept.values), kept.values.shape[1]), kept.values.dtype)])
             kept.known = np.concatenate([kept.known, np.zeros(count - len(kept.known), dtype=bool)])
         self.values[~self.known] = older.values[~self.known]
         self.known |= older.known
@@ -93,8 +99,8 @@ def give_back(mesh, kept, arrays):
 
 
 def spread(kept, arrays):
-    """Returns the values of a Kept for the elements of mesh_arrays.MeshArrays, one row per element. Atoms without a value
-    get zero."""
+    """Returns the values of a Kept for the elements of mesh_arrays.MeshArrays, one row per element. Atoms without a
+    value get zero."""
     atom = arrays.ses_atom
     table = np.zeros((max(len(kept.values), atom.max(initial=0) + 1), kept.values.shape[1]), dtype=kept.values.dtype)
     table[:len(kept.values)] = kept.values

@@ -4,10 +4,13 @@ neither this add-on nor other files."""
 
 import bpy
 
-from . import attributes, build, compat, computed, frame_picker, libraries, mesh_arrays, mns_reader, sequence, sequence_reader, showing
+from . import (attributes, build, compat, computed, frame_picker, libraries, mesh_arrays, mns_reader, sequence,
+               sequence_reader, showing)
 
 #: Bytes per value of an attribute, by its type.
-VALUE_BYTES = {"FLOAT": 4, "INT": 4, "INT8": 1, "BOOLEAN": 1, "BYTE_COLOR": 4, "FLOAT_COLOR": 16, "FLOAT_VECTOR": 12, "FLOAT2": 8}
+VALUE_BYTES = {
+    "FLOAT": 4, "INT": 4, "INT8": 1, "BOOLEAN": 1, "BYTE_COLOR": 4, "FLOAT_COLOR": 16, "FLOAT_VECTOR": 12, "FLOAT2": 8
+}
 #: Bytes of a vertex, an edge, a corner and a face, without attributes.
 ELEMENT_BYTES = (12, 8, 12, 8)
 #: The share of these bytes that remains in a compressed .blend.
@@ -15,14 +18,17 @@ COMPRESSED = 0.3
 #: Attributes whose bytes ELEMENT_BYTES includes.
 IN_ELEMENTS = {"position", "material_index"}
 #: Custom properties of streams and of objects that show a single frame, which baked objects do not have.
-OF_LIVE = ("meniscus_stream", "meniscus_start", "meniscus_speed", "meniscus_outside", "meniscus_by_hand", "meniscus_frame", "meniscus_frames",
-           "meniscus_frames_of", "meniscus_area", "meniscus_volume", libraries.ERROR)
+OF_LIVE = ("meniscus_stream", "meniscus_start", "meniscus_speed", "meniscus_outside", "meniscus_by_hand",
+           "meniscus_frame", "meniscus_frames", "meniscus_frames_of", "meniscus_area", "meniscus_volume",
+           libraries.ERROR)
 
 
 class Stream:
     """An object that shows frames of files, which are read while the timeline plays."""
 
-    TIMES = {f'["meniscus_{name.lower()}"]': name for name in (frame_picker.START, frame_picker.SPEED, frame_picker.FRAME)}
+    TIMES = {
+        f'["meniscus_{name.lower()}"]': name for name in (frame_picker.START, frame_picker.SPEED, frame_picker.FRAME)
+    }
     TIMES['["meniscus_by_hand"]'] = frame_picker.BY_HAND
 
     def __init__(self, item, scene):
@@ -60,8 +66,8 @@ class Panel:
 
 
 class Followed:
-    """An object that shows the surface of another object's atoms, which something else moves. Each frame of the scene is
-    a frame of the run."""
+    """An object that shows the surface of another object's atoms, which something else moves. Each frame of the scene
+    is a frame of the run."""
 
     TIMES = {}
     by_hand, frame = False, 1.0
@@ -80,8 +86,8 @@ class Followed:
 
 
 def kind_of(item):
-    """Returns the class that describes how the mesh of an object follows the timeline: Stream, Panel or Followed. Returns
-    None if it does not follow, or if the object belongs to a library."""
+    """Returns the class that describes how the mesh of an object follows the timeline: Stream, Panel or Followed.
+    Returns None if it does not follow, or if the object belongs to a library."""
     if item is None or item.type != "MESH" or item.library is not None or item.override_library is not None:
         return None
     if item.get("meniscus_stream"):
@@ -97,7 +103,8 @@ def frame_bytes(mesh):
     """Estimates the bytes of a mesh in memory and in an uncompressed file, to within 20 %."""
     parts = zip(ELEMENT_BYTES, (mesh.vertices, mesh.edges, mesh.loops, mesh.polygons))
     own = [each for each in mesh.attributes if each.name not in IN_ELEMENTS and not each.name.startswith(".")]
-    return sum(size * len(part) for size, part in parts) + sum(VALUE_BYTES.get(each.data_type, 4) * len(each.data) for each in own)
+    return sum(size * len(part)
+               for size, part in parts) + sum(VALUE_BYTES.get(each.data_type, 4) * len(each.data) for each in own)
 
 
 def told_size(item, scene):
@@ -107,11 +114,13 @@ def told_size(item, scene):
     except (mns_reader.MnsError, OSError):
         count = 0  # the same as for a run that was not read yet
     size = count * frame_bytes(item.data) / 1e6
-    return (f"{count:,} frames, {_rounded(size)}", f"{_rounded(COMPRESSED * size)} compressed") if size else ("Frames of unknown size",)
+    return (f"{count:,} frames, {_rounded(size)}",
+            f"{_rounded(COMPRESSED * size)} compressed") if size else ("Frames of unknown size",)
 
 
 def _rounded(megabytes):
-    return f"{megabytes / 1000:.1f} GB" if megabytes >= 1000 else f"{megabytes:.0f} MB" if megabytes >= 10 else f"{megabytes:.1f} MB"
+    return (f"{megabytes / 1000:.1f} GB" if megabytes >= 1000 else
+            f"{megabytes:.0f} MB" if megabytes >= 10 else f"{megabytes:.1f} MB")
 
 
 def bake(item, scene):
@@ -179,8 +188,8 @@ class OBJECT_OT_meniscus_bake(bpy.types.Operator):
         return kind_of(context.active_object) is not None and context.active_object.mode == "OBJECT"
 
     def invoke(self, context, _event):
-        """Bakes in steps while the window shows the progress. All other events are blocked, because an undo would remove
-        the new data."""
+        """Bakes in steps while the window shows the progress. All other events are blocked, because an undo would
+        remove the new data."""
         self.steps = bake(context.active_object, context.scene)
         self.timer = context.window_manager.event_timer_add(0.01, window=context.window)
         context.window_manager.modal_handler_add(self)

@@ -86,7 +86,8 @@ def import_file(path, context=None, **options):
     file = mns_reader.read(path)
     options = Options(**options)
     source, atoms = source_of(file.header), sum(len(surface["atom.center"]) for surface in file.objects)
-    origin = scene_origin(context.scene, lambda: middle_of(frames.points_of(file)), source, atoms) if options.center else np.zeros(3)
+    origin = scene_origin(context.scene, lambda: middle_of(frames.points_of(file)), source,
+                          atoms) if options.center else np.zeros(3)
     stem = os.path.splitext(os.path.basename(path))[0]
     made = Import()
     shot = {**file.header.get("camera", {}), **(options.camera or {})}
@@ -116,8 +117,8 @@ def import_file(path, context=None, **options):
 
 
 def add_copy(mesh, copy, surface, path, file, options, origin, part=None):
-    """Returns a new object for a copy of a surface of a file. Reload finds the surface by `part`, its name in parts_of().
-    """
+    """Returns a new object for a copy of a surface of a file. Reload finds the surface by `part`, its name in
+    parts_of()."""
     item = bpy.data.objects.new(mesh.name, mesh)
     item.matrix_world = placement(copy, options.scale, origin)
     set_provenance(item, surface, options, names_of(*file.objects))
@@ -149,7 +150,8 @@ def reload(item, context=None):
         raise mns_reader.MnsError("the active object was not imported from a .mns file")
     path = libraries.path_of(item, "meniscus_file")
     file = mns_reader.read(path)
-    options = Options(scale=item["meniscus_scale"], crisp_colors=bool(item["meniscus_crisp"]), parts=bool(item["meniscus_parts"]))
+    options = Options(scale=item["meniscus_scale"], crisp_colors=bool(item["meniscus_crisp"]),
+                      parts=bool(item["meniscus_parts"]))
     surface = dict(parts_of(file, options.parts)).get(item["meniscus_part"])
     if surface is None:
         raise mns_reader.MnsError(f"{path}: it has no surface {item['meniscus_part']} any more")
@@ -174,8 +176,8 @@ def reload(item, context=None):
 
 
 def check_with_blender(arrays):
-    """Raises mns_reader.MnsError if Blender finds faults in a mesh with these arrays. It uses a temporary mesh, so that a
-    shown mesh is not changed."""
+    """Raises mns_reader.MnsError if Blender finds faults in a mesh with these arrays. It uses a temporary mesh, so that
+    a shown mesh is not changed."""
     mesh = bpy.data.meshes.new("check")
     try:
         fill_mesh(mesh, arrays, 1.0)
@@ -197,9 +199,9 @@ def middle_of(points):
 
 
 def scene_origin(scene, otherwise, source, atoms):
-    """Returns the origin of coordinates in Å that an earlier import of the same molecule used, so that its surfaces stay
-    together, or otherwise() if there is none. Two molecules are the same if their files (source) have the same name
-    without endings, or if their numbers of atoms agree and are at least MANY_ATOMS, which is no coincidence."""
+    """Returns the origin of coordinates in Å that an earlier import of the same molecule used, so that its surfaces
+    stay together, or otherwise() if there is none. Two molecules are the same if their files (source) have the same
+    name without endings, or if their numbers of atoms agree and are at least MANY_ATOMS, which is no coincidence."""
     for item in scene.objects:
         same_name = stem_of(source) and stem_of(source) == stem_of(item.get("meniscus_source", ""))
         is_same = same_name or (atoms >= MANY_ATOMS and atoms == item.get("meniscus_atoms"))
@@ -214,7 +216,8 @@ def stem_of(name):
 
 
 def present(context, items):
-    """Selects objects, makes the first active, and shows their colours in solid views that show colours of materials."""
+    """Selects objects, makes the first active, and shows their colours in solid views that show colours of
+    materials."""
     context.view_layer.update()  # drops objects that have just been removed
     for other in context.view_layer.objects:
         other.select_set(False)
@@ -261,8 +264,8 @@ def let_exporters_follow(mesh):
 
 
 def clear_geometry(mesh):
-    """Removes the geometry of a mesh. Materials, properties and animation remain; Mesh.clear_geometry() would remove the
-    animation."""
+    """Removes the geometry of a mesh. Materials, properties and animation remain; Mesh.clear_geometry() would remove
+    the animation."""
     if mesh.animation_data is None:
         mesh.clear_geometry()
         return
@@ -272,9 +275,9 @@ def clear_geometry(mesh):
 
 
 def fill_mesh(mesh, arrays, fps, trusted=False):
-    """Puts mesh_arrays.MeshArrays into a mesh without geometry. Materials remain. fps: frames of the run per second, for
-    velocities. trusted: True if the arrays were never in a file, so that Blender need not validate them. After an error
-    the mesh is half filled."""
+    """Puts mesh_arrays.MeshArrays into a mesh without geometry. Materials remain. fps: frames of the run per second,
+    for velocities. trusted: True if the arrays were never in a file, so that Blender need not validate them. After an
+    error the mesh is half filled."""
     mesh.vertices.add(len(arrays.positions))
     mesh.vertices.foreach_set("co", arrays.positions.ravel())
     compat.set_triangles(mesh, arrays.triangles)
@@ -297,8 +300,9 @@ def add_materials(mesh, surface, new_materials, own=False, fades=False):
     fades: True for materials that fade by the object's colour."""
     mesh[materials.ASKED] = materials.asked_of(surface, fades)
     for role, kind in materials.wanted(surface):
-        mesh.materials.append(materials.find_or_make(role, kind, new_materials, own, materials.hatching_of(surface, role),
-                                                     materials.looks_of(surface), fades))
+        mesh.materials.append(
+            materials.find_or_make(role, kind, new_materials, own, materials.hatching_of(surface, role),
+                                   materials.looks_of(surface), fades))
 
 
 def source_of(header):
@@ -330,9 +334,10 @@ def set_names(item, names):
 
 
 def place_camera(item, shot, scale, origin=(0.0, 0.0, 0.0)):
-    """Moves a camera's object to the place of `shot`, the camera of a file. origin: the origin of the scene's coordinates
-    in Å."""
-    item["meniscus_shadows"], item["meniscus_shadow_softness"] = shot.get("shadows", 0.0), shot.get("shadow_softness", 0.0)
+    """Moves a camera's object to the place of `shot`, the camera of a file. origin: the origin of the scene's
+    coordinates in Å."""
+    item["meniscus_shadows"], item["meniscus_shadow_softness"] = shot.get("shadows",
+                                                                          0.0), shot.get("shadow_softness", 0.0)
     position, target, up = (mathutils.Vector(shot[key]) for key in ("position", "target", "up"))
     forward = (target - position).normalized()
     right = forward.cross(up).normalized()
@@ -350,8 +355,8 @@ def place_camera(item, shot, scale, origin=(0.0, 0.0, 0.0)):
 
 
 def reach_all(item, points, scale, origin=(0.0, 0.0, 0.0)):
-    """Sets the clipping of a camera so that no atom at `points`, (n, 3) Å, is cut off. The far end never becomes nearer.
-    """
+    """Sets the clipping of a camera so that no atom at `points`, (n, 3) Å, is cut off. The far end never becomes
+    nearer."""
     place = np.array(item.matrix_world.translation) / scale + np.array(origin)
     reach = float(np.linalg.norm(points - place, axis=1).max()) * scale
     item.data.clip_start = max(1e-4 * reach, 1e-6)

@@ -30,12 +30,13 @@ def pose_of(camera):
     right /= np.linalg.norm(right)
     is_flat = camera["projection"] == "orthographic"
     return Pose(target, quaternion(np.stack([right, np.cross(right, forward), -forward], axis=1)), distance,
-                None if is_flat else math.tan(math.radians(camera["vertical_fov"]) / 2), camera["height"] if is_flat else None, is_flat)
+                None if is_flat else math.tan(math.radians(camera["vertical_fov"]) / 2),
+                camera["height"] if is_flat else None, is_flat)
 
 
 def quaternion(matrix):
-    """Returns the quaternion (w, x, y, z) of a rotation matrix with w >= 0: the eigenvector of the greatest eigenvalue of
-    a symmetric form (I. Y. Bar-Itzhack, 2000)."""
+    """Returns the quaternion (w, x, y, z) of a rotation matrix with w >= 0: the eigenvector of the greatest eigenvalue
+    of a symmetric form (I. Y. Bar-Itzhack, 2000)."""
     (a, b, c), (d, e, f), (g, h, i) = matrix
     form = np.array([[a + e + i, h - f, c - g, d - b], [h - f, a - e - i, b + d, c + g],
                      [c - g, b + d, e - a - i, f + h], [d - b, c + g, f + h, i - a - e]])
@@ -44,10 +45,11 @@ def quaternion(matrix):
 
 
 def complete(poses):
-    """Sets the members of poses that their projections lack, in the same way as the film, and returns the poses in their
-    order. During a transition to another projection the first projection remains, and ends with a picture that agrees
-    with the second in the plane of its target. So an orthographic pose gets the angle of the previous pose, and the
-    distance from which that angle shows the same height. `extra`: the true distance of its camera minus this one."""
+    """Sets the members of poses that their projections lack, in the same way as the film, and returns the poses in
+    their order. During a transition to another projection the first projection remains, and ends with a picture that
+    agrees with the second in the plane of its target. So an orthographic pose gets the angle of the previous pose, and
+    the distance from which that angle shows the same height. `extra`: the true distance of its camera minus this
+    one."""
     lens = next((pose.tangent for pose in poses if not pose.is_flat), math.tan(math.radians(15.0)))
     for number, pose in enumerate(poses):
         pose.extra = 0.0
@@ -87,4 +89,5 @@ def grown_lens(one, other, share):
     `share`. The lens is 1 / tan(half the angle), and `one` and `other` are tangents of half the angles."""
     angles = np.arctan([one, other])
     lens = 1.0 / np.tan(np.exp(np.log(angles[0]) + share * np.log(angles[1] / angles[0])))
-    return np.asarray(share, dtype=np.float64) if abs(one / other - 1.0) < 1e-9 else (lens - 1.0 / one) / (1.0 / other - 1.0 / one)
+    return np.asarray(share, dtype=np.float64) if abs(one / other -
+                                                      1.0) < 1e-9 else (lens - 1.0 / one) / (1.0 / other - 1.0 / one)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The camera of a storyboard: a child of its target, with key frames at the beginning and the end of each transition."""
+"""The camera of a storyboard: a child of its target, with key frames at the beginning and the end of each
+transition."""
 
 import math
 
@@ -14,8 +15,8 @@ TURN, SIZE = 0.2, 1e-3
 
 
 def add(collection, board, name, scale, origin):
-    """Adds the camera of a storyboard to a collection and returns its object. Its parent is an empty object at the target.
-    """
+    """Adds the camera of a storyboard to a collection and returns its object. Its parent is an empty object at the
+    target."""
     poses = camera_path.complete([camera_path.pose_of(scene.camera) for scene in board.scenes])
     target = bpy.data.objects.new(f"{name}.target", None)
     target.rotation_mode = "QUATERNION"
@@ -30,12 +31,14 @@ def add(collection, board, name, scale, origin):
     half = 0.5 * data.sensor_height
     places = [(pose.target - origin) * scale for pose in poses]
     key(board, target, "location", places, target.location)
-    key(board, target, "rotation_quaternion", [pose.turn for pose in poses], target.rotation_quaternion, camera_path.turned,
-        _tolerance_of_turn)
-    key(board, item, "location", [(0.0, 0.0, pose.distance * scale) for pose in poses], item.location, _grown, _tolerance_of_size, (2,))
+    key(board, target, "rotation_quaternion", [pose.turn for pose in poses], target.rotation_quaternion,
+        camera_path.turned, _tolerance_of_turn)
+    key(board, item, "location", [(0.0, 0.0, pose.distance * scale) for pose in poses], item.location, _grown,
+        _tolerance_of_size, (2,))
     data.lens, data.ortho_scale = half / poses[0].tangent, poses[0].height * scale
     key(board, data, "lens", [(half / pose.tangent,) for pose in poses], None,
-        lambda before, after, share: camera_path.grown_lens(before[0] / half, after[0] / half, share), _tolerance_of_size)
+        lambda before, after, share: camera_path.grown_lens(before[0] / half, after[0] / half, share),
+        _tolerance_of_size)
     if any(pose.is_flat for pose in poses):
         key(board, data, "ortho_scale", [(pose.height * scale,) for pose in poses], None, _grown, _tolerance_of_size)
     if len({pose.is_flat for pose in poses}) > 1:
@@ -71,7 +74,8 @@ def transitions(board):
     return [(before, after, after.first > before.last + 1) for before, after in zip(board.scenes, board.scenes[1:])]
 
 
-def key(board, owner, path, values, now, way=lambda before, after, share: share, tolerance=lambda before, after: 1e-6, channels=None):
+def key(board, owner, path, values, now, way=lambda before, after, share: share, tolerance=lambda before, after: 1e-6,
+        channels=None):
     """Adds key frames to a property of a data block.
 
     values: the values of all channels for each scene.

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Everything that differs between Blender 3.4 and 5.3. It was run on 3.4.1, and by scripts/check/newer_blenders.sh on the
-versions that it lists."""
+"""Everything that differs between Blender 3.4 and 5.3. It was run on 3.4.1, and by scripts/check/newer_blenders.sh on
+the versions that it lists."""
 
 import math
 
@@ -13,8 +13,8 @@ except ImportError:  # functions that need numbers only are tested without Blend
 
 
 def set_normals(mesh, normals):
-    """Sets smooth shading with the normals of vertices, (vertices, 3), or of corners, (3 * triangles, 3), as float32. It
-    must be called last, after positions and edges are set."""
+    """Sets smooth shading with the normals of vertices, (vertices, 3), or of corners, (3 * triangles, 3), as float32.
+    It must be called last, after positions and edges are set."""
     of_corners = len(normals) != len(mesh.vertices)
     if hasattr(mesh, "use_auto_smooth"):  # before 4.1 custom normals are ignored without it
         mesh.polygons.foreach_set("use_smooth", np.ones(len(mesh.polygons), dtype=bool))
@@ -103,8 +103,8 @@ def scatter_smoothly(shader):
 
 
 def refract(material):
-    """Makes Eevee refract light in a transmitting surface, if the settings of the scene allow it. The setting has another
-    name since 4.2."""
+    """Makes Eevee refract light in a transmitting surface, if the settings of the scene allow it. The setting has
+    another name since 4.2."""
     for name in ("use_screen_refraction", "use_raytrace_refraction"):
         if hasattr(material, name):
             setattr(material, name, True)
@@ -118,8 +118,8 @@ def eevee():
 
 
 def set_up_eevee(scene, samples):
-    """Sets the samples per pixel of Eevee, and screen-space reflection and refraction, which have other names since 4.2.
-    """
+    """Sets the samples per pixel of Eevee, and screen-space reflection and refraction, which have other names since
+    4.2."""
     scene.eevee.taa_render_samples = samples
     for name in ("use_ssr", "use_ssr_refraction", "use_soft_shadows", "use_gtao", "use_raytracing"):
         if hasattr(scene.eevee, name):
@@ -205,8 +205,8 @@ def hsv_node(tree, saturation, value):
 
 
 def mix_colors(tree, share, color, other):
-    """Adds a node that mixes the colour of a socket with `other`, and returns its output. share: the weight of `other`, a
-    number or a socket."""
+    """Adds a node that mixes the colour of a socket with `other`, and returns its output. share: the weight of `other`,
+    a number or a socket."""
     node = tree.nodes.new("ShaderNodeMix")
     node.data_type = "RGBA"
     factor, first, second = (next(socket for socket in node.inputs if socket.identifier == name)
@@ -232,7 +232,8 @@ def line_art(item, name, width):
     bpy.data.materials.create_gpencil_data(ink)
     drawing.materials.append(ink)
     lines = bpy.data.objects.new(name, drawing)
-    modifier = lines.modifiers.new("Line Art", "LINEART") if anew else lines.grease_pencil_modifiers.new("Line Art", "GP_LINEART")
+    modifier = (lines.modifiers.new("Line Art", "LINEART") if anew else
+                lines.grease_pencil_modifiers.new("Line Art", "GP_LINEART"))
     modifier.source_type, modifier.source_object = "OBJECT", item
     modifier.target_layer = layer.name if anew else layer.info
     modifier.target_material = ink
@@ -272,8 +273,8 @@ def input_identifier(tree, name):
 
 
 def identity(item):
-    """Returns a number that identifies an object or a mesh while Blender runs, independently of its name. From 4.2 on it
-    survives undo."""
+    """Returns a number that identifies an object or a mesh while Blender runs, independently of its name. From 4.2 on
+    it survives undo."""
     return item.session_uid if hasattr(item, "session_uid") else item.as_pointer()
 
 
@@ -293,8 +294,10 @@ def set_input(modifier, name, value):
 
 def input_path(modifier, name):
     """Returns the data path of an input of a modifier's node group, relative to its object."""
-    identifier, modifiers = input_identifier(modifier.node_group, name), f'modifiers["{bpy.utils.escape_identifier(modifier.name)}"]'
-    return f"{modifiers}.properties.inputs.{identifier}.value" if hasattr(modifier, "properties") else f'{modifiers}["{identifier}"]'
+    identifier, modifiers = (input_identifier(modifier.node_group, name),
+                             f'modifiers["{bpy.utils.escape_identifier(modifier.name)}"]')
+    return (f"{modifiers}.properties.inputs.{identifier}.value" if hasattr(modifier, "properties") else
+            f'{modifiers}["{identifier}"]')
 
 
 def move_first(item, modifier):
@@ -307,7 +310,8 @@ def move_first(item, modifier):
 
 
 def value_at(item, path, time):
-    """Returns the value of a property at a time of the scene: by its curve in the object's action, or its current value.
+    """Returns the value of a property at a time of the scene: by its curve in the object's action, or its current
+    value.
     path: its data path, such as '["name"]'."""
     found = next((curve for curve in action_curves(item) if curve.data_path == path), None)
     return item.path_resolve(path) if found is None else found.evaluate(time)
@@ -330,7 +334,8 @@ def rename_curves(item, paths):
     animation = item.animation_data
     if animation is None:
         return
-    if animation.action is not None and animation.action.users > 1 and any(curve.data_path in paths for curve in action_curves(item)):
+    if animation.action is not None and animation.action.users > 1 and any(curve.data_path in paths
+                                                                           for curve in action_curves(item)):
         animation.action = animation.action.copy()
     for curve in (*action_curves(item), *animation.drivers):
         curve.data_path = paths.get(curve.data_path, curve.data_path)
@@ -346,11 +351,13 @@ def show_message(title, text):
     """Shows a message in the window, if there is one."""
     if bpy.app.background or not getattr(bpy.context, "window", None):
         return
-    bpy.context.window_manager.popup_menu(lambda menu, _context: menu.layout.label(text=text), title=title, icon="ERROR")
+    bpy.context.window_manager.popup_menu(lambda menu, _context: menu.layout.label(text=text), title=title,
+                                          icon="ERROR")
 
 
 def color_solid_views(context):
-    """Makes solid views that show colours of materials, their default, show the attribute "Color" of surfaces instead."""
+    """Makes solid views that show colours of materials, their default, show the attribute "Color" of surfaces
+    instead."""
     for window in getattr(context.window_manager, "windows", ()):
         for area in window.screen.areas:
             shading = area.spaces.active.shading if area.type == "VIEW_3D" else None

@@ -42,8 +42,10 @@ class Wanted:
 
     def ask(self, owner, urgency=process.NOW):
         """Returns a process.Job whose result becomes a Shown."""
-        about = {"request": dataclasses.asdict(self.request), "atoms": self.atoms and vars(self.atoms), "scale": self.scale,
-                 "crisp": self.crisp, "others": [vars(each) for each in self.others]}
+        about = {
+            "request": dataclasses.asdict(self.request), "atoms": self.atoms and vars(self.atoms), "scale": self.scale,
+            "crisp": self.crisp, "others": [vars(each) for each in self.others]
+        }
         job = working().ask(owner, self.key, "surface", about, urgency)
         job.make = lambda result: result and Shown(result, self)
         return job
@@ -76,7 +78,8 @@ def told_tools():
     except mns_reader.MnsError as error:
         yield str(error)
         return
-    yield f"libmeniscus {found['version']}: {found['library']}" if found["library"] else f"No libmeniscus: {found['missing']}"
+    yield (f"libmeniscus {found['version']}: {found['library']}" if found["library"] else
+           f"No libmeniscus: {found['missing']}")
     yield f"Program: {found['program']}" if found["program"] else "No program meniscus, which only trajectories need"
 
 
@@ -164,7 +167,8 @@ def _run_key(item):
 
 def _ask_for_frames(item):
     """Requests the number of frames of an object's run, and returns the process.Job."""
-    return working().ask(compat.identity(item), _run_key(item), "count", {"request": dataclasses.asdict(item.meniscus.request(1))})
+    return working().ask(compat.identity(item), _run_key(item), "count",
+                         {"request": dataclasses.asdict(item.meniscus.request(1))})
 
 
 def _take_frames(item, job):
@@ -178,15 +182,16 @@ def count_frames(item):
 
 
 def compute_now(item, time=None, in_motion=False):
-    """Computes and shows the surface of an object, and waits for it. Raises MnsError or OSError, and then leaves the mesh
-    unchanged."""
+    """Computes and shows the surface of an object, and waits for it. Raises MnsError or OSError, and then leaves the
+    mesh unchanged."""
     working().drop(compat.identity(item))
     count_frames(item)
     show_place(item, place_at(item, bpy.context.scene.frame_current_final if time is None else time), in_motion)
 
 
 def show_place(item, place, in_motion=False):
-    """Computes and shows the surface of an object at a place of its run, and waits for it. place: None shows nothing."""
+    """Computes and shows the surface of an object at a place of its run, and waits for it. place: None shows
+    nothing."""
     if place is None:
         empty(item)
         libraries.succeed(item)
@@ -262,7 +267,10 @@ def _deliver(done):
             fail(item, "its mesh was changed while the surface was computed; Update shows it")
         else:
             before = item.data.get(SHOWN)
-            copies = [other for other in bpy.data.objects if other != item and showing.asks_alike(item, other) and other.data.get(SHOWN) == before]
+            copies = [
+                other for other in bpy.data.objects
+                if other != item and showing.asks_alike(item, other) and other.data.get(SHOWN) == before
+            ]
             for each in (item, *copies):
                 try:
                     show(each, job.key, _kept[job.key])

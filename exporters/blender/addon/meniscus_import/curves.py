@@ -22,14 +22,15 @@ def bezier(handles, times=TIMES):
 
 
 def fitted(way, start):
-    """Returns the handles of the curve nearest to a path, and the largest distance between both. The path is given by its
-    heights at TIMES. The fit uses the method of Levenberg and Marquardt from the handles `start`."""
+    """Returns the handles of the curve nearest to a path, and the largest distance between both. The path is given by
+    its heights at TIMES. The fit uses the method of Levenberg and Marquardt from the handles `start`."""
     handles = np.array(start, dtype=np.float64)
     rest, damping = bezier(handles) - way, 1e-6
     for _ in range(40):
         if np.abs(rest).max() < 1e-9:
             break
-        slopes = np.stack([(bezier(handles + step) - bezier(handles - step)) / 2e-5 for step in 1e-5 * np.eye(4)], axis=1)
+        slopes = np.stack([(bezier(handles + step) - bezier(handles - step)) / 2e-5 for step in 1e-5 * np.eye(4)],
+                          axis=1)
         change = np.linalg.solve(slopes.T @ slopes + damping * np.eye(4), -slopes.T @ rest)
         tried = handles + change
         tried[[0, 2]] = np.clip(tried[[0, 2]], 1e-3, 1.0 - 1e-3)

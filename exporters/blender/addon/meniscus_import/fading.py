@@ -15,9 +15,9 @@ NEAR = 0.1
 
 
 def add(material):
-    """Makes a material fade. In Cycles, the position of a camera ray in its pixel determines if the ray sees the object or
-    passes it. So a ray meets exactly one of two objects that fade into each other, and the mean of a pixel is the blend
-    of their pictures. For other rays, and in Eevee, the object becomes transparent."""
+    """Makes a material fade. In Cycles, the position of a camera ray in its pixel determines if the ray sees the object
+    or passes it. So a ray meets exactly one of two objects that fade into each other, and the mean of a pixel is the
+    blend of their pictures. For other rays, and in Eevee, the object becomes transparent."""
     tree = material.node_tree
     output = compat.find_or_add(tree, "OUTPUT_MATERIAL", "ShaderNodeOutputMaterial")
     shader = output.inputs["Surface"].links[0].from_socket
@@ -48,18 +48,21 @@ def _group():
     inside, outside = tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
     there = tree.nodes.new("ShaderNodeObjectInfo").outputs["Alpha"]
     past = compat.math_node(tree, "SUBTRACT", there, 1.0)
-    opacity = compat.math_node(tree, "SUBTRACT", 1.0, compat.math_node(tree, "MINIMUM", compat.math_node(tree, "ABSOLUTE", past), 1.0))
+    opacity = compat.math_node(tree, "SUBTRACT", 1.0,
+                               compat.math_node(tree, "MINIMUM", compat.math_node(tree, "ABSOLUTE", past), 1.0))
     place = tree.nodes.new("ShaderNodeSeparateXYZ")
     tree.links.new(tree.nodes.new("ShaderNodeTexCoord").outputs["Window"], place.inputs[0])
     across = compat.math_node(tree, "MULTIPLY", place.outputs["X"], STRIPES[0] * WIDTH)
-    stripe = compat.math_node(tree, "FRACT", compat.math_node(tree, "MULTIPLY_ADD", place.outputs["Y"], STRIPES[1] * HEIGHT, across))
+    stripe = compat.math_node(tree, "FRACT",
+                              compat.math_node(tree, "MULTIPLY_ADD", place.outputs["Y"], STRIPES[1] * HEIGHT, across))
     come = compat.math_node(tree, "LESS_THAN", stripe, there)
     stays = compat.math_node(tree, "SUBTRACT", 1.0, compat.math_node(tree, "LESS_THAN", stripe, past))
     seen = compat.math_node(tree, "MULTIPLY", come, stays)
     path = tree.nodes.new("ShaderNodeLightPath").outputs
     scale = tree.nodes.new("ShaderNodeAttribute")
     scale.attribute_type, scale.attribute_name = "OBJECT", "meniscus_scale"
-    far = compat.math_node(tree, "GREATER_THAN", path["Ray Length"], compat.math_node(tree, "MULTIPLY", scale.outputs["Fac"], NEAR))
+    far = compat.math_node(tree, "GREATER_THAN", path["Ray Length"],
+                           compat.math_node(tree, "MULTIPLY", scale.outputs["Fac"], NEAR))
     blocks = compat.math_node(tree, "MAXIMUM", far, compat.math_node(tree, "GREATER_THAN", opacity, 0.9999))
     other = compat.math_node(tree, "MULTIPLY", opacity, blocks)
     other = compat.math_node(tree, "MULTIPLY", other, compat.math_node(tree, "SUBTRACT", 1.0, path["Is Camera Ray"]))

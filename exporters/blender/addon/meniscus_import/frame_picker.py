@@ -9,15 +9,16 @@ from . import compat, sequence_reader
 #: The greatest number of frames in a nested node group.
 MOST_OF_A_GROUP = 16
 #: Inputs of the node group after the geometry. The modifier shows them, and they can be keyed.
-START, SPEED, OUTSIDE, BY_HAND, FRAME = "Start", "Speed", "Outside: empty, hold, loop, ping-pong", "Frame by hand", "Frame"
+START, SPEED, OUTSIDE, BY_HAND, FRAME = ("Start", "Speed", "Outside: empty, hold, loop, ping-pong", "Frame by hand",
+                                         "Frame")
 OWN = "Own mesh, for modifiers and exports"
 TYPES = {START: "NodeSocketFloat", SPEED: "NodeSocketFloat", OUTSIDE: "NodeSocketInt", BY_HAND: "NodeSocketBool",
          FRAME: "NodeSocketFloat", OWN: "NodeSocketBool"}
 
 
 class Frames:
-    """Meshes in the order of their frames, in a collection that is in no scene. Objects in a scene that are hidden in one
-    view layer would show in others."""
+    """Meshes in the order of their frames, in a collection that is in no scene. Objects in a scene that are hidden in
+    one view layer would show in others."""
 
     def __init__(self, stem):
         self.stem, self.collection = stem[:40], bpy.data.collections.new(stem + ".frames")
@@ -33,8 +34,8 @@ class Frames:
         bpy.data.collections.remove(self.collection)
 
     def show_in(self, item, timing, by_hand=False, frame=1.0):
-        """Makes an object show the frame of a sequence_reader.Timing at the scene's time, or `frame` if `by_hand`. Returns
-        the modifier that does so, which is the first of the object."""
+        """Makes an object show the frame of a sequence_reader.Timing at the scene's time, or `frame` if `by_hand`.
+        Returns the modifier that does so, which is the first of the object."""
         tree = bpy.data.node_groups.new(item.name + " by frame", "GeometryNodeTree")
         values = {START: timing.start, SPEED: timing.speed, OUTSIDE: sequence_reader.OUTSIDE.index(timing.outside),
                   BY_HAND: by_hand, FRAME: frame, OWN: True}
@@ -68,7 +69,8 @@ def _fill(tree, collection, count, values):
     tree.links.new(index, show.inputs["Instance Index"])
     # Later modifiers and exporters (Alembic, USD) use the object's own mesh, not its instances.
     material = next((each for item in collection.objects for each in item.data.materials), None)
-    own = _realized(tree, show.outputs[0], material) if compat.keeps_realized_normals() else _chosen(tree, collection, index, inside)
+    own = (_realized(tree, show.outputs[0], material) if compat.keeps_realized_normals() else
+           _chosen(tree, collection, index, inside))
     shown = compat.switch_geometry(tree, group_input.outputs[OWN], own, show.outputs[0])
     tree.links.new(shown, group_output.inputs[0])
     for column, node in enumerate(tree.nodes):
@@ -76,9 +78,9 @@ def _fill(tree, collection, count, values):
 
 
 def _realized(tree, instances, material):
-    """Returns the output with the mesh of the shown frame under a name that does not change. Exporters of 5.2 make a mesh
-    for each name, and a single realized instance has the name of its frame. So a face is joined to it and deleted again.
-    The face has a material of the frame, so that no other slot is needed."""
+    """Returns the output with the mesh of the shown frame under a name that does not change. Exporters of 5.2 make a
+    mesh for each name, and a single realized instance has the name of its frame. So a face is joined to it and deleted
+    again. The face has a material of the frame, so that no other slot is needed."""
     realize = tree.nodes.new("GeometryNodeRealizeInstances")
     if not compat.exports_by_mesh_name():
         tree.links.new(instances, realize.inputs[0])
@@ -121,8 +123,8 @@ def _one_of(tree, items, first, index, may_group):
 
 
 def _group_of(tree, items, first, index):
-    """Returns the output of _one_of() in a node group of its own, because Blender walks the whole tree for each new link.
-    """
+    """Returns the output of _one_of() in a node group of its own, because Blender walks the whole tree for each new
+    link."""
     inner = bpy.data.node_groups.new(f"{tree.name} {first + 1}", "GeometryNodeTree")
     compat.add_input(inner, "Index", "NodeSocketFloat", 0.0)
     compat.add_output(inner, "Geometry", "NodeSocketGeometry")
@@ -151,7 +153,8 @@ def _index(tree, given, count):
     held = math("MINIMUM", math("MAXIMUM", at, 0.0), count - 1.0)
     looped = math("SUBTRACT", at, math("MULTIPLY", float(count), math("FLOOR", math("DIVIDE", at, float(count)))))
     to_and_fro = math("PINGPONG", at, count - 1.0)
-    loops, turns = (math("COMPARE", given[OUTSIDE], float(sequence_reader.OUTSIDE.index(word)), 0.5) for word in ("LOOP", "PINGPONG"))
+    loops, turns = (math("COMPARE", given[OUTSIDE], float(sequence_reader.OUTSIDE.index(word)), 0.5)
+                    for word in ("LOOP", "PINGPONG"))
     index = math("FLOOR", math("ADD", choose(turns, to_and_fro, choose(loops, looped, held)), 0.5))
 
     within = math("COMPARE", at, held, 0.5)

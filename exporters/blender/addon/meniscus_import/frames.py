@@ -10,8 +10,9 @@ from . import joined, mesh_arrays, mns_reader, sequence_reader
 
 @dataclasses.dataclass
 class Prepared:
-    """A frame that is ready for a mesh. surface: all objects and copies as one, with their materials and chains. arrays:
-    the arrays of its mesh. points: all atoms in all places, (n, 3) Å. triangles: the expected number of triangles."""
+    """A frame that is ready for a mesh. surface: all objects and copies as one, with their materials and chains.
+    arrays: the arrays of its mesh. points: all atoms in all places, (n, 3) Å. triangles: the expected number of
+    triangles."""
 
     surface: mns_reader.Surface
     arrays: mesh_arrays.MeshArrays
@@ -20,8 +21,8 @@ class Prepared:
 
 
 def prepare(sequence, scene_frame, origin, scale, crisp):
-    """Returns the Prepared of a scene frame. sequence: a sequence_reader.Sequence. origin: Å. scale, crisp: arguments of
-    mesh_arrays.of_surface(). Raises MnsError or OSError."""
+    """Returns the Prepared of a scene frame. sequence: a sequence_reader.Sequence. origin: Å. scale, crisp: arguments
+    of mesh_arrays.of_surface(). Raises MnsError or OSError."""
     file = sequence.read(scene_frame)
     surface = joined.joined(file, origin)
     arrays = mesh_arrays.of_surface(surface, scale, crisp, mesh_arrays.names_of(surface))
@@ -31,7 +32,8 @@ def prepare(sequence, scene_frame, origin, scale, crisp):
 
 def points_of(file):
     """Returns the centres of all atoms of a file in all places, (n, 3) Å."""
-    return np.concatenate([surface["atom.center"] @ copy[:, :3].T + copy[:, 3] for surface in file.objects for copy in surface.copies])
+    return np.concatenate(
+        [surface["atom.center"] @ copy[:, :3].T + copy[:, 3] for surface in file.objects for copy in surface.copies])
 
 
 def packed(prepared):
@@ -39,8 +41,10 @@ def packed(prepared):
     surface = prepared.surface
     # Empty arrays show only which of these exist.
     told = {name: np.empty(0) for name in ("atom.opacity", "mesh.cap_plane") if surface.get(name) is not None}
-    return {"path": surface.path, "header": surface.header, "told": told, "arrays": vars(prepared.arrays), "points": prepared.points,
-            "triangles": prepared.triangles}
+    return {
+        "path": surface.path, "header": surface.header, "told": told, "arrays": vars(prepared.arrays),
+        "points": prepared.points, "triangles": prepared.triangles
+    }
 
 
 def unpacked(given):

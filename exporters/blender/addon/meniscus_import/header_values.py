@@ -31,7 +31,8 @@ def _number(low, high, words):
 
 
 def _list_of(count, words):
-    return lambda value: isinstance(value, list) and len(value) > 0 and all(are_numbers(each, count) for each in value), words
+    return lambda value: isinstance(value, list) and len(value) > 0 and all(are_numbers(each, count)
+                                                                            for each in value), words
 
 
 #: Pairs of a test and a description of the values that pass it.
@@ -47,19 +48,23 @@ PLANES = _list_of(4, "a list of planes, each a normal and an offset")
 DIRECTIONS = _list_of(3, "a list of directions")
 COLOR = (lambda value: are_numbers(value, 3, 0.0, 1.0), "three numbers from 0 to 1")
 COLORS = (lambda value: isinstance(value, list) and len(value) == 3 and all(map(COLOR[0], value)), "three colours")
-SIZE = (lambda value: are_numbers(value, 2, 1, 65536) and all(type(each) is int for each in value), "two whole numbers from 1 to 65536")
+SIZE = (lambda value: are_numbers(value, 2, 1, 65536) and all(type(each) is int
+                                                              for each in value), "two whole numbers from 1 to 65536")
 SOURCE = {"source": DICT, "source.file": TEXT}
 #: The key of a camera's field of view by its projection, the keys of its vectors, and the tests of all keys.
 SIZES = {"perspective": "vertical_fov", "orthographic": "height"}
 VECTORS = ("position", "target", "up")
-CAMERA = {**{key: VECTOR for key in VECTORS}, "size": SIZE, "shadows": SHARE, "shadow_softness": _number(0.0, 90.0, "a number from 0 to 90"),
-          "projection": (lambda value: isinstance(value, str) and value in SIZES, "perspective or orthographic"),
-          "vertical_fov": _number(1e-9, 179.999999, "a number above 0 and below 180"), "height": POSITIVE}
+CAMERA = {
+    **{key: VECTOR for key in VECTORS}, "size": SIZE, "shadows": SHARE,
+    "shadow_softness": _number(0.0, 90.0, "a number from 0 to 90"),
+    "projection": (lambda value: isinstance(value, str) and value in SIZES, "perspective or orthographic"),
+    "vertical_fov": _number(1e-9, 179.999999, "a number above 0 and below 180"), "height": POSITIVE
+}
 
 
 def check(header, table, needed=()):
-    """Raises ValueError with one sentence for the first value of a header that fails its test. table: key -> a pair of a
-    test and a description; a dot separates a key from a key inside it. needed: the keys that must exist."""
+    """Raises ValueError with one sentence for the first value of a header that fails its test. table: key -> a pair of
+    a test and a description; a dot separates a key from a key inside it. needed: the keys that must exist."""
     for key, (is_good, words) in table.items():
         holder = header
         *outer, last = key.split(".")

@@ -14,19 +14,28 @@ PLAIN = ("mesh.kind", "mesh.patch", "atom.radius", "atom.color", "atom.index", "
 NAMED = {"atom.chain_id": "chain_names", "atom.name_id": "atom_names", "atom.residue_name_id": "residue_names"}
 #: Arrays that some objects may lack, and their default: value, number of columns, type.
 STAND_INS = {
-    "atom.opacity": (1.0, 1, np.float32), "mesh.cap_plane": (0xffffffff, 1, np.uint32), "mesh.map_value": (0.0, 1, np.float32),
-    "mesh.map_color": (0.0, 3, np.float32), "mesh.map_known": (1, 1, np.uint8), "atom.own_color": (0, 1, np.uint8),
-    "mesh.patch_area": (0.0, 1, np.float32), "atom.entity": (4, 1, np.int32),
-    **{f"atom.{name}": (0.0, 1, np.float32) for name in ("charge", "hydrophobicity", "area", "accessible_area", "buried_area")},
+    "atom.opacity": (1.0, 1, np.float32),
+    "mesh.cap_plane": (0xffffffff, 1, np.uint32),
+    "mesh.map_value": (0.0, 1, np.float32),
+    "mesh.map_color": (0.0, 3, np.float32),
+    "mesh.map_known": (1, 1, np.uint8),
+    "atom.own_color": (0, 1, np.uint8),
+    "mesh.patch_area": (0.0, 1, np.float32),
+    "atom.entity": (4, 1, np.int32),
+    **{
+        f"atom.{name}": (0.0, 1, np.float32)
+        for name in ("charge", "hydrophobicity", "area", "accessible_area", "buried_area")
+    },
     **{f"mesh.{name}": (0.0, 1, np.float32) for name in mns_reader.OF_VERTICES if name.endswith("curvature")},
 }
 OF_TRIANGLES = ("mesh.kind", "mesh.patch", "mesh.component", "mesh.atom", "mesh.cap_plane", "mesh.patch_area")
-OF_VERTICES = ("mesh.position", "mesh.normal", "mesh.velocity", "mesh.map_color", *(f"mesh.{name}" for name in mns_reader.OF_VERTICES))
+OF_VERTICES = ("mesh.position", "mesh.normal", "mesh.velocity", "mesh.map_color", *(f"mesh.{name}"
+                                                                                    for name in mns_reader.OF_VERTICES))
 
 
 def joined(file, origin):
-    """Returns one mns_reader.Surface of all objects and copies. mesh.position is in Å relative to `origin` as float64, and
-    mesh.object is the number of the object of each triangle."""
+    """Returns one mns_reader.Surface of all objects and copies. mesh.position is in Å relative to `origin` as float64,
+    and mesh.object is the number of the object of each triangle."""
     columns = {}
     optional = [name for name in STAND_INS if any(surface.get(name) is not None for surface in file.objects)]
     if "mesh.map_color" in optional and not all(surface.get("mesh.map_color") is not None for surface in file.objects):
@@ -46,7 +55,8 @@ def joined(file, origin):
             rows["components"] += len(surface.header["components"])
     total = sum(len(surface.copies) for surface in file.objects)
     arrays = {name: np.concatenate(parts) for name, parts in columns.items() if len(parts) == total}
-    return mns_reader.Surface(file.objects[0].path, _header(file, arrays, {key: list(table) for key, table in names.items()}, origin), arrays)
+    return mns_reader.Surface(file.objects[0].path,
+                              _header(file, arrays, {key: list(table) for key, table in names.items()}, origin), arrays)
 
 
 def _or_stand_in(surface, name):
@@ -114,8 +124,8 @@ def by_role(surface):
 
 
 def _part(surface, shown, wanted):
-    """Returns the part of a surface that consists of whole components, with their triangles and vertices. shown: True for
-    each of its triangles. wanted: True for each of its components."""
+    """Returns the part of a surface that consists of whole components, with their triangles and vertices. shown: True
+    for each of its triangles. wanted: True for each of its components."""
     triangles = surface["mesh.triangle"][shown]
     used = np.zeros(len(surface["mesh.position"]), dtype=bool)
     used[triangles] = True

@@ -9,23 +9,25 @@ CONSTANT, LINEAR = "CONSTANT", "LINEAR"
 
 
 class Way:
-    """Key frames of one value. points: pairs of a frame and a value. ways: the curve between two successive points, which
-    is CONSTANT, LINEAR or the handles of curves.bezier()."""
+    """Key frames of one value. points: pairs of a frame and a value. ways: the curve between two successive points,
+    which is CONSTANT, LINEAR or the handles of curves.bezier()."""
 
     def __init__(self, frame, value):
         self.points, self.ways = [(frame, value)], []
 
     def go_on(self, frame, value, way=LINEAR):
-        """Appends a key frame. It does nothing at the frame of the last point, and if a value that changes in steps only
-        remains the same."""
-        if frame > self.points[-1][0] and not (way == CONSTANT and value == self.points[-1][1] and {CONSTANT}.issuperset(self.ways)):
+        """Appends a key frame. It does nothing at the frame of the last point, and if a value that changes in steps
+        only remains the same."""
+        if frame > self.points[-1][0] and not (way == CONSTANT and value == self.points[-1][1] and
+                                               {CONSTANT}.issuperset(self.ways)):
             self.points.append((frame, value))
             self.ways.append(way)
 
     def insert(self, owner, path, index=-1):
         """Inserts the key frames into the animation of a data block. index: the index of an array element, or -1."""
         owner.keyframe_insert(path, index=index, frame=self.points[0][0])
-        curve = next(each for each in compat.action_curves(owner) if each.data_path == path and each.array_index == max(index, 0))
+        curve = next(each for each in compat.action_curves(owner)
+                     if each.data_path == path and each.array_index == max(index, 0))
         curve.keyframe_points[0].co[1] = self.points[0][1]
         for frame, value in self.points[1:]:
             curve.keyframe_points.insert(frame, value, options={"FAST"})
@@ -43,9 +45,9 @@ class Way:
 
 def follow(ways, frames, ends, share, tolerance, start, most=2):
     """Appends key frames to several Ways, from the first to the second of `frames`, and from the values of the first to
-    those of the second of `ends`. share(time): returns the share of the path that is done at a share of the time. If the
-    curve would deviate by more than `tolerance` of the path, keys are added by halving the time, up to `most` times.
-    start: the initial handles of the fit."""
+    those of the second of `ends`. share(time): returns the share of the path that is done at a share of the time. If
+    the curve would deviate by more than `tolerance` of the path, keys are added by halving the time, up to `most`
+    times. start: the initial handles of the fit."""
     low, high = (float(share(time)) for time in (0.0, 1.0))
     handles, missed = curves.fitted((share(curves.TIMES) - low) / (high - low), start)
     if missed * abs(high - low) > tolerance and most > 0 and frames[1] - frames[0] >= 2:
@@ -53,8 +55,10 @@ def follow(ways, frames, ends, share, tolerance, start, most=2):
         part = (middle - frames[0]) / (frames[1] - frames[0])
         reached = (float(share(part)) - low) / (high - low)
         between = [one + (other - one) * reached for one, other in zip(*ends)]
-        follow(ways, (frames[0], middle), (ends[0], between), lambda time: share(part * time), tolerance, start, most - 1)
-        follow(ways, (middle, frames[1]), (between, ends[1]), lambda time: share(part + (1.0 - part) * time), tolerance, start, most - 1)
+        follow(ways, (frames[0], middle), (ends[0], between), lambda time: share(part * time), tolerance, start,
+               most - 1)
+        follow(ways, (middle, frames[1]), (between, ends[1]), lambda time: share(part + (1.0 - part) * time), tolerance,
+               start, most - 1)
         return
     for way, value in zip(ways, ends[1]):
         way.go_on(frames[1], value, handles)

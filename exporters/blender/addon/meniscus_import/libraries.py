@@ -25,7 +25,11 @@ def is_fixed(item):
     """True if an object belongs to a library, so that it must not be changed. A message says so once."""
     if item.library is None:
         return False
-    say(item, f"{item.name} comes from {item.library.filepath} and stays as it was saved there; a library override of it follows its run")
+    say(
+        item,
+        f"{item.name} comes from {item.library.filepath} and stays as it was saved there; a library override of it "
+        "follows its run"
+    )
     return True
 
 
@@ -47,11 +51,13 @@ def say(item, sentence):
 
 
 def fail(item, error):
-    """Reports that an object cannot be shown. A render from the command line ends, because its picture would be wrong."""
+    """Reports that an object cannot be shown. A render from the command line ends, because its picture would be
+    wrong."""
     item[ERROR] = str(error) or type(error).__name__
     say(item, f"error: {item.name}: {item[ERROR]}")
     if motion.is_rendering() and bpy.app.background and RENDERS & set(sys.argv) and not item.hide_render:
-        sys.stderr.write(f"meniscus: error: no picture of frame {bpy.context.scene.frame_current}: {item.name}: {item[ERROR]}\n")
+        sys.stderr.write(
+            f"meniscus: error: no picture of frame {bpy.context.scene.frame_current}: {item.name}: {item[ERROR]}\n")
         sys.stderr.flush()
         os._exit(3)  # Blender ignores exceptions of handlers
 
@@ -66,27 +72,30 @@ def _stored(item, name):
 
 
 def path_of(item, name):
-    """Returns the absolute path of a file that an object names. A relative path is relative to the .blend of the object.
-    If that was saved to another folder, or the object was appended, the file is still found in its old place."""
+    """Returns the absolute path of a file that an object names. A relative path is relative to the .blend of the
+    object. If that was saved to another folder, or the object was appended, the file is still found in its old
+    place."""
     stored, override = _stored(item, name), item.override_library
     library = item.library
     if override is not None and _stored(override.reference, name) == stored:
         library = override.reference.library
     found = os.path.normpath(bpy.path.abspath(stored, library=library)) if stored else ""
     told, at = item.get(AT + name, ("", ""))
-    is_elsewhere = stored.startswith("//") and told == stored and os.path.exists(at) and not (library is not None and os.path.exists(found))
+    is_elsewhere = stored.startswith("//") and told == stored and os.path.exists(at) and not (library is not None and
+                                                                                              os.path.exists(found))
     return at if is_elsewhere else found
 
 
 def gone(item, *names):
     """Returns a sentence about the first file of an object that does not exist, or None."""
     paths = [path_of(item, name) for name in names]
-    return next((f"{path}: no such file; what was last read stays" for path in paths if path and not os.path.exists(path)), None)
+    return next((f"{path}: no such file; what was last read stays"
+                 for path in paths if path and not os.path.exists(path)), None)
 
 
 def note(item):
-    """Stores the absolute paths that the relative paths of an object mean, if a relative path is new or its file exists.
-    """
+    """Stores the absolute paths that the relative paths of an object mean, if a relative path is new or its file
+    exists."""
     for name in (*CUSTOM, *SETTINGS):
         stored = _stored(item, name)
         found = os.path.normpath(bpy.path.abspath(stored)) if stored.startswith("//") else ""
@@ -99,8 +108,8 @@ def _local():
 
 
 def _count_from(folder):
-    """Makes the relative paths of this file's own objects relative to another folder, as Blender does with its own paths.
-    """
+    """Makes the relative paths of this file's own objects relative to another folder, as Blender does with its own
+    paths."""
     for item in _local():
         for name in (*CUSTOM, *SETTINGS):
             stored = _stored(item, name)

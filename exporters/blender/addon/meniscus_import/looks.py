@@ -10,9 +10,9 @@ from .mesh_arrays import SLOTS
 MARK = "meniscus_look"
 #: The scattering distance of light in wax in Å, and its factors for red, green and blue.
 WAX_RADIUS, WAX_COLORS = 2.5, (1.0, 0.45, 0.25)
-#: The indices of refraction of glass for reflection and for refraction. Refraction is weaker than in real glass: at 1.45
-#: bumps of atoms are lenses with 4 Å focal length, and after a few of them light comes from any direction, so that a
-#: protein looks like crushed ice, in exact renderers, too.
+#: The indices of refraction of glass for reflection and for refraction. Refraction is weaker than in real glass: at
+#: 1.45 bumps of atoms are lenses with 4 Å focal length, and after a few of them light comes from any direction, so that
+#: a protein looks like crushed ice, in exact renderers, too.
 GLASS_IOR, GLASS_BENDS = 1.45, 1.1
 LINE_WIDTH = 0.24  # Å
 MOST_STOPS = 32  # the greatest number of stops of a colour ramp
@@ -23,9 +23,9 @@ STEPS = {
     # The pLDDT of predictions is in the column of B-factors; bands and colours are those of the AlphaFold database.
     "CONFIDENCE": ("b_factor", ((0, "#ff7d45"), (50, "#ffdb13"), (70, "#65cbf3"), (90, "#0053d6"))),
     # The hues are those of the scheme "element" of the program.
-    "ELEMENT": ("atomic_number", ((0, _GREY), (1, "#ffffff"), (2, _GREY), (7, "#8fa6f5"), (8, "#f58f8f"), (9, "#a9e2a0"), (10, _GREY),
-                                  (15, "#f5c08f"), (16, "#f5e88f"), (17, "#a9e2a0"), (18, _GREY), (26, "#e0a080"), (27, _GREY),
-                                  (30, "#b0b5d8"), (31, _GREY))),
+    "ELEMENT": ("atomic_number", ((0, _GREY), (1, "#ffffff"), (2, _GREY), (7, "#8fa6f5"), (8, "#f58f8f"),
+                                  (9, "#a9e2a0"), (10, _GREY), (15, "#f5c08f"), (16, "#f5e88f"), (17, "#a9e2a0"),
+                                  (18, _GREY), (26, "#e0a080"), (27, _GREY), (30, "#b0b5d8"), (31, _GREY))),
     # The colours are those of Okabe and Ito.
     "KIND": ("ses_kind", ((0, "#e69f00"), (1, "#56b4e9"), (2, "#009e73"))),
 }
@@ -37,7 +37,8 @@ SCALES = {
     "CURVATURE": ("mean_curvature", -0.75, 0.75, ("#3a5fcd", "#ffffff", "#d6412f")),
     "SMOOTH_CURVATURE": ("smooth_mean_curvature", -0.3, 0.3, ("#3a5fcd", "#ffffff", "#d6412f")),
     "ATOM_AREA": ("atom_area", 0.0, 30.0, ("#440154", "#414487", "#2a788e", "#22a884", "#7ad151", "#fde725")),
-    "ACCESSIBLE_AREA": ("accessible_area", 0.0, 40.0, ("#440154", "#414487", "#2a788e", "#22a884", "#7ad151", "#fde725")),
+    "ACCESSIBLE_AREA": ("accessible_area", 0.0, 40.0, ("#440154", "#414487", "#2a788e", "#22a884", "#7ad151",
+                                                       "#fde725")),
     "BURIED_AREA": ("buried_area", 0.0, 40.0, ("#ffffff", "#fecc5c", "#fd8d3c", "#e31a1c", "#800026")),
     "HYDROPHOBICITY": ("hydrophobicity", -4.5, 4.5, ("#3a5fcd", "#ffffff", "#d6412f")),
     "LIPOPHILICITY": ("lipophobicity", -2.0, 2.0, ("#3a5fcd", "#ffffff", "#d6412f")),
@@ -45,10 +46,13 @@ SCALES = {
 #: Colourings by a hue for each integer, and their attributes.
 HUES = {"CHAIN": "chain_id", "RESIDUE": "res_name_id"}
 #: Name of a colouring -> its label.
-COLORINGS = {"COLOR": "As computed", "ELEMENT": "Element", "CHAIN": "Chain", "RESIDUE": "Residue name", "CONFIDENCE": "Confidence (pLDDT)", "B_FACTOR": "B-factor",
-             "CHARGE": "Charge", "POTENTIAL": "Potential map", "HYDROPHOBICITY": "Hydrophobicity (Kyte & Doolittle)",
-             "LIPOPHILICITY": "Lipophilicity", "KIND": "Patch kind", "CURVATURE": "Curvature", "SMOOTH_CURVATURE": "Curvature, smooth",
-             "ATOM_AREA": "Area of the atom", "ACCESSIBLE_AREA": "Accessible area of the atom", "BURIED_AREA": "Buried area of the atom"}
+COLORINGS = {
+    "COLOR": "As computed", "ELEMENT": "Element", "CHAIN": "Chain", "RESIDUE": "Residue name",
+    "CONFIDENCE": "Confidence (pLDDT)", "B_FACTOR": "B-factor", "CHARGE": "Charge", "POTENTIAL": "Potential map",
+    "HYDROPHOBICITY": "Hydrophobicity (Kyte & Doolittle)", "LIPOPHILICITY": "Lipophilicity", "KIND": "Patch kind",
+    "CURVATURE": "Curvature", "SMOOTH_CURVATURE": "Curvature, smooth", "ATOM_AREA": "Area of the atom",
+    "ACCESSIBLE_AREA": "Accessible area of the atom", "BURIED_AREA": "Buried area of the atom"
+}
 #: Name of a colouring -> its attribute.
 ATTRIBUTES = {"COLOR": "Color", **HUES, **{name: of[0] for of_all in (STEPS, SCALES) for name, of in of_all.items()}}
 #: Name of a look -> its label.
@@ -61,8 +65,8 @@ def offered(mesh):
 
 
 def coloring_group(name):
-    """Returns the shader node group of a colouring, and creates it if needed. It has the output Color, and the inputs Low
-    and High if the colouring has a scale."""
+    """Returns the shader node group of a colouring, and creates it if needed. It has the output Color, and the inputs
+    Low and High if the colouring has a scale."""
     for tree in bpy.data.node_groups:
         if tree.get(MARK) == name:
             return tree
@@ -130,8 +134,11 @@ def _ramp(tree, stops):
 
 def _hues(tree, attribute):
     """Adds nodes with a hue for each integer. Multiples of the golden section are never near one another."""
-    number = compat.math_node(tree, "FLOOR", compat.math_node(tree, "ADD", _attribute(tree, attribute).outputs["Fac"], 0.5))
-    hue = compat.math_node(tree, "FRACT", compat.math_node(tree, "ADD", compat.math_node(tree, "MULTIPLY", number, 0.6180340), 0.58))
+    number = compat.math_node(tree, "FLOOR",
+                              compat.math_node(tree, "ADD",
+                                               _attribute(tree, attribute).outputs["Fac"], 0.5))
+    hue = compat.math_node(tree, "FRACT",
+                           compat.math_node(tree, "ADD", compat.math_node(tree, "MULTIPLY", number, 0.6180340), 0.58))
     node = compat.hsv_node(tree, 0.45, 0.85)
     tree.links.new(hue, node.inputs[0])
     return node.outputs[0]
@@ -144,21 +151,24 @@ def linear(text):
 
 
 def check(look, fades, looks):
-    """Raises mns_reader.MnsError if a look cannot represent the requested material: fades: True for fading objects; looks:
-    the parameters of the object's own material."""
+    """Raises mns_reader.MnsError if a look cannot represent the requested material: fades: True for fading objects;
+    looks: the parameters of the object's own material."""
     if looks and look not in MAKERS:
-        raise mns_reader.MnsError(f"the look {LOOKS[look].lower()} has no place for {', '.join(sorted(looks))}, which an object has of its own; "
-                                  f"take {', '.join(LOOKS[name].lower() for name in MAKERS)}, or export it without")
+        raise mns_reader.MnsError(
+            f"the look {LOOKS[look].lower()} has no place for {', '.join(sorted(looks))}, which an object has of its "
+            "own; "
+            f"take {', '.join(LOOKS[name].lower() for name in MAKERS)}, or export it without")
     if fades and look == "GLASS":
         raise mns_reader.MnsError("the look glass cannot fade, as objects of a storyboard do; take another look")
 
 
 def material(look, coloring, scale=0.1, kind=materials.OPAQUE, fades=False, looks=None):
-    """Returns the material of a look and a colouring, and creates it if needed. scale: Blender units per Å, for the depth
-    of light. kind, fades, looks: results of materials.asked_by()."""
+    """Returns the material of a look and a colouring, and creates it if needed. scale: Blender units per Å, for the
+    depth of light. kind, fades, looks: results of materials.asked_by()."""
     looks = looks or {}
     check(look, fades, looks)
-    mark = f"{look} {coloring} {scale:.6g}" + (f" {kind}" if kind != materials.OPAQUE else "") + (" fading" if fades else "")
+    mark = f"{look} {coloring} {scale:.6g}" + (f" {kind}" if kind != materials.OPAQUE else "") + (" fading"
+                                                                                                  if fades else "")
     mark += "".join(f" {key} {value:g}" for key, value in sorted(looks.items()))
     for each in bpy.data.materials:
         if each.get(MARK) == mark:
@@ -227,8 +237,8 @@ def _wax(tree, shader, color, scale):
 
 def _glass(tree, shader, color, output, scale):
     """Adds the nodes of glass. Attributes belong to the surface and not to the volume, so light is coloured where it
-    enters, and absorbed along its way inside. That works in Cycles. Eevee fills the whole bounding box with a volume, so
-    there the surface has more of the colour."""
+    enters, and absorbed along its way inside. That works in Cycles. Eevee fills the whole bounding box with a volume,
+    so there the surface has more of the colour."""
     tree.links.new(_clear(tree, shader, color, 0.5), output.inputs["Surface"])
     absorption = tree.nodes.new("ShaderNodeVolumeAbsorption")
     absorption.inputs["Color"].default_value = (0.75, 0.85, 0.9, 1.0)
@@ -248,7 +258,8 @@ def _clear(tree, shader, color, white):
     _set(shader, GLASS_BENDS, "IOR")
     _set(shader, 1.0, "Transmission Weight", "Transmission")
     tree.links.new(compat.mix_colors(tree, white, color, (1.0, 1.0, 1.0, 1.0)), shader.inputs["Base Color"])
-    mirror, fresnel, side, both = (tree.nodes.new("ShaderNode" + kind) for kind in ("BsdfGlossy", "Fresnel", "NewGeometry", "MixShader"))
+    mirror, fresnel, side, both = (tree.nodes.new("ShaderNode" + kind)
+                                   for kind in ("BsdfGlossy", "Fresnel", "NewGeometry", "MixShader"))
     mirror.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
     mirror.inputs["Roughness"].default_value = 0.08  # enough to sample lamps without grain
     fresnel.inputs["IOR"].default_value = GLASS_IOR
@@ -268,9 +279,9 @@ def dress(item, look, coloring):
 
 
 def dress_mesh(mesh, look, coloring, scale):
-    """Gives a look to the outer surface and the cavities of a mesh, and returns its material. Opacity, parameters of the
-    object's own material and fading remain. scale: Blender units per Å. Raises mns_reader.MnsError if the look cannot
-    represent one of them."""
+    """Gives a look to the outer surface and the cavities of a mesh, and returns its material. Opacity, parameters of
+    the object's own material and fading remain. scale: Blender units per Å. Raises mns_reader.MnsError if the look
+    cannot represent one of them."""
     made = material(look, coloring, scale, *materials.asked_by(mesh))
     slots = mesh.materials
     while len(slots) < 2:
@@ -282,8 +293,8 @@ def dress_mesh(mesh, look, coloring, scale):
 
 
 def renewed(mesh, surface, scale):
-    """Returns the materials of a mesh for a new surface. Materials of imports and of looks change as the surface requests;
-    the user's own materials remain. Raises mns_reader.MnsError if a look cannot represent the request."""
+    """Returns the materials of a mesh for a new surface. Materials of imports and of looks change as the surface
+    requests; the user's own materials remain. Raises mns_reader.MnsError if a look cannot represent the request."""
     fades, slots = materials.asked_by(mesh)[1], list(mesh.materials)
     for slot, (role, kind) in enumerate(materials.wanted(surface)):
         old = slots[slot] if slot < len(slots) else None
@@ -292,8 +303,8 @@ def renewed(mesh, surface, scale):
             slots[slot] = material(look, coloring, scale, kind, fades, dict(materials.looks_of(surface)))
         elif old is None or materials.MARK in old:
             own = old is not None and " own" in old[materials.MARK]
-            made = materials.find_or_make(role, kind, [each for each in slots if each is not None], own, materials.hatching_of(surface, role),
-                                          materials.looks_of(surface), fades)
+            made = materials.find_or_make(role, kind, [each for each in slots if each is not None], own,
+                                          materials.hatching_of(surface, role), materials.looks_of(surface), fades)
             slots[slot:slot + 1] = [made]
     return slots
 

@@ -38,12 +38,13 @@ def hatching_of(surface, role):
 def looks_of(surface):
     """Returns the parameters of the object's own material as pairs of a key and a number. They are () for the default
     material."""
-    return tuple(sorted((key, float(value)) for key, value in surface.header.get("material", {}).items() if key in KEYS))
+    return tuple(sorted(
+        (key, float(value)) for key, value in surface.header.get("material", {}).items() if key in KEYS))
 
 
 def asked_of(surface, fades):
-    """Returns the requirements of a surface on any material as plain values for a custom property: its kind of opacity, 1
-    if it fades, and the pairs of looks_of()."""
+    """Returns the requirements of a surface on any material as plain values for a custom property: its kind of opacity,
+    1 if it fades, and the pairs of looks_of()."""
     return {"kind": kind_of(surface), "fades": int(fades), **dict(looks_of(surface))}
 
 
@@ -59,12 +60,15 @@ def find_or_make(role, kind, new_materials, own=False, hatching=None, looks=(), 
 
     role: one of SLOTS. own: True for a material of this import only. hatching: the result of hatching_of(). looks: the
     result of looks_of(). fades: True if it fades by the object's colour (fading.py)."""
-    mark = f"{role} {kind}" + (" own" if own else "") + ("" if hatching is None else " hatched {:g} {:g}".format(*hatching))
+    mark = (f"{role} {kind}" + (" own" if own else "") +
+            ("" if hatching is None else " hatched {:g} {:g}".format(*hatching)))
     mark += "".join(f" {key} {value:g}" for key, value in looks) + (" fading" if fades else "")
     for material in new_materials if own else bpy.data.materials:
-        if material.get(MARK) == mark or (kind == OPAQUE and not (own or looks or fades) and _is_of_an_old_import(material, role)):
+        if material.get(MARK) == mark or (kind == OPAQUE and not (own or looks or fades) and
+                                          _is_of_an_old_import(material, role)):
             return material
-    material = bpy.data.materials.new(f"Meniscus {role}{ENDINGS[kind]}{'' if hatching is None else ' hatched'}{' fading' if fades else ''}")
+    material = bpy.data.materials.new(
+        f"Meniscus {role}{ENDINGS[kind]}{'' if hatching is None else ' hatched'}{' fading' if fades else ''}")
     new_materials.append(material)
     material[MARK] = mark
     _fill(material, kind, hatching, dict(looks))
@@ -109,8 +113,8 @@ def _fill(material, kind, hatching, looks):
 
 
 def opacity_of(tree, kind, beside):
-    """Returns the socket with the opacity of a surface. kind: TRANSLUCENT or FILM. beside: the node near which new nodes
-    are placed."""
+    """Returns the socket with the opacity of a surface. kind: TRANSLUCENT or FILM. beside: the node near which new
+    nodes are placed."""
     opacity = _attribute(tree, "opacity", beside, -320).outputs["Fac"]
     return _through_a_film(tree, opacity) if kind == FILM else opacity
 
@@ -138,7 +142,8 @@ def _hatched(tree, color, shader, share, light):
     lines. light: the relative brightness of the lines."""
     stripe = compat.math_node(tree, "FRACT", _attribute(tree, "cap_stripe", shader, -520).outputs["Fac"])
     dark = compat.math_node(tree, "LESS_THAN", stripe, share)
-    return _scaled(tree, color, compat.math_node(tree, "SUBTRACT", 1.0, compat.math_node(tree, "MULTIPLY", dark, 1.0 - light)))
+    return _scaled(tree, color,
+                   compat.math_node(tree, "SUBTRACT", 1.0, compat.math_node(tree, "MULTIPLY", dark, 1.0 - light)))
 
 
 def _scaled(tree, color, factor):
@@ -153,10 +158,11 @@ def _scaled(tree, color, factor):
 
 
 def set_looks(tree, shader, looks):
-    """Sets the parameters of an object's own material in a shader whose colours are linked. Blinn-Phong highlights become
-    highlights of Blender with equal strength and width; the defaults 0.1 and 40 become Blender's defaults."""
+    """Sets the parameters of an object's own material in a shader whose colours are linked. Blinn-Phong highlights
+    become highlights of Blender with equal strength and width; the defaults 0.1 and 40 become Blender's defaults."""
     if "specular" in looks:
-        compat.principled_input(shader, "Specular IOR Level", "Specular").default_value = min(5.0 * looks["specular"], 1.0)
+        compat.principled_input(shader, "Specular IOR Level",
+                                "Specular").default_value = min(5.0 * looks["specular"], 1.0)
     if "shininess" in looks:
         shader.inputs["Roughness"].default_value = (2.0 / (looks["shininess"] + 2.0)) ** 0.25
     if "roughness" in looks and "Diffuse Roughness" in shader.inputs:  # from 4.3 on
@@ -166,19 +172,23 @@ def set_looks(tree, shader, looks):
         tree.links.new(color, compat.principled_input(shader, "Emission Color", "Emission"))
         shader.inputs["Emission Strength"].default_value = looks["ambient"]
         rest = _scaled(tree, color, 1.0 - looks["ambient"])
-        for socket in [link.to_socket for link in tree.links if link.to_node == shader and link.to_socket.name in ("Base Color", "Subsurface Color")]:
+        for socket in [
+                link.to_socket for link in tree.links
+                if link.to_node == shader and link.to_socket.name in ("Base Color", "Subsurface Color")
+        ]:
             tree.links.new(rest, socket)
 
 
 def _through_a_film(tree, opacity):
-    """Returns the socket with the opacity of a film by Bouguer's law: 1 - (1 - opacity)^(1 / c), where c is the cosine of
-    the angle between the line of sight and the normal, at least LEAST_COSINE."""
+    """Returns the socket with the opacity of a film by Bouguer's law: 1 - (1 - opacity)^(1 / c), where c is the cosine
+    of the angle between the line of sight and the normal, at least LEAST_COSINE."""
     geometry = tree.nodes.new("ShaderNodeNewGeometry")
     facing = tree.nodes.new("ShaderNodeVectorMath")
     facing.operation = "DOT_PRODUCT"
     tree.links.new(geometry.outputs["Normal"], facing.inputs[0])
     tree.links.new(geometry.outputs["Incoming"], facing.inputs[1])
-    cosine = compat.math_node(tree, "MAXIMUM", compat.math_node(tree, "ABSOLUTE", facing.outputs["Value"]), LEAST_COSINE)
+    cosine = compat.math_node(tree, "MAXIMUM", compat.math_node(tree, "ABSOLUTE", facing.outputs["Value"]),
+                              LEAST_COSINE)
     through = compat.math_node(tree, "SUBTRACT", 1.0, opacity)
     return compat.math_node(tree, "SUBTRACT", 1.0,
                             compat.math_node(tree, "POWER", through, compat.math_node(tree, "DIVIDE", 1.0, cosine)))

@@ -16,21 +16,36 @@ FACE_INTEGERS = {
 #: Attributes of points with numbers of atoms, as in Molecular Nodes and with its names if it has them: the array of the
 #: atoms, and the type. vdw_radii is in Blender units. Attributes in NAMES are indices into the sorted names.
 POINT_NUMBERS = {
-    "atomic_number": ("atom.atomic_number", "INT"), "res_id": ("atom.res_id", "INT"), "chain_id": ("atom.chain_id", "INT"),
-    "atom_name_id": ("atom.name_id", "INT"), "res_name_id": ("atom.residue_name_id", "INT"), "entity": ("atom.entity", "INT"),
-    "charge": ("atom.charge", "FLOAT"), "hydrophobicity": ("atom.hydrophobicity", "FLOAT"), "b_factor": ("atom.b_factor", "FLOAT"),
-    "vdw_radii": ("atom.radius", "FLOAT"), "atom_area": ("atom.area", "FLOAT"), "accessible_area": ("atom.accessible_area", "FLOAT"),
+    "atomic_number": ("atom.atomic_number", "INT"),
+    "res_id": ("atom.res_id", "INT"),
+    "chain_id": ("atom.chain_id", "INT"),
+    "atom_name_id": ("atom.name_id", "INT"),
+    "res_name_id": ("atom.residue_name_id", "INT"),
+    "entity": ("atom.entity", "INT"),
+    "charge": ("atom.charge", "FLOAT"),
+    "hydrophobicity": ("atom.hydrophobicity", "FLOAT"),
+    "b_factor": ("atom.b_factor", "FLOAT"),
+    "vdw_radii": ("atom.radius", "FLOAT"),
+    "atom_area": ("atom.area", "FLOAT"),
+    "accessible_area": ("atom.accessible_area", "FLOAT"),
     "buried_area": ("atom.buried_area", "FLOAT"),
 }
 #: Attributes of points with numbers of the surface, and their arrays. Curvatures are in 1/Å and 1/Å² for any scale.
-VERTEX_NUMBERS = {name: f"mesh.{name}" for name in ("mean_curvature", "gaussian_curvature", "smooth_mean_curvature", "smooth_gaussian_curvature",
-                                                      "open_sky")}
+VERTEX_NUMBERS = {
+    name: f"mesh.{name}" for name in ("mean_curvature", "gaussian_curvature", "smooth_mean_curvature",
+                                      "smooth_gaussian_curvature", "open_sky")
+}
 #: Attributes that are indices into a list of names: the key of the list in headers, and the custom property with the
 #: sorted list.
-NAMES = {"chain_id": ("chain_names", "chain_ids"), "atom_name_id": ("atom_names", "atom_names"), "res_name_id": ("residue_names", "res_names")}
+NAMES = {
+    "chain_id": ("chain_names", "chain_ids"), "atom_name_id": ("atom_names", "atom_names"),
+    "res_name_id": ("residue_names", "res_names")
+}
 #: All attributes that an import makes.
-OURS = {"atom_index", "ses_atom", "opacity", "velocity", "Color", "ses_cap", "cap_stripe", "map_value", "map_known", "patch_area",
-        *FACE_INTEGERS, *POINT_NUMBERS, *VERTEX_NUMBERS}
+OURS = {
+    "atom_index", "ses_atom", "opacity", "velocity", "Color", "ses_cap", "cap_stripe", "map_value", "map_known",
+    "patch_area", *FACE_INTEGERS, *POINT_NUMBERS, *VERTEX_NUMBERS
+}
 
 
 @dataclasses.dataclass
@@ -58,7 +73,9 @@ class MeshArrays:
 
     @property
     def nbytes(self):
-        return sum(each.nbytes for each in (self.positions, self.triangles, self.normals, *(values for *_, values in self.attributes)))
+        return sum(each.nbytes
+                   for each in (self.positions, self.triangles, self.normals, *(values
+                                                                                for *_, values in self.attributes)))
 
 
 def of_surface(surface, scale, crisp_colors, names, base=0.0):
@@ -76,8 +93,8 @@ def of_surface(surface, scale, crisp_colors, names, base=0.0):
     velocity = surface.get("mesh.velocity")
     index = surface.get("atom.index")  # version 1 has none: one object has the atoms of the molecule in order
     ses_atom = (surface["mesh.atom"] if index is None else index[surface["mesh.atom"]]).astype(np.int32)
-    return MeshArrays(positions, triangles, normals_of(surface), pairs[:, 0] << np.uint64(32) | pairs[:, 1], slots, ses_atom,
-                      None if velocity is None else (velocity * scale).astype(np.float32),
+    return MeshArrays(positions, triangles, normals_of(surface), pairs[:, 0] << np.uint64(32) | pairs[:, 1], slots,
+                      ses_atom, None if velocity is None else (velocity * scale).astype(np.float32),
                       [*_of_faces(surface, ses_atom), *_of_points(surface, scale, names),
                        _colors(surface, triangles, len(positions), crisp_colors)])
 
@@ -89,8 +106,9 @@ def names_of(*surfaces):
 
 
 def renumber(arrays, names, tables):
-    """Converts attributes of NAMES in a MeshArrays from indices into `names` to indices into `tables` (attribute -> list
-    of names). New names are appended to the tables. Meshes that follow one another get the same indices in this way."""
+    """Converts attributes of NAMES in a MeshArrays from indices into `names` to indices into `tables` (attribute ->
+    list of names). New names are appended to the tables. Meshes that follow one another get the same indices in this
+    way."""
     for number, (attribute, kind, domain, values) in enumerate(arrays.attributes):
         if attribute not in NAMES:
             continue
@@ -179,7 +197,8 @@ def stripes(surface):
     hatching, cap = surface.header["caps"]["hatching"], caps_of(surface)
     origin = np.array(surface.header["mesh"]["origin"], dtype=np.float64)
     across = np.array(hatching["across"], dtype=np.float64)[surface["mesh.cap_plane"][cap]]
-    points = surface["mesh.position"][surface["mesh.triangle"][cap]].astype(np.float64) + origin + surface.header.get("moved_by", 0.0)
+    points = (surface["mesh.position"][surface["mesh.triangle"][cap]].astype(np.float64) + origin +
+              surface.header.get("moved_by", 0.0))
     values = np.full((len(cap), 3), 0.5 + 0.5 * hatching["share"], dtype=np.float32)
     values[cap] = np.einsum("tkx,tx->tk", points, across) / hatching["distance"]
     return values.ravel()
@@ -197,7 +216,8 @@ def corner_colors(surface):
 
 
 def vertex_atoms(triangles, atom, count):
-    """Returns the atom of each vertex, which is the first of the atoms of its triangles, as in mesh files of Meniscus."""
+    """Returns the atom of each vertex, which is the first of the atoms of its triangles, as in mesh files of
+    Meniscus."""
     found = np.zeros(count, dtype=np.int64)
     order = np.argsort(-atom.astype(np.int64), kind="stable")
     found[triangles[order].ravel()] = np.repeat(atom[order], 3)  # the last assignment counts
@@ -217,7 +237,8 @@ def face_colors(surface):
     kinds, cap = surface.header.get("kind_colors"), caps_of(surface)
     colors = surface["atom.color"][surface["mesh.atom"]]
     if kinds is not None:
-        colors = np.where(cap[:, None], colors, np.array(kinds, dtype=np.float32)[np.where(cap, 0, surface["mesh.kind"])])
+        colors = np.where(cap[:, None], colors,
+                          np.array(kinds, dtype=np.float32)[np.where(cap, 0, surface["mesh.kind"])])
     if "color" in surface.header.get("caps", {}):
         colors = np.where(cap[:, None], np.array(surface.header["caps"]["color"], dtype=np.float32), colors)
     return colors

@@ -25,31 +25,46 @@ NEEDED = {
     "atom.center": 3, "atom.radius": 1, "atom.color": 3,
 }
 #: Optional numbers of atoms and of vertices.
-OF_ATOMS = ("b_factor", "charge", "hydrophobicity", "atomic_number", "res_id", "chain_id", "name_id", "residue_name_id", "entity", "area",
-            "accessible_area", "buried_area", "index", "file_index", "opacity", "own_color")
-OF_VERTICES = ("mean_curvature", "gaussian_curvature", "smooth_mean_curvature", "smooth_gaussian_curvature", "open_sky", "map_value", "map_known")
+OF_ATOMS = ("b_factor", "charge", "hydrophobicity", "atomic_number", "res_id", "chain_id", "name_id", "residue_name_id",
+            "entity", "area", "accessible_area", "buried_area", "index", "file_index", "opacity", "own_color")
+OF_VERTICES = ("mean_curvature", "gaussian_curvature", "smooth_mean_curvature", "smooth_gaussian_curvature", "open_sky",
+               "map_value", "map_known")
 #: Arrays that a mesh may have, and their columns.
 OPTIONAL = {"mesh.velocity": 3, "mesh.cap_plane": 1, "mesh.map_color": 3, "mesh.patch_area": 1,
             **{f"mesh.{name}": 1 for name in OF_VERTICES}, **{f"atom.{name}": 1 for name in OF_ATOMS}}
 #: Optional numbers of atoms that are integers.
-WHOLE = ("atomic_number", "res_id", "chain_id", "name_id", "residue_name_id", "entity", "index", "file_index", "own_color")
+WHOLE = ("atomic_number", "res_id", "chain_id", "name_id", "residue_name_id", "entity", "index", "file_index",
+         "own_color")
 #: The value of mesh.kind for caps.
 CAP = 4
 #: Tests of the values of headers. Values of an object are in its own part of the header.
 VALUES = {
-    "generator": header_values.TEXT, **header_values.SOURCE, "name": header_values.TEXT, "mesh": header_values.DICT,
-    "mesh.origin": header_values.VECTOR, "mesh.tolerance": header_values.NUMBER, "kind_colors": header_values.COLORS,
+    "generator": header_values.TEXT,
+    **header_values.SOURCE,
+    "name": header_values.TEXT,
+    "mesh": header_values.DICT,
+    "mesh.origin": header_values.VECTOR,
+    "mesh.tolerance": header_values.NUMBER,
+    "kind_colors": header_values.COLORS,
     **{key: header_values.NUMBER for key in ("probe_radius", "area", "volume")},
     **{key: header_values.TEXTS for key in ("chain_names", "atom_names", "residue_names")},
-    "material": header_values.DICT, **{f"material.{key}": header_values.SHARE for key in ("ambient", "roughness", "specular")},
+    "material": header_values.DICT,
+    **{f"material.{key}": header_values.SHARE for key in ("ambient", "roughness", "specular")},
     "material.shininess": header_values.SHININESS,
-    "caps": header_values.DICT, "caps.planes": header_values.PLANES, "caps.color": header_values.COLOR, "caps.hatching": header_values.DICT,
-    "caps.hatching.across": header_values.DIRECTIONS, "caps.hatching.distance": header_values.POSITIVE,
-    "caps.hatching.share": header_values.SHARE, "caps.hatching.light": header_values.SHARE,
+    "caps": header_values.DICT,
+    "caps.planes": header_values.PLANES,
+    "caps.color": header_values.COLOR,
+    "caps.hatching": header_values.DICT,
+    "caps.hatching.across": header_values.DIRECTIONS,
+    "caps.hatching.distance": header_values.POSITIVE,
+    "caps.hatching.share": header_values.SHARE,
+    "caps.hatching.light": header_values.SHARE,
 }
 #: Tests of the values of an entry of the components.
-COMPONENT = {"components": header_values.DICT, "components.kind": header_values.TEXT, "components.area": header_values.NUMBER,
-             "components.volume": header_values.NUMBER}
+COMPONENT = {
+    "components": header_values.DICT, "components.kind": header_values.TEXT, "components.area": header_values.NUMBER,
+    "components.volume": header_values.NUMBER
+}
 
 
 class MnsError(Exception):
@@ -76,9 +91,9 @@ def read_json(path, what=""):
 
 
 def read_manifest(path, kind, words, version, values, needed, what=""):
-    """Returns the checked header of a JSON file that belongs to .mns files. kind: its format. words: its description for
-    messages. version: the newest known version. values, needed: arguments of header_values.check(). what: a note on its
-    origin. Raises MnsError or OSError."""
+    """Returns the checked header of a JSON file that belongs to .mns files. kind: its format. words: its description
+    for messages. version: the newest known version. values, needed: arguments of header_values.check(). what: a note on
+    its origin. Raises MnsError or OSError."""
     header = read_json(path, what)
     if not isinstance(header, dict) or header.get("format") != kind:
         raise MnsError(f"{path}: not {words}")
@@ -151,8 +166,8 @@ def read(path):
 
 
 def read_arrays(path):
-    """Returns the header and the arrays by name of any file in this container format, after checking its checksum. Raises
-    MnsError with one sentence, or OSError."""
+    """Returns the header and the arrays by name of any file in this container format, after checking its checksum.
+    Raises MnsError with one sentence, or OSError."""
     with open(path, "rb") as file:
         try:
             data = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
@@ -180,7 +195,8 @@ def _objects(path, header, arrays):
         prefix = str(entry.get("prefix", ""))
         own = {name[len(prefix):]: array for name, array in arrays.items() if name.startswith(prefix)}
         _check_copies(path, entry)
-        surfaces.append(Surface(path, {key: value for key, value in {**header, **entry}.items() if key not in OF_JOINED}, own))
+        surfaces.append(
+            Surface(path, {key: value for key, value in {**header, **entry}.items() if key not in OF_JOINED}, own))
         _check(surfaces[-1])
     return surfaces
 
@@ -289,8 +305,12 @@ def _check(surface):
         if name in arrays and len(arrays[name]) != rows:
             raise MnsError(f"{path}: array {name} has {len(arrays[name])} rows instead of {rows}")
     limits = {
-        "mesh.triangle": vertices, "mesh.sharp_edge": vertices, "mesh.sharp_corner": 3 * triangles, "mesh.kind": CAP + 1 if "caps" in surface.header else 3,
-        "mesh.component": components, "mesh.atom": atoms,
+        "mesh.triangle": vertices,
+        "mesh.sharp_edge": vertices,
+        "mesh.sharp_corner": 3 * triangles,
+        "mesh.kind": CAP + 1 if "caps" in surface.header else 3,
+        "mesh.component": components,
+        "mesh.atom": atoms,
     }
     for name in [f"atom.{name}" for name in WHOLE if f"atom.{name}" in arrays]:
         if arrays[name].dtype.kind not in "iu":
@@ -324,7 +344,8 @@ def _check_caps(surface):
     path, caps = surface.path, surface.header["caps"]
     planes = caps["planes"]
     if "hatching" in caps and len(caps["hatching"]["across"]) != len(planes):
-        raise MnsError(f"{path}: caps.hatching.across has {len(caps['hatching']['across'])} directions for {len(planes)} planes")
+        raise MnsError(
+            f"{path}: caps.hatching.across has {len(caps['hatching']['across'])} directions for {len(planes)} planes")
     cap, plane = surface["mesh.kind"] == CAP, surface.get("mesh.cap_plane")
     if cap.any() and (plane is None or plane.dtype.kind not in "iu" or int(plane[cap].max()) >= len(planes)):
         raise MnsError(f"{path}: a cap lies on no plane")

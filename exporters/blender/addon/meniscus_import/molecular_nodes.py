@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads atoms of an object in the form of Molecular Nodes: a vertex per atom, named attributes, radii in Blender units."""
+"""Reads atoms of an object in the form of Molecular Nodes: a vertex per atom, named attributes, radii in Blender
+units."""
 
 import numpy as np
 
@@ -24,8 +25,8 @@ def is_molecule(item):
 
 
 def scale_of(item):
-    """Returns the scale in Blender units per Å: the power of ten for which the radii are those of atoms. Raises MnsError
-    if no atom has a radius."""
+    """Returns the scale in Blender units per Å: the power of ten for which the radii are those of atoms. Raises
+    MnsError if no atom has a radius."""
     radii = _values(item.data, RADII)
     radii = radii[np.isfinite(radii) & (radii > 0)]
     if not len(radii):
@@ -40,8 +41,12 @@ def frames_of(item):
 
     collection = bpy.data.collections.get(f".data_{item.name}_frames")
     count = len(item.data.vertices)
-    frames = [] if collection is None else [other for other in collection.objects if other.type == "MESH" and len(other.data.vertices) == count]
-    return sorted(frames, key=lambda other: int("0" + "".join(c for c in other.name.rpartition("_")[2].split(".")[0] if c.isdigit())))
+    frames = [] if collection is None else [
+        other for other in collection.objects if other.type == "MESH" and len(other.data.vertices) == count
+    ]
+    return sorted(
+        frames,
+        key=lambda other: int("0" + "".join(c for c in other.name.rpartition("_")[2].split(".")[0] if c.isdigit())))
 
 
 def read(item, scale, selection="", place=0):
@@ -55,7 +60,10 @@ def read(item, scale, selection="", place=0):
     if not chosen.any():
         raise mns_reader.MnsError(f"{item.name}: the selection {selection} has no atom")
     index = np.flatnonzero(chosen).astype(np.uint32)
-    numbers = {array: _values(mesh, name)[chosen].astype(kind) for name, (array, kind) in ARRAYS.items() if _is_number(mesh, name)}
+    numbers = {
+        array: _values(mesh, name)[chosen].astype(kind) for name, (array, kind) in ARRAYS.items()
+        if _is_number(mesh, name)
+    }
     names = [str(name) for name in item.get("chain_ids", [])]
     chains = numbers.get("atom.chain_id")
     if chains is not None and not 0 <= chains.min() <= chains.max() < len(names):
@@ -82,7 +90,8 @@ def _chosen(item, selection):
 
 
 def _is_number(mesh, name):
-    return name in mesh.attributes and mesh.attributes[name].domain == "POINT" and mesh.attributes[name].data_type in ("FLOAT", "INT")
+    return (name in mesh.attributes and mesh.attributes[name].domain == "POINT" and
+            mesh.attributes[name].data_type in ("FLOAT", "INT"))
 
 
 def _positions(mesh):
@@ -110,5 +119,7 @@ def _others(mesh, chosen):
     names = [attribute.name for attribute in mesh.attributes
              if attribute.domain == "POINT" and attribute.data_type in attributes.TYPES and attribute.name not in ours
              and not attribute.name.startswith(".")]
-    return [attributes.Kept(name, mesh.attributes[name].data_type, "POINT", attributes.read(mesh, name, mesh.attributes[name].data_type),
-                            chosen.copy()) for name in names]
+    return [
+        attributes.Kept(name, mesh.attributes[name].data_type, "POINT",
+                        attributes.read(mesh, name, mesh.attributes[name].data_type), chosen.copy()) for name in names
+    ]

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The panel Meniscus in the sidebar of 3-D views, which makes objects with computed surfaces and edits their settings."""
+"""The panel Meniscus in the sidebar of 3-D views, which makes objects with computed surfaces and edits their
+settings."""
 
 import os
 
@@ -12,8 +13,8 @@ from .settings import DETAILS, OF_NUMBERS, OWN_COLORS
 
 
 def new_object(context, name, source, **values):
-    """Returns a new selected and active object without geometry. It is in the active collection, or in the collection of
-    the scene if the active one is excluded from the view layer. values: settings of the object."""
+    """Returns a new selected and active object without geometry. It is in the active collection, or in the collection
+    of the scene if the active one is excluded from the view layer. values: settings of the object."""
     item = bpy.data.objects.new(name, bpy.data.meshes.new(name))
     for key, value in values.items():
         setattr(item.meniscus, key, value)
@@ -32,7 +33,8 @@ def new_object(context, name, source, **values):
 
 
 def start(operator, item):
-    """Computes the surface of a new object, in the background if there is a window. Returns the result of the operator."""
+    """Computes the surface of a new object, in the background if there is a window. Returns the result of the
+    operator."""
     if not bpy.app.background and not operator.wait:
         computed.ask(item, in_motion=True)  # shows a proxy first
         return {"FINISHED"}
@@ -46,7 +48,8 @@ def start(operator, item):
 
 
 class Waiting:
-    wait: bpy.props.BoolProperty(name="Wait", description="End when the surface is there", default=False, options={"SKIP_SAVE"})
+    wait: bpy.props.BoolProperty(name="Wait", description="End when the surface is there", default=False,
+                                 options={"SKIP_SAVE"})
 
 
 class Making(Waiting):
@@ -70,9 +73,10 @@ class OBJECT_OT_meniscus_from_file(Making, bpy.types.Operator, ImportHelper):
 
     def execute(self, context):
         name = os.path.basename(self.filepath).split(".")[0] or "surface"
-        item = new_object(context, name + ".surface", "FILE", detail=self.detail, file=build.remembered_path(self.filepath), selection=self.selection,
-                          trajectory=self.trajectory and build.remembered_path(self.trajectory),
-                          is_run=self.is_run or bool(self.trajectory), center=self.center)
+        item = new_object(context, name + ".surface", "FILE", detail=self.detail,
+                          file=build.remembered_path(self.filepath), selection=self.selection,
+                          trajectory=self.trajectory and build.remembered_path(self.trajectory), is_run=self.is_run or
+                          bool(self.trajectory), center=self.center)
         return start(self, item)
 
 
@@ -93,7 +97,8 @@ class OBJECT_OT_meniscus_from_atoms(Making, bpy.types.Operator):
     def execute(self, context):
         atoms = context.active_object
         scale = molecular_nodes.scale_of(atoms)
-        item = new_object(context, atoms.name + ".surface", "OBJECT", atoms=atoms, scale=scale, selection=self.selection, detail=self.detail)
+        item = new_object(context, atoms.name + ".surface", "OBJECT", atoms=atoms, scale=scale,
+                          selection=self.selection, detail=self.detail)
         item.parent = atoms  # without an inverse matrix, so that it has the place of its atoms
         computed.come_last()
         return start(self, item)
@@ -139,7 +144,8 @@ class OBJECT_OT_meniscus_cancel(bpy.types.Operator):
 def _offered(_self, context):
     item = context.active_object if context else None
     offered = looks.offered(item.data) if is_surface(item) else looks.COLORINGS
-    return [(name, label, "", number) for number, (name, label) in enumerate(looks.COLORINGS.items()) if name in offered]
+    return [(name, label, "", number) for number, (name, label) in enumerate(looks.COLORINGS.items())
+            if name in offered]
 
 
 class OBJECT_OT_meniscus_look(bpy.types.Operator):
@@ -149,9 +155,11 @@ class OBJECT_OT_meniscus_look(bpy.types.Operator):
     bl_label = "Apply look"
     bl_options = {"REGISTER", "UNDO"}
 
-    look: bpy.props.EnumProperty(name="Look", default="PAINT", items=[(name, label, "") for name, label in looks.LOOKS.items()])
+    look: bpy.props.EnumProperty(name="Look", default="PAINT",
+                                 items=[(name, label, "") for name, label in looks.LOOKS.items()])
     coloring: bpy.props.EnumProperty(name="Colour", items=_offered)
-    lines: bpy.props.BoolProperty(name="Outlines", description="Draw outlines by Line Art, as an object of their own", default=False)
+    lines: bpy.props.BoolProperty(name="Outlines", description="Draw outlines by Line Art, as an object of their own",
+                                  default=False)
 
     @classmethod
     def poll(cls, context):
@@ -330,8 +338,9 @@ def wrapped(text, width):
         yield line
 
 
-CLASSES = (OBJECT_OT_meniscus_from_file, OBJECT_OT_meniscus_from_atoms, OBJECT_OT_meniscus_update, OBJECT_OT_meniscus_cancel,
-           OBJECT_OT_meniscus_look, VIEW3D_PT_meniscus, VIEW3D_PT_meniscus_molecule, VIEW3D_PT_meniscus_time, VIEW3D_PT_meniscus_look)
+CLASSES = (OBJECT_OT_meniscus_from_file, OBJECT_OT_meniscus_from_atoms, OBJECT_OT_meniscus_update,
+           OBJECT_OT_meniscus_cancel, OBJECT_OT_meniscus_look, VIEW3D_PT_meniscus, VIEW3D_PT_meniscus_molecule,
+           VIEW3D_PT_meniscus_time, VIEW3D_PT_meniscus_look)
 
 
 def register():

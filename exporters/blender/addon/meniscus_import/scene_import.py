@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Imports scene files of Meniscus. A scene becomes a surface of the panel if the panel has fields for all of its values.
-Otherwise the program exports it, and the export is imported."""
+"""Imports scene files of Meniscus. A scene becomes a surface of the panel if the panel has fields for all of its
+values. Otherwise the program exports it, and the export is imported."""
 
 import os
 import subprocess
@@ -13,7 +13,8 @@ from . import build, computed, mns_reader, panel, scene_reader, sequence
 
 
 class OBJECT_OT_meniscus_from_scene(panel.Waiting, bpy.types.Operator, ImportHelper):
-    """Show what a scene file of Meniscus shows; parts that the panel has no fields for come as the program meniscus exports them"""
+    """Show what a scene file of Meniscus shows; parts that the panel has no fields for come as the program meniscus
+    exports them"""
 
     bl_idname = "object.meniscus_from_scene"
     bl_label = "Surface of a scene"
@@ -45,13 +46,16 @@ class OBJECT_OT_meniscus_from_scene(panel.Waiting, bpy.types.Operator, ImportHel
     def import_exported(self, context, scene):
         program = computed.working().told()["program"]
         if not program:
-            raise mns_reader.MnsError(f"{self.filepath}: the panel has no fields for {', '.join(scene.others)}; the program meniscus, which exports "
-                                      "them, is not found; name it in the add-on's preferences")
+            raise mns_reader.MnsError(
+                f"{self.filepath}: the panel has no fields for {', '.join(scene.others)}; the program meniscus, which "
+                "exports "
+                "them, is not found; name it in the add-on's preferences")
         is_run = any(key.startswith("frames.") for key in scene.others) or scene.fields["is_run"]
         with tempfile.TemporaryDirectory(prefix="meniscus_") as folder:
             target = os.path.join(folder, build.stem_of(self.filepath) + ("" if is_run else ".mns"))
-            done = subprocess.run([program, "export", "blender", "--scene", self.filepath, "-o", target], stdin=subprocess.DEVNULL,
-                                  stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, check=False)
+            done = subprocess.run([program, "export", "blender", "--scene", self.filepath, "-o", target],
+                                  stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                                  check=False)
             lines = [line.removeprefix("meniscus: ") for line in done.stderr.decode("utf-8", "replace").splitlines()]
             if done.returncode:
                 said = (line.removeprefix("error: ") for line in lines if line.startswith("error: "))

@@ -11,9 +11,18 @@ from .computing import preparation, preparation_table, request
 
 #: Fields of the panel by the keys of scenes.
 FIELDS = {
-    "molecule.file": "file", "molecule.select": "selection", "frames.trajectory": "trajectory", "frames.trajectory_atoms": "trajectory_atoms",
-    "frames.frames": "frames", "surface.kind": "kind", "surface.probe": "probe", "surface.cavities": "cavities", "surface.color": "colors",
-    "surface.color_by_file": "numbers", "mesh.tolerance": "tolerance", "mesh.density": "density",
+    "molecule.file": "file",
+    "molecule.select": "selection",
+    "frames.trajectory": "trajectory",
+    "frames.trajectory_atoms": "trajectory_atoms",
+    "frames.frames": "frames",
+    "surface.kind": "kind",
+    "surface.probe": "probe",
+    "surface.cavities": "cavities",
+    "surface.color": "colors",
+    "surface.color_by_file": "numbers",
+    "mesh.tolerance": "tolerance",
+    "mesh.density": "density",
     **{row.key: preparation.name_of(row) for row in preparation.ROWS},
 }
 FILES = ("file", "trajectory", "numbers")
@@ -21,8 +30,10 @@ FILES = ("file", "trajectory", "numbers")
 NUMBERS = {"probe": (0.0, 100.0), "tolerance": (1e-5, 1.0), "density": (0.005, 1000.0)}
 WORDS = {"surface.kind": request.KINDS, "surface.cavities": request.CAVITIES}
 #: Keys without effect on the surface: the output, the device, and the compression of films.
-IDLE = {"output.file", "surface.device", "surface.require_gpu", "surface.threads", "surface.verify", "surface.representation", "frames.codec",
-        "frames.crf", "frames.bits", "frames.chroma"}
+IDLE = {
+    "output.file", "surface.device", "surface.require_gpu", "surface.threads", "surface.verify",
+    "surface.representation", "frames.codec", "frames.crf", "frames.bits", "frames.chroma"
+}
 #: Sections about parts of a picture that have no counterpart in Blender.
 UNSEEN = ("look", "legend", "annotations", "image")
 
@@ -71,7 +82,8 @@ def _settings(path, given):
             continue
         if section != "objects" and not isinstance(values, dict):
             raise mns_reader.MnsError(f"{path}: {section} is {header_values.told(values)}, not a section")
-        yield from [(section, values)] if section == "objects" else ((f"{section}.{name}", value) for name, value in values.items())
+        yield from [(section, values)] if section == "objects" else ((f"{section}.{name}", value)
+                                                                     for name, value in values.items())
 
 
 def _take(scene, path, key, value):

@@ -47,7 +47,10 @@ class Placement:
             build.fill_mesh(mesh, prepared.arrays, fps * self.timing.speed)
             attributes.give_back(mesh, kept, prepared.arrays)
             if len(mesh.polygons) != prepared.triangles:
-                raise mns_reader.MnsError(f"{self.sequence.frames[scene_frame - 1].path}: {len(mesh.polygons)} triangles of {prepared.triangles}")
+                raise mns_reader.MnsError(
+                    f"{self.sequence.frames[scene_frame - 1].path}: {len(mesh.polygons)} triangles of "
+                    f"{prepared.triangles}"
+                )
         except BaseException:
             build.clear_geometry(mesh)
             raise
@@ -58,8 +61,8 @@ class Placement:
 
 
 class Ahead:
-    """Frames that another process reads in advance. It does everything except filling meshes of Blender, which is most of
-    the work."""
+    """Frames that another process reads in advance. It does everything except filling meshes of Blender, which is most
+    of the work."""
 
     MOST = 2
 
@@ -74,8 +77,8 @@ class Ahead:
                 mns_reader.stamp(path) if os.path.exists(path) else None)
 
     def take(self, placement, scene_frame):
-        """Returns the frames.Prepared of a frame. If the other process failed, the frame is read here, which reports the
-        reason. Raises MnsError or OSError."""
+        """Returns the frames.Prepared of a frame. If the other process failed, the frame is read here, which reports
+        the reason. Raises MnsError or OSError."""
         job = self.waiting.pop(self.key(placement, scene_frame), None)
         if job is not None:
             self.process.wait(job)
@@ -87,8 +90,10 @@ class Ahead:
         key = self.key(placement, scene_frame)
         if key in self.waiting:
             return
-        about = {"path": os.path.abspath(placement.sequence.path), "scene_frame": scene_frame, "origin": placement.origin,
-                 "scale": placement.scale, "crisp": placement.crisp_colors}
+        about = {
+            "path": os.path.abspath(placement.sequence.path), "scene_frame": scene_frame, "origin": placement.origin,
+            "scale": placement.scale, "crisp": placement.crisp_colors
+        }
         try:
             self.waiting[key] = self.process.ask(key, key, "frame", about)
         except mns_reader.MnsError:
@@ -112,8 +117,8 @@ def set_up_scene(scene, sequence, timing):
 
 
 def add_camera(collection, placement):
-    """Adds the camera of the run, with key frames if it moves, and returns its object, or None if the manifest has none.
-    Its clipping must be set by build.reach_all() for the frames."""
+    """Adds the camera of the run, with key frames if it moves, and returns its object, or None if the manifest has
+    none. Its clipping must be set by build.reach_all() for the frames."""
     sequence = placement.sequence
     if sequence.frames[0].camera is None:
         return None
@@ -153,7 +158,8 @@ def remember(item, placement):
     item["meniscus_sequence"] = build.remembered_path(sequence.path)
     libraries.note(item)
     item["meniscus_run"] = sequence.run
-    item["meniscus_source"], item["meniscus_atoms"] = build.source_of(sequence.header), int(sequence.header.get("atoms", 0))
+    item["meniscus_source"], item["meniscus_atoms"] = (build.source_of(sequence.header),
+                                                       int(sequence.header.get("atoms", 0)))
     item["meniscus_scale"] = placement.scale
     item["meniscus_origin"] = [float(value) for value in placement.origin]
     item["meniscus_crisp"] = int(placement.crisp_colors)
@@ -165,8 +171,8 @@ class Run:
     """The import of a sequence into a scene.
 
     import_camera: True to import the camera of the run. use_camera: True to make it the camera of the scene, with its
-    picture size. camera: a dict that replaces the camera of the run, or None. set_time: True if the scene gets the range
-    of frames and the frame rate of the run. options: arguments of Placement."""
+    picture size. camera: a dict that replaces the camera of the run, or None. set_time: True if the scene gets the
+    range of frames and the frame rate of the run. options: arguments of Placement."""
 
     def __init__(self, path, context, center=True, import_camera=True, use_camera=True, set_time=True, camera=None,
                  **options):
@@ -177,7 +183,8 @@ class Run:
         header = self.sequence.header
         origin = self.sequence.origin * 0.0
         if center:
-            origin = build.scene_origin(scene, lambda: self.sequence.origin, build.source_of(header), header.get("atoms", 0))
+            origin = build.scene_origin(scene, lambda: self.sequence.origin, build.source_of(header),
+                                        header.get("atoms", 0))
         self.placement = Placement(self.sequence, origin=origin, scene=None if set_time else scene, **options)
         self.import_camera, self.use_camera, self.set_time = import_camera, use_camera, set_time
 
@@ -225,8 +232,8 @@ def bake(path, context=None, progress=None, **options):
 
 
 def stream(path, context=None, **options):
-    """Returns an object that a handler of this add-on fills with the frame of the scene's time, so that only one frame is
-    in memory. options: arguments of Run."""
+    """Returns an object that a handler of this add-on fills with the frame of the scene's time, so that only one frame
+    is in memory. options: arguments of Run."""
     context = context or bpy.context
     run = Run(path, context, **options)
     sequence, placement = run.sequence, run.placement
@@ -262,14 +269,15 @@ def placement_of(item, scene):
     sequence = _manifests.get(libraries.path_of(item, "meniscus_sequence"))
     timing = sequence_reader.Timing(item.get("meniscus_start", 1.0), item.get("meniscus_speed", 1.0),
                                     item.get("meniscus_outside", "EMPTY"))
-    return Placement(sequence, item["meniscus_scale"], True, bool(item["meniscus_crisp"]), timing,
-                     None if item.get("meniscus_own_rate", 1) else scene,
-                     sequence.origin * 0.0 + list(item["meniscus_origin"]),
-                     names={attribute: list(item[key]) for attribute, (_, key) in mesh_arrays.NAMES.items() if item.get(key)})
+    return Placement(
+        sequence, item["meniscus_scale"], True, bool(item["meniscus_crisp"]), timing,
+        None if item.get("meniscus_own_rate", 1) else scene, sequence.origin * 0.0 + list(item["meniscus_origin"]),
+        names={attribute: list(item[key]) for attribute, (_, key) in mesh_arrays.NAMES.items() if item.get(key)})
 
 
 def place_at(item, placement, time):
-    """Returns the place of the frame that an object shows at a time of the scene, from 1, or None if it shows nothing."""
+    """Returns the place of the frame that an object shows at a time of the scene, from 1, or None if it shows
+    nothing."""
     count = len(placement.sequence.frames)
     if item.get("meniscus_by_hand") and "meniscus_frame" in item:
         return placement.timing.within(compat.value_at(item, '["meniscus_frame"]', time), count)
@@ -284,7 +292,8 @@ def show_frame(scene):
     """Fills every streamed object of the scene with its frame, unless it has the frame already: for motion blur Blender
     visits times between frames, whose nearest frame is the same. Meshes in edit mode do not change."""
     for item in list(scene.objects):
-        if item.type == "MESH" and item.get("meniscus_stream") and not item.data.is_editmode and not libraries.is_fixed(item):
+        if (item.type == "MESH" and item.get("meniscus_stream") and not item.data.is_editmode and
+                not libraries.is_fixed(item)):
             refresh(item, scene)
 
 
@@ -293,7 +302,8 @@ def shows(item, scene):
     streams with equal meshes."""
     placement = placement_of(item, scene)
     scene_frame = place_at(item, placement, scene.frame_current_final)
-    return placement, scene_frame, (shown_key(placement.sequence, scene_frame), placement.scale, *placement.origin, placement.crisp_colors)
+    return placement, scene_frame, (shown_key(placement.sequence,
+                                              scene_frame), placement.scale, *placement.origin, placement.crisp_colors)
 
 
 def show_place(item, placement, scene_frame):

@@ -17,15 +17,17 @@ VERSION = 1
 #: The greatest number of frames, which is longer than any film.
 MOST_FRAMES = 10_000_000
 #: Tests of the values of a manifest. The first four are needed.
-VALUES = {"run": header_values.TEXT, "origin": header_values.VECTOR, "scale": header_values.POSITIVE, "fps": header_values.POSITIVE,
-          "atoms": header_values.NUMBER, **header_values.SOURCE}
+VALUES = {
+    "run": header_values.TEXT, "origin": header_values.VECTOR, "scale": header_values.POSITIVE,
+    "fps": header_values.POSITIVE, "atoms": header_values.NUMBER, **header_values.SOURCE
+}
 #: The choices for times before and after a run.
 OUTSIDE = ("EMPTY", "HOLD", "LOOP", "PINGPONG")
 
 
 class Timing:
-    """The times of a run in a scene. start: the scene frame that shows its first frame. speed: frames of the run per scene
-    frame, above 0. outside: one of OUTSIDE. Raises MnsError for invalid values."""
+    """The times of a run in a scene. start: the scene frame that shows its first frame. speed: frames of the run per
+    scene frame, above 0. outside: one of OUTSIDE. Raises MnsError for invalid values."""
 
     def __init__(self, start=1.0, speed=1.0, outside="EMPTY"):
         if not (math.isfinite(start) and math.isfinite(speed) and speed > 0.0 and outside in OUTSIDE):
@@ -42,8 +44,8 @@ class Timing:
         return self.within((time - self.start) * self.speed + 1.0, count)
 
     def within(self, place, count):
-        """Returns the place in a run of `count` frames for a place that may be fractional or outside of the run, or None
-        if nothing is shown."""
+        """Returns the place in a run of `count` frames for a place that may be fractional or outside of the run, or
+        None if nothing is shown."""
         index = math.floor(place + 0.5) - 1
         if self.outside == "LOOP":
             index %= count
@@ -56,8 +58,8 @@ class Timing:
 
 
 class Frame:
-    """A frame of a sequence. number: its frame number in the trajectory. path: its .mns file. camera: a dict with the keys
-    of a .mns header, or None."""
+    """A frame of a sequence. number: its frame number in the trajectory. path: its .mns file. camera: a dict with the
+    keys of a .mns header, or None."""
 
     def __init__(self, number, path, camera):
         self.number = number
@@ -98,7 +100,8 @@ class Sequence:
         return self._scene_frame.get(number)
 
     def read(self, scene_frame):
-        """Reads the .mns file of a scene frame. Raises MnsError or OSError if it is missing, damaged, or of another run."""
+        """Reads the .mns file of a scene frame. Raises MnsError or OSError if it is missing, damaged, or of another
+        run."""
         frame = self.frames[scene_frame - 1]
         if not os.path.exists(frame.path):
             raise mns_reader.MnsError(f"{frame.path}: missing; it is frame {frame.number} (scene frame {scene_frame})")
@@ -112,8 +115,8 @@ class Sequence:
 
 def read(path):
     """Returns the sequence that a manifest describes. Its .mns files need not exist yet. Raises MnsError or OSError."""
-    header = mns_reader.read_manifest(path, "meniscus surface sequence", "the manifest of a sequence of surfaces", VERSION, VALUES,
-                                      ("run", "origin", "scale", "fps"))
+    header = mns_reader.read_manifest(path, "meniscus surface sequence", "the manifest of a sequence of surfaces",
+                                      VERSION, VALUES, ("run", "origin", "scale", "fps"))
     entries = header.get("frames")
     if not isinstance(entries, list) or not entries:
         raise mns_reader.MnsError(f"{path}: it lists no frames")
@@ -126,7 +129,8 @@ def read(path):
 def _frame(path, header, entry):
     try:
         number, name = entry["frame"], entry["file"]
-        plain = isinstance(name, str) and name == os.path.basename(name) and "\\" not in name and name not in ("", ".", "..")
+        plain = isinstance(name,
+                           str) and name == os.path.basename(name) and "\\" not in name and name not in ("", ".", "..")
         if not plain or isinstance(number, bool) or not isinstance(number, int) or number < 0:
             raise ValueError(f"no frame is {header_values.told(number)} in a file {header_values.told(name)}")
         camera = entry.get("camera", header.get("camera"))
@@ -139,8 +143,8 @@ def _frame(path, header, entry):
 
 def parse_frames(text, known):
     """Returns the frame numbers of a text such as "0-99:10,250,300-", each once and in order. Its parts are frames,
-    first-last:step, or first- up to the last of `known`. "all" means all of `known`. Raises ValueError with one sentence.
-    """
+    first-last:step, or first- up to the last of `known`. "all" means all of `known`. Raises ValueError with one
+    sentence."""
     known = list(known)
     if text == "all":
         return known

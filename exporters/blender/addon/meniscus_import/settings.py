@@ -9,17 +9,20 @@ from . import libraries, sequence_reader
 from .computing import preparation, preparation_table, request
 
 #: The first colours, whose order must not change because files of 0.2.0 store their places.
-_FIRST_COLORS = (
-    ("element", "Element", "Chemical element, in pale colours"), ("element-cpk", "Element (CPK)", "In the colours of models"),
-    ("chain", "Chain", "Chains in order of appearance"), ("residue", "Residue", "Residue type"),
-    ("bfactor", "B-factor", "B-factor; viridis, smallest to largest"), ("occupancy", "Occupancy", "Occupancy; viridis"),
-    ("hydrophobicity", "Hydrophobicity", "Hydropathy of the amino acid"), ("charge", "Charge", "Partial charge, of PQR files"),
-    ("radial", "Radial", "Distance from the middle"), ("kind", "Patch", "Kind of patch: convex, toroidal, concave"))
+_FIRST_COLORS = (("element", "Element", "Chemical element, in pale colours"), ("element-cpk", "Element (CPK)",
+                                                                               "In the colours of models"),
+                 ("chain", "Chain", "Chains in order of appearance"), ("residue", "Residue", "Residue type"),
+                 ("bfactor", "B-factor", "B-factor; viridis, smallest to largest"),
+                 ("occupancy", "Occupancy", "Occupancy; viridis"), ("hydrophobicity", "Hydrophobicity",
+                                                                    "Hydropathy of the amino acid"),
+                 ("charge", "Charge", "Partial charge, of PQR files"), ("radial", "Radial", "Distance from the middle"),
+                 ("kind", "Patch", "Kind of patch: convex, toroidal, concave"))
 #: The choice of colours that the user writes as text.
 OWN_COLORS = "own"
 #: All choices of colours. The numbers of the others are checksums of their names, because the list may grow.
 COLORS = (*((*row, "", place) for place, row in enumerate(_FIRST_COLORS)),
-          *((word, word.replace("-", " ").capitalize(), "The program meniscus computes it" if of_more else "", "", 1000 + zlib.crc32(word.encode()) % 10**6)
+          *((word, word.replace("-", " ").capitalize(), "The program meniscus computes it" if of_more else "", "",
+             1000 + zlib.crc32(word.encode()) % 10**6)
             for word, of_more in preparation_table.SCHEMES if word not in {row[0] for row in _FIRST_COLORS}),
           (OWN_COLORS, "As written", "The colours below", "", 999))
 #: Schemes that need a file with numbers.
@@ -68,62 +71,72 @@ class MeniscusSettings(bpy.types.PropertyGroup):
         name="Source", default="NONE",
         items=(("NONE", "None", "The object shows no computed surface"), ("FILE", "File", "A molecule's file"),
                ("OBJECT", "Object", "The atoms of an object, as Molecular Nodes has them")))
-    file: bpy.props.StringProperty(name="File", description="A molecule: PDB, mmCIF, SDF, MOL2, ...", subtype="FILE_PATH",
-                                   update=on_change)
+    file: bpy.props.StringProperty(name="File", description="A molecule: PDB, mmCIF, SDF, MOL2, ...",
+                                   subtype="FILE_PATH", update=on_change)
     trajectory: bpy.props.StringProperty(
-        name="Trajectory", description="XTC, TRR, DCD, ..., which the program meniscus reads; without one the file's models are the "
-        "frames, if a run is shown",
-        subtype="FILE_PATH", update=on_change)
-    is_run: bpy.props.BoolProperty(name="Frames", description="Show frames of the trajectory, or the models of the file, on the "
-                                   "timeline", default=False, update=on_change)
-    frames: bpy.props.StringProperty(name="Frames", description='Which: "all", "0-999:10"', default="all", update=on_change)
+        name="Trajectory",
+        description="XTC, TRR, DCD, ..., which the program meniscus reads; without one the file's models are the "
+        "frames, if a run is shown", subtype="FILE_PATH", update=on_change)
+    is_run: bpy.props.BoolProperty(
+        name="Frames", description="Show frames of the trajectory, or the models of the file, on the "
+        "timeline", default=False, update=on_change)
+    frames: bpy.props.StringProperty(name="Frames", description='Which: "all", "0-999:10"', default="all",
+                                     update=on_change)
     trajectory_atoms: bpy.props.StringProperty(
-        name="Trajectory's atoms", description="Which atoms of the file the trajectory has (not water), if not all", update=on_change)
-    atoms: bpy.props.PointerProperty(
-        name="Atoms", description="An object whose vertices are atoms with an attribute vdw_radii", type=bpy.types.Object,
-        poll=_is_atoms, update=on_change)
+        name="Trajectory's atoms", description="Which atoms of the file the trajectory has (not water), if not all",
+        update=on_change)
+    atoms: bpy.props.PointerProperty(name="Atoms",
+                                     description="An object whose vertices are atoms with an attribute vdw_radii",
+                                     type=bpy.types.Object, poll=_is_atoms, update=on_change)
     selection: bpy.props.StringProperty(
-        name="Selection", description="Of a file an expression (chain A and not element H); of an object the name of a boolean "
+        name="Selection",
+        description="Of a file an expression (chain A and not element H); of an object the name of a boolean "
         "attribute. Empty: all that a surface takes", update=on_change)
     kind: bpy.props.EnumProperty(
         name="Surface", default="SES", update=on_change,
-        items=(("SES", "Solvent-excluded", "What the probe cannot reach"), ("SAS", "Solvent-accessible", "Where its centre can be"),
-               ("VDW", "Van der Waals", "The balls themselves")))
-    probe: bpy.props.FloatProperty(
-        name="Probe", description="Radius of the probe in Å; 1.4 is water", default=1.4, min=0.0, max=100.0, soft_min=0.5, soft_max=5.0,
-        step=5, precision=2, update=on_change)
+        items=(("SES", "Solvent-excluded", "What the probe cannot reach"),
+               ("SAS", "Solvent-accessible", "Where its centre can be"), ("VDW", "Van der Waals",
+                                                                          "The balls themselves")))
+    probe: bpy.props.FloatProperty(name="Probe", description="Radius of the probe in Å; 1.4 is water", default=1.4,
+                                   min=0.0, max=100.0, soft_min=0.5, soft_max=5.0, step=5, precision=2,
+                                   update=on_change)
     color: bpy.props.EnumProperty(name="Colour", default="element", items=COLORS, update=on_change)
     colors: bpy.props.StringProperty(
-        name="Colours", description="Schemes, colours (red, #rrggbb) and EXPR=COLOR with semicolons between them, such as "
+        name="Colours",
+        description="Schemes, colours (red, #rrggbb) and EXPR=COLOR with semicolons between them, such as "
         "chain; resid 25=red. The last one counts", update=on_change)
-    numbers: bpy.props.StringProperty(name="Numbers", description="A file with a number for each residue or atom: CSV, ConSurf, JSON, ...",
-                                      subtype="FILE_PATH", update=on_change)
+    numbers: bpy.props.StringProperty(
+        name="Numbers", description="A file with a number for each residue or atom: CSV, ConSurf, JSON, ...",
+        subtype="FILE_PATH", update=on_change)
     detail: bpy.props.EnumProperty(name="Detail", default="AUTO", items=DETAILS, update=on_change)
     density: bpy.props.FloatProperty(
-        name="Density", description="Vertices per Å² of a proxy; 1 shows atoms, 0.1 makes about a triangle an atom", default=1.0, min=0.005, max=1000.0,
-        soft_min=0.05, soft_max=5.0, precision=3, update=on_change)
-    tolerance: bpy.props.FloatProperty(
-        name="Tolerance", description="Å that the mesh is from the surface at most", default=0.05, min=1e-5, max=1.0, precision=3,
-        update=on_change)
+        name="Density", description="Vertices per Å² of a proxy; 1 shows atoms, 0.1 makes about a triangle an atom",
+        default=1.0, min=0.005, max=1000.0, soft_min=0.05, soft_max=5.0, precision=3, update=on_change)
+    tolerance: bpy.props.FloatProperty(name="Tolerance", description="Å that the mesh is from the surface at most",
+                                       default=0.05, min=1e-5, max=1.0, precision=3, update=on_change)
     cavities: bpy.props.EnumProperty(
         name="Cavities", default="KEEP", update=on_change,
-        items=(("KEEP", "Keep", "They show, with the second material"), ("DROP", "Leave out", "Only what is outside shows"),
-               ("ONLY", "Alone", "Nothing else shows")))
-    live: bpy.props.BoolProperty(name="Live", description="Compute anew while sliders move", default=True, update=on_change)
-    scale: bpy.props.FloatProperty(name="Scale", description="Blender units per Å", default=0.1, min=1e-6, soft_max=1.0, precision=4,
-                                   update=on_change)
-    center: bpy.props.BoolProperty(name="Centre", description="The middle of the molecule comes to the origin, or where an earlier "
-                                   "import put it", default=True)
-    crisp: bpy.props.BoolProperty(name="Crisp colours", description="Colours change at edges; otherwise they blend", default=False,
-                                  update=on_change)
-    start: bpy.props.FloatProperty(name="Start", description="The frame of the scene that shows the first of the run", default=1.0)
-    speed: bpy.props.FloatProperty(name="Speed", description="Frames of the run in a frame of the scene", default=1.0, min=1e-4,
-                                   soft_max=10.0)
+        items=(("KEEP", "Keep", "They show, with the second material"),
+               ("DROP", "Leave out", "Only what is outside shows"), ("ONLY", "Alone", "Nothing else shows")))
+    live: bpy.props.BoolProperty(name="Live", description="Compute anew while sliders move", default=True,
+                                 update=on_change)
+    scale: bpy.props.FloatProperty(name="Scale", description="Blender units per Å", default=0.1, min=1e-6, soft_max=1.0,
+                                   precision=4, update=on_change)
+    center: bpy.props.BoolProperty(
+        name="Centre", description="The middle of the molecule comes to the origin, or where an earlier "
+        "import put it", default=True)
+    crisp: bpy.props.BoolProperty(name="Crisp colours", description="Colours change at edges; otherwise they blend",
+                                  default=False, update=on_change)
+    start: bpy.props.FloatProperty(name="Start", description="The frame of the scene that shows the first of the run",
+                                   default=1.0)
+    speed: bpy.props.FloatProperty(name="Speed", description="Frames of the run in a frame of the scene", default=1.0,
+                                   min=1e-4, soft_max=10.0)
     outside: bpy.props.EnumProperty(
         name="Outside", default="HOLD", description="What shows before and behind the run",
         items=(("EMPTY", "Nothing", "Nothing shows"), ("HOLD", "Hold", "The first and the last frame stay"),
                ("LOOP", "Loop", "The run begins anew"), ("PINGPONG", "To and fro", "The run goes back and forth")))
-    by_hand: bpy.props.BoolProperty(name="By hand", description="Show the frame below, which can be keyed", default=False)
+    by_hand: bpy.props.BoolProperty(name="By hand", description="Show the frame below, which can be keyed",
+                                    default=False)
     frame: bpy.props.FloatProperty(name="Frame", description="Place in the run, from 1", default=1.0)
 
     def preparation(self):
@@ -156,10 +169,12 @@ class MeniscusSettings(bpy.types.PropertyGroup):
             file=libraries.path_of(self.id_data, "file") if of_file else "",
             trajectory=libraries.path_of(self.id_data, "trajectory") if of_file and self.is_run else "",
             frames=self.frames if of_file and self.is_run else "",
-            trajectory_atoms=self.trajectory_atoms if of_file and self.is_run else "", preparation=self.preparation(), selection=self.selection,
-            color=self.written_color() if of_file else "",
-            numbers=libraries.path_of(self.id_data, "numbers") if of_file and self.color in (*OF_NUMBERS, OWN_COLORS) else "", place=place, kind=self.kind, probe=short(self.probe),
-            tolerance=short(self.tolerance), density=short(self.density) if self.has_proxy(in_motion) else 0.0, cavities=self.cavities)
+            trajectory_atoms=self.trajectory_atoms if of_file and self.is_run else "", preparation=self.preparation(),
+            selection=self.selection, color=self.written_color() if of_file else "",
+            numbers=(libraries.path_of(self.id_data, "numbers")
+                     if of_file and self.color in (*OF_NUMBERS, OWN_COLORS) else ""), place=place,
+            kind=self.kind, probe=short(self.probe), tolerance=short(self.tolerance),
+            density=short(self.density) if self.has_proxy(in_motion) else 0.0, cavities=self.cavities)
 
 
 MeniscusSettings.__annotations__.update({preparation.name_of(row): _field(row) for row in preparation.ROWS})
@@ -181,9 +196,11 @@ class MeniscusPreferences(bpy.types.AddonPreferences):
     bl_idname = __package__
 
     package: bpy.props.StringProperty(
-        name="Python package", description="The folder named meniscus of the Python package with libmeniscus; empty: as Python finds it",
+        name="Python package",
+        description="The folder named meniscus of the Python package with libmeniscus; empty: as Python finds it",
         subtype="DIR_PATH")
-    program: bpy.props.StringProperty(name="Program", description="The program meniscus; empty: as the shell finds it", subtype="FILE_PATH")
+    program: bpy.props.StringProperty(name="Program", description="The program meniscus; empty: as the shell finds it",
+                                      subtype="FILE_PATH")
 
     def draw(self, _context):
         from . import computed

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Puts computed surfaces into the meshes of objects, and keeps the last ones, which may be shown again. Each object shows
-the surface of its own request."""
+"""Puts computed surfaces into the meshes of objects, and keeps the last ones, which may be shown again. Each object
+shows the surface of its own request."""
 
 import dataclasses
 
@@ -20,8 +20,8 @@ _vertices = {}  # identity of a mesh -> number of vertices when it was last watc
 
 
 class Shown:
-    """A surface that a mesh can show: its header, the middle of its atoms (Å), their number, and the arrays of the mesh,
-    whose positions are relative to `base` (Å)."""
+    """A surface that a mesh can show: its header, the middle of its atoms (Å), their number, and the arrays of the
+    mesh, whose positions are relative to `base` (Å)."""
 
     def __init__(self, result, wanted):
         self.surface = mns_reader.Surface("a computed surface", result["header"], {})
@@ -40,12 +40,13 @@ def is_computed(item):
 def asks_alike(item, other):
     """True if two objects request the same surface at the current time."""
     time = bpy.context.scene.frame_current_final
-    return is_computed(other) and item.meniscus.asked() == other.meniscus.asked() and place_at(item, time) == place_at(other, time)
+    return (is_computed(other) and item.meniscus.asked() == other.meniscus.asked() and
+            place_at(item, time) == place_at(other, time))
 
 
 def place_at(item, time):
-    """Returns the place of the frame that an object shows at a time of the scene, from 1. Returns 0 if it has no run, and
-    None if nothing is shown."""
+    """Returns the place of the frame that an object shows at a time of the scene, from 1. Returns 0 if it has no run,
+    and None if nothing is shown."""
     settings = item.meniscus
     count = frame_count(item)
     if count == 0:
@@ -88,8 +89,8 @@ def empty(item):
 
 
 def show(item, key, shown):
-    """Puts a computed surface into the mesh of an object. Materials, modifiers and the user's attributes remain. A mesh in
-    edit mode does not change. shown: a Shown, or None for an empty mesh."""
+    """Puts a computed surface into the mesh of an object. Materials, modifiers and the user's attributes remain. A mesh
+    in edit mode does not change. shown: a Shown, or None for an empty mesh."""
     if item.data.is_editmode:
         return
     mesh = _own_mesh(item)
@@ -97,7 +98,8 @@ def show(item, key, shown):
         empty(item)
         mesh[SHOWN] = key
         return
-    users = [other for other in bpy.data.objects if other.data == mesh and is_computed(other)] if mesh.users > 1 else [item]
+    users = [other for other in bpy.data.objects
+             if other.data == mesh and is_computed(other)] if mesh.users > 1 else [item]
     for user in users:
         place(user, shown)
     if mesh.get(SHOWN) != key:
@@ -130,9 +132,9 @@ def _keep_of_user(item, shown):
 
 
 def place(item, shown):
-    """Sets the place of an object when it first shows a surface of a file: its origin, about which it rotates, is in the
-    middle of the molecule. If the scale changes later, the middle stays in place, or in the place that the file gives.
-    Objects of 0.1.0 have the origin of the file."""
+    """Sets the place of an object when it first shows a surface of a file: its origin, about which it rotates, is in
+    the middle of the molecule. If the scale changes later, the middle stays in place, or in the place that the file
+    gives. Objects of 0.1.0 have the origin of the file."""
     before = item.get("meniscus_scale", shown.scale)
     if item.meniscus.source == "FILE" and "meniscus_generator" not in item:
         origin = np.zeros(3)
@@ -153,7 +155,8 @@ def arrays_about(item, shown):
     shift = shown.base - np.array(item.get("meniscus_middle", (0.0, 0.0, 0.0))[:])
     if item.meniscus.source != "FILE" or not shift.any():
         return shown.arrays
-    return dataclasses.replace(shown.arrays, positions=(shown.arrays.positions + shift * shown.scale).astype(np.float32))
+    return dataclasses.replace(shown.arrays,
+                               positions=(shown.arrays.positions + shift * shown.scale).astype(np.float32))
 
 
 def keep(key, shown):

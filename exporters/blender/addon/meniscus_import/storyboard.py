@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Imports storyboards: a collection for each of its scenes, and one camera that moves between them, all by key frames."""
+"""Imports storyboards: a collection for each of its scenes, and one camera that moves between them, all by key
+frames."""
 
 import hashlib
 import json
@@ -25,10 +26,10 @@ class Imported:
         self.items = []
 
 
-def import_file(path, context=None, scale=None, center=False, import_camera=True, use_camera=True, set_time=True, set_background=True,
-                **options):
-    """Reads a story.json and its surfaces into a new collection, and returns an Imported. scale: Blender units per Å; None
-    for that of the file. set_background: True for key frames of the background. Other arguments are those of
+def import_file(path, context=None, scale=None, center=False, import_camera=True, use_camera=True, set_time=True,
+                set_background=True, **options):
+    """Reads a story.json and its surfaces into a new collection, and returns an Imported. scale: Blender units per Å;
+    None for that of the file. set_background: True for key frames of the background. Other arguments are those of
     build.Options and sequence.Run. After MnsError or OSError nothing is left in the scene."""
     context = context or bpy.context
     board = storyboard_reader.read(path)
@@ -41,7 +42,8 @@ def import_file(path, context=None, scale=None, center=False, import_camera=True
         made.items = story.add_scenes(made.collection)
         if import_camera:
             made.camera = camera_rig.add(made.collection, board, story.name, options.scale, story.origin)
-            camera_rig.reach_all(made.camera, board, [frames.points_of(files[scene.path]) for scene in board.scenes], options.scale)
+            camera_rig.reach_all(made.camera, board, [frames.points_of(files[scene.path]) for scene in board.scenes],
+                                 options.scale)
         context.scene.collection.children.link(made.collection)
     if set_time:
         set_up_time(context.scene, board)
@@ -66,8 +68,8 @@ def set_up_time(scene, board):
 
 
 def set_up_background(scene, board, name):
-    """Adds key frames of the background colour that the camera sees, if a scene of the storyboard has one. Scenes without
-    one then have white. The lighting of objects does not change."""
+    """Adds key frames of the background colour that the camera sees, if a scene of the storyboard has one. Scenes
+    without one then have white. The lighting of objects does not change."""
     colors = [each.background for each in board.scenes]
     scene.render.film_transparent = not any(colors)
     if not any(colors):
@@ -104,7 +106,8 @@ def _origin(scene, board, files, center):
 
 def digest_of(surface):
     """Returns a digest that is equal for surfaces with the same look."""
-    told = hashlib.sha256(json.dumps({key: surface.header[key] for key in LOOKS if key in surface.header}, sort_keys=True).encode())
+    told = hashlib.sha256(
+        json.dumps({key: surface.header[key] for key in LOOKS if key in surface.header}, sort_keys=True).encode())
     for name in sorted(surface.arrays):
         told.update(name.encode())
         told.update(np.ascontiguousarray(surface.arrays[name]))
@@ -125,7 +128,10 @@ class _Story:
         for number, scene in enumerate(self.board.scenes, 1):
             collection = bpy.data.collections.new(f"{number} {scene.name}")
             parent.children.link(collection)
-            items = [item for surface in self.files[scene.path].objects for item in self.objects_of(surface, f"{self.name}.{number}", scene)]
+            items = [
+                item for surface in self.files[scene.path].objects
+                for item in self.objects_of(surface, f"{self.name}.{number}", scene)
+            ]
             for item in items:
                 collection.objects.link(item)
             shown.append(items)
@@ -141,14 +147,17 @@ class _Story:
             return self.made[key]
         file = self.files[scene.path]
         name = f"{stem}.{surface.name if len(file.objects) > 1 else 'surface'}"
-        mesh = build.build_mesh(surface, name, self.options, self.new_materials, self.board.fps, names_of(*file.objects), fades=True)
+        mesh = build.build_mesh(surface, name, self.options, self.new_materials, self.board.fps,
+                                names_of(*file.objects), fades=True)
         nudge(mesh, surface["mesh.normal"], NUDGE * len(self.made) * self.options.scale)
-        self.made[key] = [build.add_copy(mesh, copy, surface, scene.path, file, self.options, self.origin) for copy in surface.copies]
+        self.made[key] = [
+            build.add_copy(mesh, copy, surface, scene.path, file, self.options, self.origin) for copy in surface.copies
+        ]
         return self.made[key]
 
 def nudge(mesh, normals, distance):
-    """Moves vertices outwards along their normals. After a transparent surface, Cycles misses a surface in the same place.
-    """
+    """Moves vertices outwards along their normals. After a transparent surface, Cycles misses a surface in the same
+    place."""
     co = np.empty(3 * len(mesh.vertices), dtype=np.float32)
     mesh.vertices.foreach_get("co", co)
     mesh.vertices.foreach_set("co", co + (normals * np.float32(distance)).ravel())
@@ -156,8 +165,8 @@ def nudge(mesh, normals, distance):
 
 
 def fade(item, board, shows):
-    """Adds key frames to the alpha of an object's colour: from 0 to 1 in a transition to a scene that shows it, and to 2 in
-    a transition to one that does not. shows: True for each scene that shows the object."""
+    """Adds key frames to the alpha of an object's colour: from 0 to 1 in a transition to a scene that shows it, and to
+    2 in a transition to one that does not. shows: True for each scene that shows the object."""
     easing = curves.SMOOTH if board.is_smooth else curves.EVEN
     way = keys.Way(board.scenes[0].first, float(shows[0]))
     for number, (before, after, dissolves) in enumerate(camera_rig.transitions(board), 1):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads and checks a storyboard (FORMAT.md), and computes the progress of its transitions. Uses numpy only, not Blender."""
+"""Reads and checks a storyboard (FORMAT.md), and computes the progress of its transitions. Uses numpy only, not
+Blender."""
 
 import os
 
@@ -14,11 +15,14 @@ except ImportError:  # imported outside of the add-on
 VERSION = 1
 #: The greatest number of frames, which is longer than any film.
 MOST_FRAMES = 10_000_000
-#: Tests of the values of a storyboard, all of which are needed, and of a scene, of which title and background are optional.
+#: Tests of the values of a storyboard, all of which are needed, and of a scene, of which title and background are
+#: optional.
 VALUES = {"origin": header_values.VECTOR, "scale": header_values.POSITIVE, "fps": header_values.POSITIVE,
           "ease": (lambda value: value in ("smooth", "even"), "smooth or even")}
-OF_SCENE = {"name": header_values.TEXT, "title": header_values.TEXT, "file": header_values.TEXT, "camera": header_values.DICT,
-            "background": (lambda value: value is None or header_values.COLOR[0](value), header_values.COLOR[1])}
+OF_SCENE = {
+    "name": header_values.TEXT, "title": header_values.TEXT, "file": header_values.TEXT, "camera": header_values.DICT,
+    "background": (lambda value: value is None or header_values.COLOR[0](value), header_values.COLOR[1])
+}
 
 
 class Scene:
@@ -60,7 +64,8 @@ def read(path):
     scenes = [_scene(path, entry, number) for number, entry in enumerate(entries, 1)]
     for number, (before, after) in enumerate(zip(scenes, scenes[1:]), 2):
         if after.first <= before.last:
-            raise mns_reader.MnsError(f"{path}: scene {number} begins at frame {after.first}, before the one before it has ended")
+            raise mns_reader.MnsError(
+                f"{path}: scene {number} begins at frame {after.first}, before the one before it has ended")
     return Storyboard(path, header, scenes)
 
 

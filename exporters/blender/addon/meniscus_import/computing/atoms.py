@@ -36,12 +36,13 @@ class Atoms:
 
     def at(self, positions):
         """Returns the same atoms at other positions."""
-        return Atoms(positions, self.radii, self.colors, self.index, self.numbers, self.chain_names, self.kind_colors, self.source,
-                     self.names)
+        return Atoms(positions, self.radii, self.colors, self.index, self.numbers, self.chain_names, self.kind_colors,
+                     self.source, self.names)
 
 
 class AtomFile:
-    """A file of atoms. atoms: the Atoms of the file. numbers: frame numbers of the trajectory; empty if there is no run.
+    """A file of atoms. atoms: the Atoms of the file. numbers: frame numbers of the trajectory; empty if there is no
+    run.
     positions: (frames, n, 3) Å, or None."""
 
     def __init__(self, path, atoms, numbers, positions):
@@ -74,16 +75,16 @@ def read(path):
         if array in arrays:
             mns_reader.check_names(path, array, arrays[array], names[key])
     atoms = Atoms(arrays["atom.center"], arrays["atom.radius"], arrays["atom.color"], arrays["atom.index"],
-                  {name: arrays[name] for name in NUMBERS if name in arrays}, names.pop("chain_names"), header.get("kind_colors"),
-                  str(header.get("source", {}).get("file", "")), names)
+                  {name: arrays[name] for name in NUMBERS if name in arrays}, names.pop("chain_names"),
+                  header.get("kind_colors"), str(header.get("source", {}).get("file", "")), names)
     numbers = header.get("frames") or []
     positions = _frames_of(path, arrays, len(numbers), count) if numbers else None
     return AtomFile(path, atoms, numbers, positions)
 
 
 def _frames_of(path, arrays, frames, count):
-    """Returns the positions in all frames, (frames, atoms, 3). They are mapped but not read, because a run may be larger
-    than the memory."""
+    """Returns the positions in all frames, (frames, atoms, 3). They are mapped but not read, because a run may be
+    larger than the memory."""
     positions = arrays.get("frame.position")
     if positions is None or positions.shape != (frames * count, 3):
         raise mns_reader.MnsError(f"{path}: array frame.position is not that of {frames} frames of {count} atoms")

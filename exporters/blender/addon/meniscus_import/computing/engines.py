@@ -24,7 +24,8 @@ POLL = 0.05  # s between two checks if the program has ended and if its result i
 
 
 class EngineError(mns_reader.MnsError):
-    """The program or the library is missing, or reported an error. The text is one sentence in the terms of the panel."""
+    """The program or the library is missing, or reported an error. The text is one sentence in the terms of the
+    panel."""
 
     def __init__(self, text):
         super().__init__(wording.for_panel(text))
@@ -35,17 +36,20 @@ class Cancelled(Exception):
 
 
 class Tools:
-    """The tools that compute. library: the package meniscus with libmeniscus, or None. program: the path of the program,
-    or None. missing: the reason why there is no library."""
+    """The tools that compute. library: the package meniscus with libmeniscus, or None. program: the path of the
+    program, or None. missing: the reason why there is no library."""
 
     def __init__(self, library, program, missing=""):
         self.library, self.program, self.missing = library, program, missing
 
     def needed_program(self, purpose, instead=""):
-        """Returns the path of the program, or raises EngineError. purpose: the task that needs it; instead: an alternative
-        that does not, both as parts of the message."""
+        """Returns the path of the program, or raises EngineError. purpose: the task that needs it; instead: an
+        alternative that does not, both as parts of the message."""
         if self.program is None:
-            raise EngineError(f"{purpose} needs the program meniscus, which is not found; name it in the add-on's preferences{instead}")
+            raise EngineError(
+                f"{purpose} needs the program meniscus, which is not found; name it in the add-on's "
+                f"preferences{instead}"
+            )
         return self.program
 
     def program_for_files(self):
@@ -87,7 +91,8 @@ def _import(folder):
 
 
 def surface_by_library(library, atoms, request, task):
-    """Returns a mns_reader.Surface of atoms.Atoms with all components. Raises EngineError with the library's message."""
+    """Returns a mns_reader.Surface of atoms.Atoms with all components. Raises EngineError with the library's
+    message."""
     if not len(atoms):
         raise EngineError("there are no atoms")
     key = request.shape_key(atoms)
@@ -112,19 +117,34 @@ def _shape(library, atoms, request, task):
     vertices = mesh.vertices
     origin = 0.5 * (vertices.min(axis=0) + vertices.max(axis=0))
     arrays = {
-        "mesh.position": (vertices - origin).astype(np.float32), "mesh.normal": mesh.normals.astype(np.float32),
-        "mesh.triangle": mesh.triangles, "mesh.kind": mesh.triangle_kinds, "mesh.patch": mesh.triangle_patches,
-        "mesh.component": mesh.triangle_components, "mesh.atom": mesh.triangle_atoms, "mesh.sharp_corner": mesh.sharp_corners,
-        "mesh.sharp_corner_normal": mesh.sharp_normals.astype(np.float32), "mesh.sharp_edge": np.empty((0, 2), np.uint32),
+        "mesh.position": (vertices - origin).astype(np.float32),
+        "mesh.normal": mesh.normals.astype(np.float32),
+        "mesh.triangle": mesh.triangles,
+        "mesh.kind": mesh.triangle_kinds,
+        "mesh.patch": mesh.triangle_patches,
+        "mesh.component": mesh.triangle_components,
+        "mesh.atom": mesh.triangle_atoms,
+        "mesh.sharp_corner": mesh.sharp_corners,
+        "mesh.sharp_corner_normal": mesh.sharp_normals.astype(np.float32),
+        "mesh.sharp_edge": np.empty((0, 2), np.uint32),
         **measures.of_surface(library, made, mesh),
     }
     header = {
-        "generator": f"libmeniscus {library.version()}", "device": made.device, "unit": "angstrom",
-        "name": "surface", "probe_radius": made.probe, "area": made.area, "volume": made.volume,
-        "mesh": {"origin": [float(value) for value in origin], "vertices": len(vertices), "triangles": len(mesh.triangles),
-                 "closed": True, "tolerance": 0.0 if request.density else request.tolerance},
-        "components": [{"kind": "cavity" if part["kind"] else "outer", "area": float(part["area"]),
-                        "volume": float(part["volume"]), "euler": int(part["euler"])} for part in made.components],
+        "generator": f"libmeniscus {library.version()}",
+        "device": made.device,
+        "unit": "angstrom",
+        "name": "surface",
+        "probe_radius": made.probe,
+        "area": made.area,
+        "volume": made.volume,
+        "mesh": {
+            "origin": [float(value) for value in origin], "vertices": len(vertices), "triangles": len(mesh.triangles),
+            "closed": True, "tolerance": 0.0 if request.density else request.tolerance
+        },
+        "components": [{
+            "kind": "cavity" if part["kind"] else "outer", "area": float(part["area"]), "volume": float(part["volume"]),
+            "euler": int(part["euler"])
+        } for part in made.components],
     }
     return header, arrays
 
@@ -135,22 +155,29 @@ def _painted(shape, atoms):
     header = {**header, "source": {"file": atoms.source}, "chain_names": atoms.chain_names, **atoms.names}
     if atoms.kind_colors is not None:
         header["kind_colors"] = atoms.kind_colors
-    arrays = {**arrays, "atom.center": np.asarray(atoms.positions, np.float64), "atom.radius": np.asarray(atoms.radii, np.float64),
-              "atom.color": np.asarray(atoms.colors, np.float32), "atom.index": np.asarray(atoms.index), **atoms.numbers}
+    arrays = {
+        **arrays, "atom.center": np.asarray(atoms.positions,
+                                            np.float64), "atom.radius": np.asarray(atoms.radii, np.float64),
+        "atom.color": np.asarray(atoms.colors, np.float32), "atom.index": np.asarray(atoms.index), **atoms.numbers
+    }
     surface = mns_reader.Surface(f"{atoms.source or 'atoms'} in memory", header, arrays)
     surface.known_closed = True  # surfaces of the library are always closed
     return surface
 
 
 def surface_by_program(tools, request, folder, task):
-    """Returns a mns_reader.Surface of a request about a file. folder: a folder for temporary files. Raises EngineError."""
+    """Returns a mns_reader.Surface of a request about a file. folder: a folder for temporary files. Raises
+    EngineError."""
     program = tools.program_for_files()
     task.say("Program")
     with tempfile.TemporaryDirectory(dir=folder, prefix="surface_") as inner:
         target = os.path.join(inner, "run" if request.place else "surface.mns")
-        words = [program, "export", "blender", request.file, *_about_atoms(request), "--surface", SURFACES[request.kind],
-                 f"--probe={request.probe!r}",
-                 f"--density={request.density!r}" if request.density else f"--tolerance={request.tolerance!r}", "--force", "-q", "-o", target]
+        words = [
+            program, "export", "blender", request.file, *_about_atoms(request), "--surface", SURFACES[request.kind],
+            f"--probe={request.probe!r}",
+            f"--density={request.density!r}" if request.density else f"--tolerance={request.tolerance!r}", "--force",
+            "-q", "-o", target
+        ]
         if request.kind == "VDW":
             words.remove(f"--probe={request.probe!r}")
         if request.place:
@@ -166,8 +193,8 @@ def surface_by_program(tools, request, folder, task):
 
 
 def read_atoms(tools, request, folder, task):
-    """Returns the atoms.AtomFile of a request about a file, with all frames of its run if it has a place there. The last
-    files are kept."""
+    """Returns the atoms.AtomFile of a request about a file, with all frames of its run if it has a place there. The
+    last files are kept."""
     if request.needs_program():  # its colours belong to the surface, not to the atoms
         request = dataclasses.replace(request, color="element", numbers="")
     key = (request.atoms_key(), request.place > 0)
@@ -196,7 +223,8 @@ def _fresh_atoms(tools, request, folder, task):
     os.close(descriptor)
     try:
         run = _about_run(request, request.frames or "all") if request.place else []
-        _run([program, "export", "atoms", request.file, *_about_atoms(request), *run, "--force", "-q", "-o", path], task)
+        _run([program, "export", "atoms", request.file, *_about_atoms(request), *run, "--force", "-q", "-o", path],
+             task)
         return atom_files.read(path)
     finally:
         os.remove(path)  # a mapped file stays readable
@@ -241,8 +269,8 @@ def _about_run(request, frames):
 
 
 def _run(words, task):
-    """Runs the program to its end, or kills it when its result is no longer needed. Raises EngineError with its message,
-    or Cancelled."""
+    """Runs the program to its end, or kills it when its result is no longer needed. Raises EngineError with its
+    message, or Cancelled."""
     with tempfile.TemporaryFile() as said:
         child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=said)
         try:

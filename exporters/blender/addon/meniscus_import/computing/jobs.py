@@ -8,8 +8,8 @@ from . import engines
 
 
 class Task:
-    """A task for a thread. owner: identifies the object that needs the result. key: identifies the task. work: a function
-    of the task that returns the result. urgency: waiting tasks are done in this order."""
+    """A task for a thread. owner: identifies the object that needs the result. key: identifies the task. work: a
+    function of the task that returns the result. urgency: waiting tasks are done in this order."""
 
     def __init__(self, owner, key, work, urgency=0):
         self.owner, self.key, self.work, self.urgency = owner, key, work, urgency
@@ -50,8 +50,8 @@ class Worker:
     """A pool of threads that live while there are tasks. They do one task of each owner at a time."""
 
     def __init__(self, give, threads=1):
-        """give: a function that receives each finished task on its thread, except cancelled ones. threads: their greatest
-        number."""
+        """give: a function that receives each finished task on its thread, except cancelled ones. threads: their
+        greatest number."""
         self._give, self._most = give, threads
         self._lock = threading.Lock()
         self._waiting = collections.OrderedDict()  # owner -> Task
@@ -59,8 +59,8 @@ class Worker:
         self._threads = 0
 
     def ask(self, task):
-        """Adds a task after waiting ones of the same urgency. A waiting task of the same owner is dropped, and a running
-        one continues."""
+        """Adds a task after waiting ones of the same urgency. A waiting task of the same owner is dropped, and a
+        running one continues."""
         with self._lock:
             self._waiting.pop(task.owner, None)
             self._waiting[task.owner] = task
@@ -71,7 +71,10 @@ class Worker:
     def cancel(self, owner):
         """Cancels the tasks of an owner. Returns True if there was one that waited or ran."""
         with self._lock:
-            found = [task for task in (self._waiting.pop(owner, None), *self._running) if task is not None and task.owner == owner]
+            found = [
+                task for task in (self._waiting.pop(owner, None), *self._running)
+                if task is not None and task.owner == owner
+            ]
             for task in found:
                 task.cancel()
             return bool(found)

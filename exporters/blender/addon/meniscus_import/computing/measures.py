@@ -13,15 +13,16 @@ def of_surface(library, made, mesh):
     arrays = {"mesh.mean_curvature": mean, "mesh.gaussian_curvature": gaussian}
     try:
         arrays["atom.area"] = made.atom_areas.astype(np.float32)
-        arrays["atom.accessible_area"] = made.atom_sas_areas.astype(np.float32) if made.kind == "ses" else arrays["atom.area"]
+        arrays["atom.accessible_area"] = (made.atom_sas_areas.astype(np.float32) if made.kind == "ses" else
+                                          arrays["atom.area"])
     except library.Error:
         pass  # the areas of the atoms do not add up, so they are left out rather than wrong
     return arrays
 
 
 def curvatures(made, mesh):
-    """Returns the mean and the Gaussian curvature at vertices, in 1/Å and 1/Å². Among the patches of a vertex's triangles,
-    the one that it lies on counts."""
+    """Returns the mean and the Gaussian curvature at vertices, in 1/Å and 1/Å². Among the patches of a vertex's
+    triangles, the one that it lies on counts."""
     corner, x = mesh.triangles.ravel(), mesh.vertices
     kind, patch = np.repeat(mesh.triangle_kinds, 3), np.repeat(mesh.triangle_patches, 3)
     # The principal curvatures, and the distance from the surface of the patch in Å.
@@ -43,7 +44,8 @@ def curvatures(made, mesh):
         off[torus] = np.abs(np.hypot(rows["radius"] - out, height) - made.probe)
     if len(concave):
         along[concave] = around[concave] = -1.0 / made.probe
-        off[concave] = np.abs(np.linalg.norm(x[corner[concave]] - patches.concave["center"][patch[concave]], axis=1) - made.probe)
+        off[concave] = np.abs(
+            np.linalg.norm(x[corner[concave]] - patches.concave["center"][patch[concave]], axis=1) - made.probe)
     # The last assignment to a vertex counts: that of the nearest patch, and of equally near ones the first.
     order = np.lexsort((-np.arange(len(corner)), -np.round(off, 6)))
     mean, gaussian = (np.zeros(len(x), dtype=np.float32) for _ in range(2))

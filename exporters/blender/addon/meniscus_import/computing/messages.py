@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Exchanges messages of plain values and numpy arrays between two processes over a socket.
 
-It replaces multiprocessing.connection, which makes Blender crash: that module keeps `__main__` of the script that imports
-it in sys.modules, Blender 3.4 frees the script's module, and crashes when it walks sys.modules at its end."""
+It replaces multiprocessing.connection, which makes Blender crash: that module keeps `__main__` of the script that
+imports it in sys.modules, Blender 3.4 frees the script's module, and crashes when it walks sys.modules at its end."""
 
 import pickle
 import select

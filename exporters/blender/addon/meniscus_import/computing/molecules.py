@@ -34,8 +34,9 @@ class Models:
     def __getitem__(self, place):
         structure = _structure(self._library, self._request, self._numbers[place])
         if not np.array_equal(_names(structure), self._names):
-            raise mns_reader.MnsError(f"{self._request.file}: frame {self._numbers[place]} has other atoms than the first one; "
-                                      "choose a Selection that means the same in all")
+            raise mns_reader.MnsError(
+                f"{self._request.file}: frame {self._numbers[place]} has other atoms than the first one; "
+                "choose a Selection that means the same in all")
         return structure.positions
 
 
@@ -73,8 +74,11 @@ def _in_order(names):
 
 def _atoms(structure, color):
     chains, chain = _in_order(structure.chains)
-    numbers = {"atom.file_index": structure.indices, "atom.b_factor": np.nan_to_num(structure.b_factors),
-               "atom.atomic_number": structure.elements.astype(np.int32), "atom.res_id": structure.residue_numbers, "atom.chain_id": chain}
+    numbers = {
+        "atom.file_index": structure.indices, "atom.b_factor": np.nan_to_num(structure.b_factors),
+        "atom.atomic_number": structure.elements.astype(np.int32), "atom.res_id": structure.residue_numbers,
+        "atom.chain_id": chain
+    }
     names = {}
     for key, array, texts in (("atom_names", "atom.name_id", structure.names),
                               ("residue_names", "atom.residue_name_id", structure.residue_names)):
@@ -91,4 +95,5 @@ def _atoms(structure, color):
         numbers["atom.entity"] = entity
     kinds = _KINDS if color == "kind" else None
     return Atoms(structure.positions, structure.radii, structure.colors("grey" if kinds else color),
-                 np.arange(len(structure), dtype=np.uint32), numbers, chains, kinds, os.path.basename(structure.file), names)
+                 np.arange(len(structure), dtype=np.uint32), numbers, chains, kinds, os.path.basename(structure.file),
+                 names)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The preparation of a molecule and its run. The rows of preparation_table.py become fields of the panel, options of the
-program, and arguments of the library. Fields with their default values are not passed on."""
+"""The preparation of a molecule and its run. The rows of preparation_table.py become fields of the panel, options of
+the program, and arguments of the library. Fields with their default values are not passed on."""
 
 from .preparation_table import ROWS
 

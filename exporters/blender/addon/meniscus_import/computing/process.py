@@ -2,9 +2,9 @@
 """The process that computes for the add-on, and the requests sent to it. It does not use Blender.
 
 The add-on uses no threads, because they make Blender crash. An operator that a script calls reads the script's context
-without the interpreter's lock while another thread holds it (BPY_context_member_get and PyC_IsInterpreterActive, seen in
-3.4.1), and so do drivers. Blender's manual requires that threads end with the script that started them. Therefore long
-computations run in another process, which is polled."""
+without the interpreter's lock while another thread holds it (BPY_context_member_get and PyC_IsInterpreterActive, seen
+in 3.4.1), and so do drivers. Blender's manual requires that threads end with the script that started them. Therefore
+long computations run in another process, which is polled."""
 
 import os
 import signal
@@ -50,9 +50,9 @@ class Process:
         self._number = 0
 
     def ask(self, owner, key, kind, about, urgency=NOW):
-        """Sends a request and returns its Job. kind: the name of a function of works.Tools; about: its arguments. Waiting
-        jobs of the same owner are dropped. A running one continues, so that surfaces show while a slider keeps moving.
-        Raises engines.EngineError if the process does not start."""
+        """Sends a request and returns its Job. kind: the name of a function of works.Tools; about: its arguments.
+        Waiting jobs of the same owner are dropped. A running one continues, so that surfaces show while a slider keeps
+        moving. Raises engines.EngineError if the process does not start."""
         self._start()
         self._number += 1
         self._jobs[self._number] = job = Job(owner, key)
@@ -80,8 +80,8 @@ class Process:
             self.drop(owner)
 
     def stop(self, owner):
-        """Stops the jobs of an owner immediately by ending the process, so that all other jobs fail. Returns True if there
-        was one."""
+        """Stops the jobs of an owner immediately by ending the process, so that all other jobs fail. Returns True if
+        there was one."""
         if self.job_of(owner) is None:
             return False
         self.drop(owner)
@@ -165,8 +165,8 @@ class Process:
         self._fail_all(f"the process that computes ended {f'by signal {-code}' if code < 0 else f'with {code}'}")
 
     def _close(self, seconds):
-        """Closes the connection, waits up to `seconds` for the end of the process, kills it with its children, and returns
-        its exit code."""
+        """Closes the connection, waits up to `seconds` for the end of the process, kills it with its children, and
+        returns its exit code."""
         child, connection = self._child, self._connection
         self._child = self._connection = None
         if connection is not None:
@@ -191,8 +191,8 @@ def _started(connection):
     """Starts the process at the other end of a connection, and returns it."""
     words = [python(), "-B", SCRIPT]
     if os.name != "nt":
-        return subprocess.Popen([*words, str(connection.fileno())], pass_fds=[connection.fileno()], stdin=subprocess.DEVNULL,
-                                start_new_session=True)
+        return subprocess.Popen([*words, str(connection.fileno())], pass_fds=[connection.fileno()],
+                                stdin=subprocess.DEVNULL, start_new_session=True)
     child = subprocess.Popen(words, stdin=subprocess.PIPE, creationflags=subprocess.CREATE_NO_WINDOW)
     with child.stdin:  # Windows can share a socket only with a process that exists already
         child.stdin.write(connection.share(child.pid))

@@ -51,17 +51,21 @@ class Request:
         return [part.strip() for part in self.color.split(";") if part.strip()] or ["element"]
 
     def needs_program(self):
-        """True for colours that only the program computes: schemes that need more than single atoms, and several rules."""
+        """True for colours that only the program computes: schemes that need more than single atoms, and several
+        rules."""
         (first, *more) = self.colors()
         return bool(more) or "=" in first or first != "kind" and dict(preparation_table.SCHEMES).get(first, False)
 
     def atoms_key(self):
         """Returns a text that is equal for requests about the same atoms of the same files."""
-        return json.dumps([self.selection, self.color, self.frames, self.trajectory_atoms, self.preparation, *(stamp(path) for path in (self.file, self.trajectory, self.numbers))])
+        return json.dumps([
+            self.selection, self.color, self.frames, self.trajectory_atoms, self.preparation,
+            *(stamp(path) for path in (self.file, self.trajectory, self.numbers))
+        ])
 
     def key(self, atoms=None, others=()):
-        """Returns a text that is equal for requests with equal surfaces. atoms: the atoms that come from Blender, or None;
-        others: further arrays of these atoms."""
+        """Returns a text that is equal for requests with equal surfaces. atoms: the atoms that come from Blender, or
+        None; others: further arrays of these atoms."""
         values = dataclasses.asdict(self)
         if self.kind == "VDW":
             values["probe"] = 0.0
@@ -69,7 +73,8 @@ class Request:
             values["tolerance"] = 0.0
         values["files"] = [stamp(self.file), stamp(self.trajectory), stamp(self.numbers)]
         if atoms is not None:
-            values["atoms"] = _digest(atoms.positions, atoms.radii, atoms.colors, atoms.index, *atoms.numbers.values(), *others)
+            values["atoms"] = _digest(atoms.positions, atoms.radii, atoms.colors, atoms.index, *atoms.numbers.values(),
+                                      *others)
         return hashlib.sha256(json.dumps(values, sort_keys=True).encode()).hexdigest()
 
     def shape_key(self, atoms):
@@ -80,8 +85,8 @@ class Request:
 
 
 def stamp(path):
-    """Returns values that identify a file and its state: path, modification time in ns, and size. Returns the path alone
-    if the file does not exist, and None for no path."""
+    """Returns values that identify a file and its state: path, modification time in ns, and size. Returns the path
+    alone if the file does not exist, and None for no path."""
     if not path or not os.path.exists(path):
         return path or None
     found = os.stat(path)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The program that computes for the add-on in a process of its own: it takes tasks from a connection and returns results.
+"""The program that computes for the add-on in a process of its own: it takes tasks from a connection and returns
+results.
 
 process.py starts it. A message is a tuple of a word, plain values and numpy arrays. The program receives "begin"
 (sys.path, package, program, folder for temporary files), "do" (number, owner, urgency, kind of work, its arguments) and
