@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stage "primitives", 6: whether the atoms on arcs around an atom clip its patch to what it is.
-// Reads: arcs, lists of arcs by atom with marks, atoms. Writes: clips. One invocation per arc and side, for one of each circle;
-// it goes through the atom's partners once. At first in single precision, then in double for atoms in doubt.
-// Overflow: none; where loops are cut short, all neighbours clip.
+// Stage "primitives", 6: tests if the atoms on arcs around an atom clip its patch exactly, or leave spurious arcs.
+// Reads: arcs, lists of arcs by atom with marks, atoms. Writes: clips. One invocation per arc and side, which works on
+// one arc of each circle and traverses the atom's partners once. It runs in single precision first, then in double
+// precision for atoms in doubt. Overflow: none; if loops are cut short, all neighbours clip.
 // Based on: Krone, Dachsbacher & Ertl 2010, section 3.4.
 #version 450 core
 layout(local_size_x = 64) in;
@@ -30,7 +30,7 @@ bool known(ListedArc listed, uvec3 border) {
   return false;
 }
 
-// What the partners leave of the circle (a, b).
+// Finds the arcs of the circle (a, b) that the partners of atom a leave exposed.
 void expose_among_partners(ListedArc listed, uint b) {
   dvec4 ball = atoms[listed.atom];
   real w0 = real(ball.w);
@@ -49,7 +49,7 @@ void expose_among_partners(ListedArc listed, uint b) {
   }
 }
 
-// Whether an arc that is left is not one of the surface: then some other atom is needed.
+// True if an exposed arc is not an arc of the surface, so that another atom must clip the patch.
 bool is_spurious(ListedArc listed, uint b) {
   bool spurious = exposed_whole && !known(listed, uvec3(b, kNone, kNone));
   for (uint n = 0u; n < exposed_count && !spurious; ++n) {
