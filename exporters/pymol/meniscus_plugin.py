@@ -20,7 +20,7 @@ SURFACE_MODES = ("not flag 25", "all", "not hydro", "visible", "visible and not 
 completed = cmd.extendaa(cmd.auto_arg[0]["zoom"])  # a command whose first word is completed as a selection
 
 
-def the_library():
+def load_library():
     """Returns the package meniscus. Raises CmdException with a sentence that says how to install it."""
     try:
         import meniscus
@@ -59,11 +59,11 @@ def atoms_of(selection, context, state):
 
 
 @contextlib.contextmanager
-def refusals():
+def library_errors():
     """Turns errors of the library into CmdException, so that PyMOL shows their sentence without a traceback."""
     try:
         yield
-    except the_library().Error as error:
+    except load_library().Error as error:
         raise CmdException(str(error)) from error
 
 
@@ -71,8 +71,8 @@ def surface_of(atoms, probe, kind="ses"):
     """Returns the exact surface of the atoms. Raises CmdException if none is selected or the library refuses them."""
     if not atoms.selected.any():
         raise CmdException("the selection has no atoms in this state")
-    with refusals():
-        return the_library().surface(atoms.positions, atoms.radii, probe, kind=kind if probe else "vdw")
+    with library_errors():
+        return load_library().surface(atoms.positions, atoms.radii, probe, kind=kind if probe else "vdw")
 
 
 def probe_of(probe):
@@ -184,7 +184,7 @@ EXAMPLES
         atoms = atoms_of(selection, context, number)
         if state != 0 or atoms.selected.any():
             surface = surface_of(atoms, probe)
-            with refusals():
+            with library_errors():
                 mesh = surface.mesh(float(tolerance))
             place = number if number > 0 else cmd.get_state()
             states[place] = cgo_of(mesh, colors_of(atoms.keys, selection, color), atoms.selected)
@@ -265,14 +265,14 @@ EXAMPLES
     number = int(state) if int(state) > 0 else cmd.get_state()
     atoms, probe = atoms_of(selection, context, int(state) or -1), probe_of(probe)
     surface = surface_of(atoms, probe)
-    with refusals():
+    with library_errors():
         found = surface.pockets(float(large_probe), min_volume=float(min_volume))
     found = [pocket for pocket in found if atoms.selected[pocket.atoms].any()]
     name = free_name(name)
     for place, (pocket, color) in enumerate(zip(found, itertools.cycle(util._color_cycle)), 1):
         with warnings.catch_warnings():  # the library warns about probes, which lie closer together than atoms
             warnings.simplefilter("ignore")
-            balls = the_library().surface(pocket.probes, probe, kind="vdw").mesh(0.1)
+            balls = load_library().surface(pocket.probes, probe, kind="vdw").mesh(0.1)
         colors = np.tile(cmd.get_color_tuple(color), (len(pocket.probes), 1))
         load_states({number: cgo_of(balls, colors)}, f"{name}_{place}")
         cmd.group(name, f"{name}_{place}")

@@ -260,12 +260,12 @@ def render_to(scene, path, file_format, depth):
     if file_format == "PNG":
         settings.color_mode = "RGBA" if scene.render.film_transparent else "RGB"
     root, extension = os.path.splitext(os.path.abspath(path))
-    beside = f"{root}.unfinished-{os.getpid()}{extension}"
-    scene.render.filepath = beside
+    temporary = f"{root}.unfinished-{os.getpid()}{extension}"
+    scene.render.filepath = temporary
     bpy.ops.render.render(write_still=True)
-    if not os.path.exists(beside) or os.path.getsize(beside) == 0:
+    if not os.path.exists(temporary) or os.path.getsize(temporary) == 0:
         raise OSError(f"{path}: the picture was not written")
-    os.replace(beside, path)
+    os.replace(temporary, path)
 
 
 def render_picture(scene, options, path):
@@ -336,7 +336,7 @@ def run_file(options):
         render_picture(scene, options, options.output)
     if options.passes:
         render_passes(scene, options.passes)
-    say({"file": options.file, "triangles": sum(len(item.data.polygons) for item in made.surfaces),
+    print_result({"file": options.file, "triangles": sum(len(item.data.polygons) for item in made.surfaces),
          "load_s": round(loaded - started, 3), "total_s": round(time.time() - started, 3)})
     return 0
 
@@ -430,7 +430,7 @@ def run_sequence(options):
     empty_scene()
     frames = sequence_reader.read(options.file)
     if options.shot:
-        frames.look_from(options.shot)
+        frames.set_camera(options.shot)
     chosen = chosen_frames(options, frames)
     for path in (options.output, options.passes):
         if path and "#" not in path and len(chosen) > 1:
@@ -443,12 +443,12 @@ def run_sequence(options):
         line = {"frame": number, "scene_frame": scene_frame}
         try:
             files, triangles = render_frame(stage, options, scene_frame, number)
-            say({**line, "state": "done", "files": files, "triangles": triangles,
+            print_result({**line, "state": "done", "files": files, "triangles": triangles,
                  "ms": round(1e3 * (time.time() - started), 1)})
         except (mns_reader.MnsError, OSError, RuntimeError) as error:
             failure = exit_code(error)
             code = code or failure
-            say({**line, "state": "failed", "exit": failure, "error": str(error)})
+            print_result({**line, "state": "failed", "exit": failure, "error": str(error)})
             sys.stderr.write(f"render_mns: error: {error}\n")
     return code
 
@@ -462,7 +462,7 @@ def fail(code, message):
     sys.exit(code)
 
 
-def say(line):
+def print_result(line):
     RESULTS.write(json.dumps(line) + "\n")
     RESULTS.flush()
 
@@ -478,17 +478,17 @@ def main():
     finally:
         sequence.unregister()
         if CHATTER:
-            tell_faults()
+            copy_faults()
     sys.exit(code)
 
 
-def tell_faults():
+def copy_faults():
     """Copies errors and warnings that Blender has printed to standard error."""
     sys.stdout.flush()
     ctypes.CDLL(None).fflush(None)  # the C library buffers lines
-    said = os.pread(CHATTER.fileno(), 1 << 24, 0)
+    output = os.pread(CHATTER.fileno(), 1 << 24, 0)
     faults = [
-        line for line in said.decode("utf-8", "replace").splitlines(True)
+        line for line in output.decode("utf-8", "replace").splitlines(True)
         if re.search(r"\b(error|warning|failed)\b", line, re.IGNORECASE)
     ]
     sys.stderr.write("".join(faults))

@@ -139,7 +139,7 @@ class Molecules(WithFolder):
         for name, value in (("altloc", "first"), ("altloc", "A"), ("assembly", "1"), ("hydrogens", "drop"), ("hydrogens", "keep"),
                             ("radii", "united"), ("keep_water", True), ("keep_ions", True), ("model", "2")):
             file = samples.UBIQUITIN if name == "model" else odd
-            pairs = preparation.asked(preparation.ROWS, lambda other, n=name, v=value: v if other == n else preparation.default_of(
+            pairs = preparation.changed_fields(preparation.ROWS, lambda other, n=name, v=value: v if other == n else preparation.default_of(
                 next(row for row in preparation.ROWS if preparation.name_of(row) == other)))
             self.assertEqual(pairs, ((name, value),))
             found = molecules.read(self.library, request.Request(file=file, preparation=pairs)).atoms

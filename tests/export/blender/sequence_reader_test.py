@@ -52,7 +52,7 @@ class SequenceReader(unittest.TestCase):
             self.assertEqual(camera_reader.read(path), good)
             run = sequence_reader.read(self.manifest)
             size = run.frames[0].camera["size"]
-            run.look_from(good)
+            run.set_camera(good)
             self.assertEqual([frame.camera for frame in run.frames], [{**good, "size": size}] * 3)
             name = camera_reader.SIZES[projection]
             missing = {key: value for key, value in good.items() if key != "up"}

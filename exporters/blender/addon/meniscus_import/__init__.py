@@ -43,7 +43,7 @@ class Looks:
                                           description="Show colours as they are; Filmic and AgX make them paler",
                                           default=False)
 
-    def tell(self, context):
+    def report_view_transform(self, context):
         """Shows colours in solid views, and reports a view transform that changes them."""
         compat.color_solid_views(context)
         view = context.scene.view_settings
@@ -92,7 +92,7 @@ class IMPORT_SCENE_OT_meniscus(Looks, bpy.types.Operator, ImportHelper):
                 self.report({"ERROR"}, str(error))
         if not imported:
             return {"CANCELLED"}
-        self.tell(context)
+        self.report_view_transform(context)
         return {"FINISHED"}
 
 
@@ -126,7 +126,7 @@ class IMPORT_SCENE_OT_meniscus_sequence(Looks, bpy.types.Operator, ImportHelper)
     set_time: bpy.props.BoolProperty(
         name="Set frame range and rate", description="The scene gets the range and the rate of the run", default=True)
 
-    @build.tells_errors
+    @build.reports_errors
     def execute(self, context):
         options = {name: getattr(self, name) for name in ("crisp_colors", "own_materials", "center", "import_camera",
                                                           "use_camera", "set_time")}
@@ -142,7 +142,7 @@ class IMPORT_SCENE_OT_meniscus_sequence(Looks, bpy.types.Operator, ImportHelper)
                 sequence.stream(self.filepath, context, **options)
         finally:
             window.progress_end()
-        self.tell(context)
+        self.report_view_transform(context)
         return {"FINISHED"}
 
 
@@ -168,12 +168,12 @@ class IMPORT_SCENE_OT_meniscus_storyboard(Looks, bpy.types.Operator, ImportHelpe
         description="The camera sees the colours of the film where there is no object; what lights the scene stays",
         default=True)
 
-    @build.tells_errors
+    @build.reports_errors
     def execute(self, context):
         options = {name: getattr(self, name) for name in ("crisp_colors", "own_materials", "center", "import_camera",
                                                           "use_camera", "set_time", "set_background")}
         storyboard.import_file(self.filepath, context, scale=self.scale or None, **options)
-        self.tell(context)
+        self.report_view_transform(context)
         return {"FINISHED"}
 
 
@@ -189,7 +189,7 @@ class OBJECT_OT_meniscus_reload(bpy.types.Operator):
         item = context.active_object
         return item is not None and item.mode == "OBJECT" and "meniscus_file" in item and item.data.library is None
 
-    @build.tells_errors
+    @build.reports_errors
     def execute(self, context):
         build.reload(context.active_object, context)
         return {"FINISHED"}

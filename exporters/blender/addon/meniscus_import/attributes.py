@@ -82,7 +82,7 @@ def keep_through(mesh, ours, source):
     return kept
 
 
-def hand_on(mesh, other):
+def copy_kept(mesh, other):
     """Copies the attributes that were kept for a mesh to another mesh."""
     if compat.identity(mesh) in _of_user:
         _of_user[compat.identity(other)] = _of_user[compat.identity(mesh)]
@@ -92,7 +92,7 @@ def forget():
     _of_user.clear()
 
 
-def give_back(mesh, kept, arrays):
+def restore(mesh, kept, arrays):
     """Adds the Kept attributes to a mesh that has been filled with mesh_arrays.MeshArrays."""
     for each in kept:
         add(mesh, each.name, each.kind, each.domain, spread(each, arrays))

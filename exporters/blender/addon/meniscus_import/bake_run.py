@@ -18,7 +18,7 @@ COMPRESSED = 0.3
 #: Attributes whose bytes ELEMENT_BYTES includes.
 IN_ELEMENTS = {"position", "material_index"}
 #: Custom properties of streams and of objects that show a single frame, which baked objects do not have.
-OF_LIVE = ("meniscus_stream", "meniscus_start", "meniscus_speed", "meniscus_outside", "meniscus_by_hand",
+LIVE_PROPERTIES = ("meniscus_stream", "meniscus_start", "meniscus_speed", "meniscus_outside", "meniscus_by_hand",
            "meniscus_frame", "meniscus_frames", "meniscus_frames_of", "meniscus_area", "meniscus_volume",
            libraries.ERROR)
 
@@ -107,7 +107,7 @@ def frame_bytes(mesh):
                for size, part in parts) + sum(VALUE_BYTES.get(each.data_type, 4) * len(each.data) for each in own)
 
 
-def told_size(item, scene):
+def size_lines(item, scene):
     """Returns short lines about the number of frames and their size, if all of them are like the one that shows."""
     try:
         count = kind_of(item)(item, scene).count
@@ -135,7 +135,7 @@ def bake(item, scene):
     stand_in.data = item.data.copy()
     try:
         stand_in.data.animation_data_clear()
-        attributes.hand_on(item.data, stand_in.data)
+        attributes.copy_kept(item.data, stand_in.data)
         for place in range(1, live.count + 1):
             live.show(stand_in, place)
             frames.add(_frame_of(stand_in.data, item))
@@ -168,7 +168,7 @@ def _replace(item, stand_in, live, frames):
     modifier = frames.show_in(item, live.timing, live.by_hand, live.frame)
     compat.rename_curves(item, {path: compat.input_path(modifier, socket) for path, socket in live.TIMES.items()})
     build.set_names(item, {attribute: stand_in.get(key, ()) for attribute, (_, key) in mesh_arrays.NAMES.items()})
-    for key in OF_LIVE:
+    for key in LIVE_PROPERTIES:
         if key in item:
             del item[key]
     item.meniscus.source = "NONE"
@@ -204,7 +204,7 @@ class OBJECT_OT_meniscus_bake(bpy.types.Operator):
         result = self.step(context)
         return result if result == {"RUNNING_MODAL"} else self.end(context, result)
 
-    @build.tells_errors
+    @build.reports_errors
     def step(self, context):
         for done, count in self.steps:
             context.workspace.status_text_set(f"Frame {done:,} of {count:,} is baked; Esc cancels")
@@ -216,7 +216,7 @@ class OBJECT_OT_meniscus_bake(bpy.types.Operator):
         context.workspace.status_text_set(None)
         return result
 
-    @build.tells_errors
+    @build.reports_errors
     def execute(self, context):
         for _ in bake(context.active_object, context.scene):
             pass
@@ -228,7 +228,7 @@ def draw(layout, context):
     item = context.active_object
     if kind_of(item) is not None:
         layout.operator("object.meniscus_bake", icon="RENDER_ANIMATION")
-        for line in told_size(item, context.scene):
+        for line in size_lines(item, context.scene):
             layout.label(text=line)
 
 

@@ -65,18 +65,18 @@ def whole_or_nothing():
         raise
 
 
-def tells_errors(execute):
+def reports_errors(execute):
     """Decorates an operator's function so that it reports MnsError and OSError, and ends as cancelled."""
 
     @functools.wraps(execute)
-    def told(operator, context):
+    def reporting(operator, context):
         try:
             return execute(operator, context)
         except (mns_reader.MnsError, OSError) as error:
             operator.report({"ERROR"}, str(error))
             return {"CANCELLED"}
 
-    return told
+    return reporting
 
 
 def import_file(path, context=None, **options):
@@ -162,8 +162,8 @@ def reload(item, context=None):
     kept = attributes.keep(mesh, OURS)
     clear_geometry(mesh)
     fill_mesh(mesh, arrays, fps_of(context.scene), trusted=True)
-    attributes.give_back(mesh, kept, arrays)
-    mesh[materials.ASKED] = materials.asked_of(surface, materials.asked_by(mesh)[1])
+    attributes.restore(mesh, kept, arrays)
+    mesh[materials.REQUIREMENTS] = materials.requirements_of(surface, materials.stored_requirements(mesh)[1])
     for slot, material in enumerate(dressing):
         if slot == len(mesh.materials):
             mesh.materials.append(None)
@@ -201,7 +201,7 @@ def middle_of(points):
 def scene_origin(scene, otherwise, source, atoms):
     """Returns the origin of coordinates in Å that an earlier import of the same molecule used, so that its surfaces
     stay together, or otherwise() if there is none. Two molecules are the same if their files (source) have the same
-    name without endings, or if their numbers of atoms agree and are at least MANY_ATOMS, which is no coincidence."""
+    name without endings, or if their numbers of atoms agree and are at least MANY_ATOMS, which cannot be a coincidence."""
     for item in scene.objects:
         same_name = stem_of(source) and stem_of(source) == stem_of(item.get("meniscus_source", ""))
         is_same = same_name or (atoms >= MANY_ATOMS and atoms == item.get("meniscus_atoms"))
@@ -229,7 +229,7 @@ def present(context, items):
 
 
 def let_rays_through(scene, meshes):
-    """Raises the number of transparent layers that Cycles renders, if a mesh has opacities. Cycles shows black behind
+    """Raises the number of transparent layers that Cycles renders, if a mesh has opacities. Cycles shows black after
     more layers, and allows eight by default. The number never becomes smaller."""
     if any("opacity" in mesh.attributes for mesh in meshes) and hasattr(scene, "cycles"):
         scene.cycles.transparent_max_bounces = max(scene.cycles.transparent_max_bounces, MOST_LAYERS)
@@ -298,7 +298,7 @@ def fill_mesh(mesh, arrays, fps, trusted=False):
 def add_materials(mesh, surface, new_materials, own=False, fades=False):
     """Adds the materials of a surface to a mesh. own: True for new materials, False for those that all imports share.
     fades: True for materials that fade by the object's colour."""
-    mesh[materials.ASKED] = materials.asked_of(surface, fades)
+    mesh[materials.REQUIREMENTS] = materials.requirements_of(surface, fades)
     for role, kind in materials.wanted(surface):
         mesh.materials.append(
             materials.find_or_make(role, kind, new_materials, own, materials.hatching_of(surface, role),

@@ -67,7 +67,7 @@ def complete(poses):
     return poses
 
 
-def turned(one, other, share):
+def slerp_progress(one, other, share):
     """Returns the share of a normalized straight line from one quaternion to another (nlerp) at which a `share` of the
     rotation angle is done (slerp)."""
     half = math.acos(min(max(float(np.dot(one, other)), -1.0), 1.0))
@@ -77,14 +77,14 @@ def turned(one, other, share):
     return after / (before + after)
 
 
-def grown(one, other, share):
+def log_progress(one, other, share):
     """Returns the share of the difference between two positive numbers at which their logarithm has changed by `share`.
     """
     ratio = math.log(other / one)
     return np.asarray(share, dtype=np.float64) if abs(ratio) < 1e-9 else np.expm1(ratio * share) / math.expm1(ratio)
 
 
-def grown_lens(one, other, share):
+def lens_progress(one, other, share):
     """Returns the share of the difference between two lenses at which the logarithm of the angle of view has changed by
     `share`. The lens is 1 / tan(half the angle), and `one` and `other` are tangents of half the angles."""
     angles = np.arctan([one, other])

@@ -32,15 +32,16 @@ def add(collection, board, name, scale, origin):
     places = [(pose.target - origin) * scale for pose in poses]
     key(board, target, "location", places, target.location)
     key(board, target, "rotation_quaternion", [pose.turn for pose in poses], target.rotation_quaternion,
-        camera_path.turned, _tolerance_of_turn)
-    key(board, item, "location", [(0.0, 0.0, pose.distance * scale) for pose in poses], item.location, _grown,
+        camera_path.slerp_progress, _tolerance_of_turn)
+    key(board, item, "location", [(0.0, 0.0, pose.distance * scale) for pose in poses], item.location, _log_progress,
         _tolerance_of_size, (2,))
     data.lens, data.ortho_scale = half / poses[0].tangent, poses[0].height * scale
     key(board, data, "lens", [(half / pose.tangent,) for pose in poses], None,
-        lambda before, after, share: camera_path.grown_lens(before[0] / half, after[0] / half, share),
+        lambda before, after, share: camera_path.lens_progress(before[0] / half, after[0] / half, share),
         _tolerance_of_size)
     if any(pose.is_flat for pose in poses):
-        key(board, data, "ortho_scale", [(pose.height * scale,) for pose in poses], None, _grown, _tolerance_of_size)
+        key(board, data, "ortho_scale", [(pose.height * scale,) for pose in poses], None, _log_progress,
+            _tolerance_of_size)
     if len({pose.is_flat for pose in poses}) > 1:
         _step(board, data, "type", [float(pose.is_flat) for pose in poses])
     if any(pose.extra for pose in poses):
@@ -56,8 +57,8 @@ def reach_all(item, board, points_of_scenes, scale):
     item.data.clip_start, item.data.clip_end = max(1e-4 * reach, 1e-6), 4.0 * reach
 
 
-def _grown(before, after, share):
-    return camera_path.grown(before[0], after[0], share)
+def _log_progress(before, after, share):
+    return camera_path.log_progress(before[0], after[0], share)
 
 
 def _tolerance_of_turn(before, after):
@@ -89,12 +90,12 @@ def key(board, owner, path, values, now, way=lambda before, after, share: share,
     start = curves.SMOOTH if board.is_smooth else curves.EVEN
     for (before, after, dissolves), one, other in zip(transitions(board), values, values[1:]):
         for each, part in zip(ways, one):
-            each.go_on(before.last, part)
+            each.append(before.last, part)
         if dissolves and one != other:
             keys.follow(ways, (before.last, after.first), (one, other), lambda time: way(one, other, board.share(time)),
                         tolerance(one, other), start)
         for each, part in zip(ways, other):
-            each.go_on(after.first, part, keys.LINEAR if dissolves else keys.CONSTANT)
+            each.append(after.first, part, keys.LINEAR if dissolves else keys.CONSTANT)
     for channel, each in zip(channels, ways):
         if now is not None:
             now[channel] = each.points[0][1]
@@ -105,5 +106,5 @@ def _step(board, owner, path, values, index=-1):
     """Adds key frames to a property that is constant until the next scene begins."""
     way = keys.Way(board.scenes[0].first, values[0])
     for scene, value in zip(board.scenes[1:], values[1:]):
-        way.go_on(scene.first, value, keys.CONSTANT)
+        way.append(scene.first, value, keys.CONSTANT)
     way.insert(owner, path, index)

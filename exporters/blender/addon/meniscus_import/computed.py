@@ -15,16 +15,16 @@ from .showing import SHOWN, Shown, _kept, empty, frame_count, is_computed, keep,
 #: Seconds between two checks for finished results.
 TICK = 0.005
 #: Seconds between two updates of the displayed progress.
-TELL = 0.2
+REDRAW_INTERVAL = 0.2
 #: The number of frames that are computed ahead of the one that shows.
 AHEAD = 4
 
 _process = None
-_told = 0.0  # time when sidebars were last redrawn
-_awaited = {}  # key -> process.Job of a later frame
+_last_redraw = 0.0  # time when sidebars were last redrawn
+_ahead = {}  # key -> process.Job of a later frame
 
 
-class Wanted:
+class SurfaceRequest:
     """The surface that an object requests at one time: its request, its atoms with their other attributes if they come
     from Blender, and the scale and colours of its mesh."""
 
@@ -40,13 +40,13 @@ class Wanted:
         shape = self.request.key(self.atoms, [each.values for each in self.others])
         self.key = f"{shape} {self.scale:.6g} {int(self.crisp)} " + ",".join(each.name for each in self.others)
 
-    def ask(self, owner, urgency=process.NOW):
+    def submit(self, owner, urgency=process.NOW):
         """Returns a process.Job whose result becomes a Shown."""
         about = {
             "request": dataclasses.asdict(self.request), "atoms": self.atoms and vars(self.atoms), "scale": self.scale,
             "crisp": self.crisp, "others": [vars(each) for each in self.others]
         }
-        job = working().ask(owner, self.key, "surface", about, urgency)
+        job = working().submit(owner, self.key, "surface", about, urgency)
         job.make = lambda result: result and Shown(result, self)
         return job
 
@@ -64,17 +64,17 @@ def working():
     return _process
 
 
-def look_for_tools():
+def search_tools_again():
     """Searches for the tools again, because they may have been installed meanwhile. Returns the result of
-    works.Tools.told()."""
+    works.Tools.describe_tools()."""
     end()
-    return working().told()
+    return working().describe_tools()
 
 
-def told_tools():
+def tool_lines():
     """Yields lines for the user about the tools that were found."""
     try:
-        found = working().told()
+        found = working().describe_tools()
     except mns_reader.MnsError as error:
         yield str(error)
         return
@@ -89,16 +89,16 @@ def end():
     if _process is not None:
         _process.end()
         _process = None
-    _awaited.clear()
+    _ahead.clear()
 
 
 def changed(item):
     """Updates the surface in the background after a property of the object changed, if live updates are switched on."""
     if is_computed(item) and item.meniscus.live and not bpy.app.background:
-        ask(item, in_motion=True)
+        update_in_background(item, in_motion=True)
 
 
-def ask(item, in_motion=False):
+def update_in_background(item, in_motion=False):
     """Requests the surface of an object in the background. Waiting requests of the same object are dropped. in_motion:
     True to request a proxy first if the settings of the object say so; a fine mesh follows."""
     _wait_for_rest(item, in_motion)
@@ -110,22 +110,22 @@ def ask(item, in_motion=False):
             if place is None:
                 empty(item)
                 return
-            wanted = Wanted(item, place)
+            wanted = SurfaceRequest(item, place)
             if in_motion and item.data.get(SHOWN) != wanted.key and wanted.key not in _kept:
-                wanted = Wanted(item, place, True)
+                wanted = SurfaceRequest(item, place, True)
             if item.data.get(SHOWN) == wanted.key or wanted.key in _kept:
                 working().drop(compat.identity(item))  # drops requests from before an undo
                 _show_kept(item, wanted.key)
                 return
-            wanted.ask(compat.identity(item))
+            wanted.submit(compat.identity(item))
             showing.watch(item)
     except (mns_reader.MnsError, OSError) as error:
         fail(item, error)
         return
-    _go_on_ticking()
+    _start_timer()
 
 
-def _go_on_ticking():
+def _start_timer():
     if not bpy.app.timers.is_registered(_tick):
         bpy.app.timers.register(_tick, first_interval=TICK)
 
@@ -133,7 +133,7 @@ def _go_on_ticking():
 def _wait_for_rest(item, in_motion):
     if in_motion and item.meniscus.detail == "AUTO":
         motion.moves(compat.identity(item))
-        _go_on_ticking()
+        _start_timer()
     else:
         motion.rests(compat.identity(item))
 
@@ -145,7 +145,7 @@ def _come_to_rest():
         if not is_computed(item):
             motion.rests(owner)
         elif working().job_of(owner) is None:
-            ask(item)
+            update_in_background(item)
 
 
 def come_to_rest(item):
@@ -167,7 +167,7 @@ def _run_key(item):
 
 def _ask_for_frames(item):
     """Requests the number of frames of an object's run, and returns the process.Job."""
-    return working().ask(compat.identity(item), _run_key(item), "count",
+    return working().submit(compat.identity(item), _run_key(item), "count",
                          {"request": dataclasses.asdict(item.meniscus.request(1))})
 
 
@@ -196,9 +196,9 @@ def show_place(item, place, in_motion=False):
         empty(item)
         libraries.succeed(item)
         return
-    wanted = Wanted(item, place, in_motion)
+    wanted = SurfaceRequest(item, place, in_motion)
     if item.data.get(SHOWN) != wanted.key and wanted.key not in _kept:
-        job = _finished(_awaited.pop(wanted.key, None) or wanted.ask(compat.identity(item)))
+        job = _finished(_ahead.pop(wanted.key, None) or wanted.submit(compat.identity(item)))
         keep(wanted.key, job.make(job.result))
     _show_kept(item, wanted.key)
 
@@ -237,11 +237,11 @@ def redraw():
 
 def _tick():
     """Shows finished surfaces. It is a timer that runs while something is computed."""
-    global _told
+    global _last_redraw
     done = working().take()
     _deliver(done)
-    if done or clock.monotonic() - _told > TELL:
-        _told = clock.monotonic()
+    if done or clock.monotonic() - _last_redraw > REDRAW_INTERVAL:
+        _last_redraw = clock.monotonic()
         redraw()
     _come_to_rest()
     return TICK if working().is_busy() or motion.any_moves() else None
@@ -252,8 +252,8 @@ def _deliver(done):
     for job in done:
         if job.make is not None and job.error is None:
             keep(job.key, job.make(job.result))
-        if _awaited.get(job.key) is job:
-            del _awaited[job.key]
+        if _ahead.get(job.key) is job:
+            del _ahead[job.key]
             continue
         item = _item_of(job)
         if not is_computed(item):
@@ -262,14 +262,14 @@ def _deliver(done):
             fail(item, job.error)
         elif job.make is None:
             _take_frames(item, job)
-            ask(item, motion.is_moving(compat.identity(item)))
+            update_in_background(item, motion.is_moving(compat.identity(item)))
         elif showing.was_changed(item):
             fail(item, "its mesh was changed while the surface was computed; Update shows it")
         else:
             before = item.data.get(SHOWN)
             copies = [
                 other for other in bpy.data.objects
-                if other != item and showing.asks_alike(item, other) and other.data.get(SHOWN) == before
+                if other != item and showing.requests_same_surface(item, other) and other.data.get(SHOWN) == before
             ]
             for each in (item, *copies):
                 try:
@@ -288,11 +288,11 @@ def cancel(item):
     """Stops the computation of an object immediately. Returns True if there was one."""
     if not working().stop(compat.identity(item)):
         return False
-    _awaited.clear()
+    _ahead.clear()
     for job in working().take():  # other jobs ended with the process
         other = _item_of(job)
         if is_computed(other):
-            ask(other)
+            update_in_background(other)
     return True
 
 
@@ -313,14 +313,14 @@ def compute_ahead(item, places, in_motion=False):
     files only, because later positions of atoms that come from Blender are not known."""
     wanted_keys = set()
     for place in filter(None, places):
-        wanted = Wanted(item, place, in_motion)
+        wanted = SurfaceRequest(item, place, in_motion)
         wanted_keys.add(wanted.key)
-        if wanted.key not in _awaited and wanted.key not in _kept:
-            _awaited[wanted.key] = wanted.ask((compat.identity(item), wanted.key), process.NEXT)
-    for key, job in list(_awaited.items()):
+        if wanted.key not in _ahead and wanted.key not in _kept:
+            _ahead[wanted.key] = wanted.submit((compat.identity(item), wanted.key), process.NEXT)
+    for key, job in list(_ahead.items()):
         if job.owner[0] == compat.identity(item) and key not in wanted_keys:
             working().drop(job.owner)
-            del _awaited[key]
+            del _ahead[key]
 
 
 def follow(scene):
@@ -363,12 +363,12 @@ def on_undo(*_arguments):
 def catch_up():
     for item in bpy.data.objects:
         if is_computed(item) and (SHOWN in item.data or progress_of(item) is not None):
-            ask(item)
+            update_in_background(item)
 
 
 @persistent
 def on_load(*_arguments):
-    _awaited.clear()
+    _ahead.clear()
     showing.forget()
     motion.forget()
     if _process is not None:

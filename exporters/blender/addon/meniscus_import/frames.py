@@ -40,16 +40,16 @@ def packed(prepared):
     """Returns a Prepared as plain values and arrays, which can be sent to another process."""
     surface = prepared.surface
     # Empty arrays show only which of these exist.
-    told = {name: np.empty(0) for name in ("atom.opacity", "mesh.cap_plane") if surface.get(name) is not None}
+    existing = {name: np.empty(0) for name in ("atom.opacity", "mesh.cap_plane") if surface.get(name) is not None}
     return {
-        "path": surface.path, "header": surface.header, "told": told, "arrays": vars(prepared.arrays),
+        "path": surface.path, "header": surface.header, "existing": existing, "arrays": vars(prepared.arrays),
         "points": prepared.points, "triangles": prepared.triangles
     }
 
 
 def unpacked(given):
     """Returns the Prepared that was packed. The arrays of its surface are empty; they only determine its materials."""
-    surface = mns_reader.Surface(given["path"], given["header"], given["told"])
+    surface = mns_reader.Surface(given["path"], given["header"], given["existing"])
     return Prepared(surface, mesh_arrays.MeshArrays(**given["arrays"]), given["points"], given["triangles"])
 
 

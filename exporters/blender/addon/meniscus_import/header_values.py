@@ -8,7 +8,7 @@ import numpy as np
 #: Larger numbers have no finite square, or none that Blender's single precision can hold after scaling.
 TOO_LARGE = 1e30
 #: Returns a shortened text of a value for messages.
-told = reprlib.repr
+shortened = reprlib.repr
 
 
 def is_number(value, low=-TOO_LARGE, high=TOO_LARGE):
@@ -71,7 +71,7 @@ def check(header, table, needed=()):
         for each in outer:
             holder = holder.get(each, {})
         if last in holder and not is_good(holder[last]):
-            raise ValueError(f"{key} is {told(holder[last])}, not {words}")
+            raise ValueError(f"{key} is {shortened(holder[last])}, not {words}")
         if last not in holder and key in needed:
             raise ValueError(f"{key} is missing")
 
@@ -79,7 +79,7 @@ def check(header, table, needed=()):
 def check_camera(camera):
     """Raises ValueError with one sentence if a camera lacks a key or has invalid values."""
     if not isinstance(camera, dict):
-        raise ValueError(f"it is {told(camera)}, not an object")
+        raise ValueError(f"it is {shortened(camera)}, not an object")
     check(camera, CAMERA, (*VECTORS, "projection"))
     check(camera, CAMERA, (SIZES[camera["projection"]],))
     position, target, up = (np.array(camera[key], dtype=np.float64) for key in VECTORS)

@@ -15,7 +15,7 @@ class Way:
     def __init__(self, frame, value):
         self.points, self.ways = [(frame, value)], []
 
-    def go_on(self, frame, value, way=LINEAR):
+    def append(self, frame, value, way=LINEAR):
         """Appends a key frame. It does nothing at the frame of the last point, and if a value that changes in steps
         only remains the same."""
         if frame > self.points[-1][0] and not (way == CONSTANT and value == self.points[-1][1] and
@@ -61,4 +61,4 @@ def follow(ways, frames, ends, share, tolerance, start, most=2):
                start, most - 1)
         return
     for way, value in zip(ways, ends[1]):
-        way.go_on(frames[1], value, handles)
+        way.append(frames[1], value, handles)

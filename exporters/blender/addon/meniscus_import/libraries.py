@@ -18,18 +18,15 @@ AT = "meniscus_at_"
 #: Options of Blender that render from the command line.
 RENDERS = {"-a", "--render-anim", "-f", "--render-frame"}
 
-_said = {}  # identity of an object -> the last message about it
+_last_message = {}  # identity of an object -> the last message about it
 
 
 def is_fixed(item):
     """True if an object belongs to a library, so that it must not be changed. A message says so once."""
     if item.library is None:
         return False
-    say(
-        item,
-        f"{item.name} comes from {item.library.filepath} and stays as it was saved there; a library override of it "
-        "follows its run"
-    )
+    report(item, f"{item.name} comes from {item.library.filepath} and stays as it was saved there; a library override "
+           "of it follows its run")
     return True
 
 
@@ -43,10 +40,10 @@ def own_mesh(item, shows_the_same):
     return item.data
 
 
-def say(item, sentence):
+def report(item, sentence):
     """Prints a message about an object on standard error, unless it was the last message about it."""
-    if _said.get(compat.identity(item)) != sentence:
-        _said[compat.identity(item)] = sentence
+    if _last_message.get(compat.identity(item)) != sentence:
+        _last_message[compat.identity(item)] = sentence
         sys.stderr.write(f"meniscus: {sentence}\n")
 
 
@@ -54,7 +51,7 @@ def fail(item, error):
     """Reports that an object cannot be shown. A render from the command line ends, because its picture would be
     wrong."""
     item[ERROR] = str(error) or type(error).__name__
-    say(item, f"error: {item.name}: {item[ERROR]}")
+    report(item, f"error: {item.name}: {item[ERROR]}")
     if motion.is_rendering() and bpy.app.background and RENDERS & set(sys.argv) and not item.hide_render:
         sys.stderr.write(
             f"meniscus: error: no picture of frame {bpy.context.scene.frame_current}: {item.name}: {item[ERROR]}\n")
@@ -64,7 +61,7 @@ def fail(item, error):
 
 def succeed(item):
     item[ERROR] = ""
-    _said.pop(compat.identity(item), None)
+    _last_message.pop(compat.identity(item), None)
 
 
 def _stored(item, name):
@@ -80,9 +77,9 @@ def path_of(item, name):
     if override is not None and _stored(override.reference, name) == stored:
         library = override.reference.library
     found = os.path.normpath(bpy.path.abspath(stored, library=library)) if stored else ""
-    told, at = item.get(AT + name, ("", ""))
-    is_elsewhere = stored.startswith("//") and told == stored and os.path.exists(at) and not (library is not None and
-                                                                                              os.path.exists(found))
+    noted, at = item.get(AT + name, ("", ""))
+    is_elsewhere = (stored.startswith("//") and noted == stored and os.path.exists(at) and
+                    not (library is not None and os.path.exists(found)))
     return at if is_elsewhere else found
 
 
@@ -115,8 +112,8 @@ def _count_from(folder):
             stored = _stored(item, name)
             if not stored.startswith("//"):
                 continue
-            told, at = item.get(AT + name, ("", ""))
-            path = at if told == stored else path_of(item, name)
+            noted, at = item.get(AT + name, ("", ""))
+            path = at if noted == stored else path_of(item, name)
             try:
                 wanted = bpy.path.relpath(path, start=folder)
             except ValueError:  # on another drive of Windows
@@ -144,7 +141,7 @@ def on_saved(*_arguments):
 
 @persistent
 def on_load(*_arguments):
-    _said.clear()
+    _last_message.clear()
     for item in _local():
         note(item)
 

@@ -164,7 +164,7 @@ def check(look, fades, looks):
 
 def material(look, coloring, scale=0.1, kind=materials.OPAQUE, fades=False, looks=None):
     """Returns the material of a look and a colouring, and creates it if needed. scale: Blender units per Å, for the
-    depth of light. kind, fades, looks: results of materials.asked_by()."""
+    depth of light. kind, fades, looks: results of materials.stored_requirements()."""
     looks = looks or {}
     check(look, fades, looks)
     mark = f"{look} {coloring} {scale:.6g}" + (f" {kind}" if kind != materials.OPAQUE else "") + (" fading"
@@ -282,7 +282,7 @@ def dress_mesh(mesh, look, coloring, scale):
     """Gives a look to the outer surface and the cavities of a mesh, and returns its material. Opacity, parameters of
     the object's own material and fading remain. scale: Blender units per Å. Raises mns_reader.MnsError if the look
     cannot represent one of them."""
-    made = material(look, coloring, scale, *materials.asked_by(mesh))
+    made = material(look, coloring, scale, *materials.stored_requirements(mesh))
     slots = mesh.materials
     while len(slots) < 2:
         slots.append(None)
@@ -295,7 +295,7 @@ def dress_mesh(mesh, look, coloring, scale):
 def renewed(mesh, surface, scale):
     """Returns the materials of a mesh for a new surface. Materials of imports and of looks change as the surface
     requests; the user's own materials remain. Raises mns_reader.MnsError if a look cannot represent the request."""
-    fades, slots = materials.asked_by(mesh)[1], list(mesh.materials)
+    fades, slots = materials.stored_requirements(mesh)[1], list(mesh.materials)
     for slot, (role, kind) in enumerate(materials.wanted(surface)):
         old = slots[slot] if slot < len(slots) else None
         if old is not None and MARK in old:

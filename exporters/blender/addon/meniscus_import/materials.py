@@ -12,8 +12,8 @@ OPAQUE, TRANSLUCENT, FILM = "opaque", "translucent", "film"
 ENDINGS = {OPAQUE: "", TRANSLUCENT: " seen through", FILM: " film"}
 #: The custom property that distinguishes materials of this add-on from others of the same name.
 MARK = "meniscus_material"
-#: The custom property of meshes with the result of asked_of().
-ASKED = "meniscus_asked"
+#: The custom property of meshes with the result of requirements_of().
+REQUIREMENTS = "meniscus_asked"
 #: The parameters of an object's own material.
 KEYS = ("ambient", "roughness", "shininess", "specular")
 #: The least cosine of the viewing angle that determines the thickness of a film, as in Meniscus.
@@ -42,17 +42,17 @@ def looks_of(surface):
         (key, float(value)) for key, value in surface.header.get("material", {}).items() if key in KEYS))
 
 
-def asked_of(surface, fades):
+def requirements_of(surface, fades):
     """Returns the requirements of a surface on any material as plain values for a custom property: its kind of opacity,
     1 if it fades, and the pairs of looks_of()."""
     return {"kind": kind_of(surface), "fades": int(fades), **dict(looks_of(surface))}
 
 
-def asked_by(mesh):
+def stored_requirements(mesh):
     """Returns the requirements that a mesh stores: kind of opacity, True if it fades, and a dict of parameters."""
-    asked = mesh.get(ASKED, {})
-    kind = asked.get("kind", TRANSLUCENT if "opacity" in mesh.attributes else OPAQUE)
-    return kind, bool(asked.get("fades", 0)), {key: asked[key] for key in KEYS if key in asked}
+    requirements = mesh.get(REQUIREMENTS, {})
+    kind = requirements.get("kind", TRANSLUCENT if "opacity" in mesh.attributes else OPAQUE)
+    return kind, bool(requirements.get("fades", 0)), {key: requirements[key] for key in KEYS if key in requirements}
 
 
 def find_or_make(role, kind, new_materials, own=False, hatching=None, looks=(), fades=False):
@@ -112,28 +112,28 @@ def _fill(material, kind, hatching, looks):
         compat.let_through(material)
 
 
-def opacity_of(tree, kind, beside):
-    """Returns the socket with the opacity of a surface. kind: TRANSLUCENT or FILM. beside: the node near which new
+def opacity_of(tree, kind, near):
+    """Returns the socket with the opacity of a surface. kind: TRANSLUCENT or FILM. near: the node near which new
     nodes are placed."""
-    opacity = _attribute(tree, "opacity", beside, -320).outputs["Fac"]
+    opacity = _attribute(tree, "opacity", near, -320).outputs["Fac"]
     return _through_a_film(tree, opacity) if kind == FILM else opacity
 
 
-def let_through(tree, kind, surface, beside):
+def let_through(tree, kind, surface, near):
     """Returns the output of a shader that mixes `surface` with transparency according to its opacity, like Alpha in a
     Principled shader."""
     mix = tree.nodes.new("ShaderNodeMixShader")
-    mix.location = (beside.location[0] + 200, beside.location[1] - 200)
-    tree.links.new(opacity_of(tree, kind, beside), mix.inputs[0])
+    mix.location = (near.location[0] + 200, near.location[1] - 200)
+    tree.links.new(opacity_of(tree, kind, near), mix.inputs[0])
     tree.links.new(tree.nodes.new("ShaderNodeBsdfTransparent").outputs[0], mix.inputs[1])
     tree.links.new(surface, mix.inputs[2])
     return mix.outputs[0]
 
 
-def _attribute(tree, name, beside, down):
+def _attribute(tree, name, near, down):
     node = tree.nodes.new("ShaderNodeAttribute")
     node.attribute_name = name
-    node.location = (beside.location[0] - 220, beside.location[1] + down)
+    node.location = (near.location[0] - 220, near.location[1] + down)
     return node
 
 

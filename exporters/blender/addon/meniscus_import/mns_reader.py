@@ -99,7 +99,7 @@ def read_manifest(path, kind, words, version, values, needed, what=""):
         raise MnsError(f"{path}: not {words}")
     found = header.get("version")
     if type(found) is not int or found < 1:
-        raise MnsError(f"{path}: version {header_values.told(found)} does not exist")
+        raise MnsError(f"{path}: version {header_values.shortened(found)} does not exist")
     if found > version:
         raise MnsError(f"{path}: version {found} is newer than this add-on knows ({version}); update it")
     try:
@@ -332,7 +332,7 @@ def _check_values(surface):
             header_values.check(header, VALUES, [key for key in VALUES if key.startswith("caps.hatching.")])
         listed = header.get("components", [])
         if not isinstance(listed, list):
-            raise ValueError(f"components is {header_values.told(listed)}, not a list")
+            raise ValueError(f"components is {header_values.shortened(listed)}, not a list")
         for component in listed:
             header_values.check({"components": component}, COMPONENT, ("components", "components.kind"))
     except ValueError as error:

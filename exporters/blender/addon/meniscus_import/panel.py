@@ -36,7 +36,7 @@ def start(operator, item):
     """Computes the surface of a new object, in the background if there is a window. Returns the result of the
     operator."""
     if not bpy.app.background and not operator.wait:
-        computed.ask(item, in_motion=True)  # shows a proxy first
+        computed.update_in_background(item, in_motion=True)  # shows a proxy first
         return {"FINISHED"}
     try:
         computed.compute_now(item)
@@ -93,7 +93,7 @@ class OBJECT_OT_meniscus_from_atoms(Making, bpy.types.Operator):
     def poll(cls, context):
         return molecular_nodes.is_molecule(context.active_object)
 
-    @build.tells_errors
+    @build.reports_errors
     def execute(self, context):
         atoms = context.active_object
         scale = molecular_nodes.scale_of(atoms)
@@ -116,11 +116,11 @@ class OBJECT_OT_meniscus_update(Waiting, bpy.types.Operator):
         item = context.active_object
         return computed.is_computed(item) and item.mode == "OBJECT"
 
-    @build.tells_errors
+    @build.reports_errors
     def execute(self, context):
         item = context.active_object
-        if not computed.working().told()["library"]:
-            computed.look_for_tools()
+        if not computed.working().describe_tools()["library"]:
+            computed.search_tools_again()
         libraries.own_mesh(item, lambda _other: True)[computed.SHOWN] = ""
         return start(self, item)
 
@@ -165,7 +165,7 @@ class OBJECT_OT_meniscus_look(bpy.types.Operator):
     def poll(cls, context):
         return is_surface(context.active_object) and context.active_object.data.library is None
 
-    @build.tells_errors
+    @build.reports_errors
     def execute(self, context):
         item = context.active_object
         name = looks.ATTRIBUTES[self.coloring]
@@ -218,10 +218,10 @@ class VIEW3D_PT_meniscus(InSidebar, bpy.types.Panel):
 
     def draw_error(self, item):
         """Draws the last error of an object. Returns True if there is one."""
-        said = item.get(libraries.ERROR) if item is not None else None
-        for line in wrapped(said or "", 40):
+        error = item.get(libraries.ERROR) if item is not None else None
+        for line in wrapped(error or "", 40):
             self.layout.label(text=line, icon="ERROR")
-        return bool(said)
+        return bool(error)
 
     def draw_state(self, item):
         layout, progress = self.layout, computed.progress_of(item)

@@ -24,7 +24,7 @@ class OBJECT_OT_meniscus_from_scene(panel.Waiting, bpy.types.Operator, ImportHel
     filter_glob: bpy.props.StringProperty(default="*.json", options={"HIDDEN"})
     filepath: bpy.props.StringProperty(subtype="FILE_PATH", options={"SKIP_SAVE"})
 
-    @build.tells_errors
+    @build.reports_errors
     def execute(self, context):
         scene = scene_reader.read(self.filepath)
         if scene.others:
@@ -44,7 +44,7 @@ class OBJECT_OT_meniscus_from_scene(panel.Waiting, bpy.types.Operator, ImportHel
         return panel.new_object(context, build.stem_of(self.filepath) + ".surface", "FILE", detail=detail, **fields)
 
     def import_exported(self, context, scene):
-        program = computed.working().told()["program"]
+        program = computed.working().describe_tools()["program"]
         if not program:
             raise mns_reader.MnsError(
                 f"{self.filepath}: the panel has no fields for {', '.join(scene.others)}; the program meniscus, which "
@@ -58,8 +58,8 @@ class OBJECT_OT_meniscus_from_scene(panel.Waiting, bpy.types.Operator, ImportHel
                                   check=False)
             lines = [line.removeprefix("meniscus: ") for line in done.stderr.decode("utf-8", "replace").splitlines()]
             if done.returncode:
-                said = (line.removeprefix("error: ") for line in lines if line.startswith("error: "))
-                raise mns_reader.MnsError(next(said, f"{program} ended with {done.returncode}"))
+                errors = (line.removeprefix("error: ") for line in lines if line.startswith("error: "))
+                raise mns_reader.MnsError(next(errors, f"{program} ended with {done.returncode}"))
             for line in lines:
                 if line.startswith(("note: ", "warning: ")):
                     self.report({"INFO"}, line)

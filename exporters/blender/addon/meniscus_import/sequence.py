@@ -45,7 +45,7 @@ class Placement:
                 build.add_materials(mesh, prepared.surface, self.new_materials, self.own_materials)
             fps = self.sequence.fps if self.scene is None else build.fps_of(self.scene)
             build.fill_mesh(mesh, prepared.arrays, fps * self.timing.speed)
-            attributes.give_back(mesh, kept, prepared.arrays)
+            attributes.restore(mesh, kept, prepared.arrays)
             if len(mesh.polygons) != prepared.triangles:
                 raise mns_reader.MnsError(
                     f"{self.sequence.frames[scene_frame - 1].path}: {len(mesh.polygons)} triangles of "
@@ -86,7 +86,7 @@ class Ahead:
                 return frames.unpacked(job.result)
         return placement.prepared(scene_frame)
 
-    def ask(self, placement, scene_frame):
+    def request(self, placement, scene_frame):
         key = self.key(placement, scene_frame)
         if key in self.waiting:
             return
@@ -95,7 +95,7 @@ class Ahead:
             "scale": placement.scale, "crisp": placement.crisp_colors
         }
         try:
-            self.waiting[key] = self.process.ask(key, key, "frame", about)
+            self.waiting[key] = self.process.submit(key, key, "frame", about)
         except mns_reader.MnsError:
             return  # the frame is read when it is needed
         while len(self.waiting) > self.MOST:
@@ -178,7 +178,7 @@ class Run:
                  **options):
         self.sequence = sequence_reader.read(path)
         if camera:
-            self.sequence.look_from(camera)
+            self.sequence.set_camera(camera)
         scene = context.scene
         header = self.sequence.header
         origin = self.sequence.origin * 0.0
@@ -320,7 +320,7 @@ def show_place(item, placement, scene_frame):
 def read_ahead(placement, scene_frame):
     """Requests a frame of a run from the other process, if the frame exists."""
     if scene_frame is not None and scene_frame <= len(placement.sequence.frames):
-        _ahead.ask(placement, scene_frame)
+        _ahead.request(placement, scene_frame)
 
 
 def refresh(item, scene):

@@ -89,7 +89,7 @@ class Sequence:
     def camera_moves(self):
         return any(frame.camera != self.frames[0].camera for frame in self.frames)
 
-    def look_from(self, camera):
+    def set_camera(self, camera):
         """Sets the camera of all frames to a dict. Pictures keep their size."""
         for frame in self.frames:
             size = {key: value for key, value in (frame.camera or {}).items() if key == "size"}
@@ -132,7 +132,7 @@ def _frame(path, header, entry):
         plain = isinstance(name,
                            str) and name == os.path.basename(name) and "\\" not in name and name not in ("", ".", "..")
         if not plain or isinstance(number, bool) or not isinstance(number, int) or number < 0:
-            raise ValueError(f"no frame is {header_values.told(number)} in a file {header_values.told(name)}")
+            raise ValueError(f"no frame is {header_values.shortened(number)} in a file {header_values.shortened(name)}")
         camera = entry.get("camera", header.get("camera"))
         if camera is not None:
             header_values.check_camera(camera)

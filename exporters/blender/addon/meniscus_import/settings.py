@@ -146,9 +146,9 @@ class MeniscusSettings(bpy.types.PropertyGroup):
         rows = [*preparation.OF_MOLECULE, *(preparation.OF_RUN if self.is_run else ())]
         if self.is_run and not self.trajectory:  # the frames are the models of the file
             rows = [row for row in rows if preparation.name_of(row) != "model"]
-        return preparation.asked(rows, lambda name: getattr(self, name))
+        return preparation.changed_fields(rows, lambda name: getattr(self, name))
 
-    def asked(self):
+    def surface_values(self):
         """Returns all values that determine the shown surfaces and their times. Equal lists mean equal surfaces."""
         return [getattr(self, name) for name in type(self).__annotations__ if name not in APART]
 
@@ -207,7 +207,7 @@ class MeniscusPreferences(bpy.types.AddonPreferences):
 
         self.layout.prop(self, "package")
         self.layout.prop(self, "program")
-        for line in computed.told_tools():
+        for line in computed.tool_lines():
             self.layout.label(text=line)
 
 

@@ -37,10 +37,10 @@ def is_computed(item):
     return item is not None and item.type == "MESH" and item.meniscus.source != "NONE" and item.library is None
 
 
-def asks_alike(item, other):
+def requests_same_surface(item, other):
     """True if two objects request the same surface at the current time."""
     time = bpy.context.scene.frame_current_final
-    return (is_computed(other) and item.meniscus.asked() == other.meniscus.asked() and
+    return (is_computed(other) and item.meniscus.surface_values() == other.meniscus.surface_values() and
             place_at(item, time) == place_at(other, time))
 
 
@@ -75,7 +75,7 @@ def was_changed(item):
 
 
 def _own_mesh(item):
-    return libraries.own_mesh(item, lambda other: not is_computed(other) or asks_alike(item, other))
+    return libraries.own_mesh(item, lambda other: not is_computed(other) or requests_same_surface(item, other))
 
 
 def empty(item):
@@ -116,7 +116,7 @@ def _fill(item, key, shown):
     if not mesh.materials:
         build.add_materials(mesh, shown.surface, [])
     build.fill_mesh(mesh, arrays_about(item, shown), build.fps_of(bpy.context.scene), trusted=True)
-    attributes.give_back(mesh, kept, shown.arrays)
+    attributes.restore(mesh, kept, shown.arrays)
     mesh[SHOWN] = key
     if frame_count(item) or item.meniscus.source == "OBJECT":
         build.let_exporters_follow(mesh)

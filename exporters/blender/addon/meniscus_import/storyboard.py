@@ -106,12 +106,12 @@ def _origin(scene, board, files, center):
 
 def digest_of(surface):
     """Returns a digest that is equal for surfaces with the same look."""
-    told = hashlib.sha256(
+    digest = hashlib.sha256(
         json.dumps({key: surface.header[key] for key in LOOKS if key in surface.header}, sort_keys=True).encode())
     for name in sorted(surface.arrays):
-        told.update(name.encode())
-        told.update(np.ascontiguousarray(surface.arrays[name]))
-    return told.digest()
+        digest.update(name.encode())
+        digest.update(np.ascontiguousarray(surface.arrays[name]))
+    return digest.digest()
 
 
 class _Story:
@@ -172,8 +172,8 @@ def fade(item, board, shows):
     for number, (before, after, dissolves) in enumerate(camera_rig.transitions(board), 1):
         if shows[number] != shows[number - 1]:
             start = float(shows[number - 1])
-            way.go_on(before.last, start, keys.LINEAR if way.points[-1][1] == start else keys.CONSTANT)
-            way.go_on(after.first, 1.0 if shows[number] else 2.0, easing if dissolves else keys.CONSTANT)
+            way.append(before.last, start, keys.LINEAR if way.points[-1][1] == start else keys.CONSTANT)
+            way.append(after.first, 1.0 if shows[number] else 2.0, easing if dissolves else keys.CONSTANT)
     item.color[3] = way.points[0][1]
     if len(way.points) > 1:
         way.insert(item, "color", 3)
@@ -187,8 +187,8 @@ def hide(item, board, shows):
     way = keys.Way(board.scenes[0].first, float(not shows[0]))
     for number, (before, after, _) in enumerate(camera_rig.transitions(board), 1):
         if shows[number] and not shows[number - 1]:
-            way.go_on(before.last + 1, 0.0, keys.CONSTANT)
+            way.append(before.last + 1, 0.0, keys.CONSTANT)
         elif shows[number - 1] and not shows[number]:
-            way.go_on(after.first, 1.0, keys.CONSTANT)
+            way.append(after.first, 1.0, keys.CONSTANT)
     for path in ("hide_render", "hide_viewport"):
         way.insert(item, path)

@@ -75,9 +75,10 @@ def _scene(path, entry, number):
         name, file, first, last = (entry[key] for key in ("name", "file", "first", "last"))
         title, background = entry.get("title", ""), entry.get("background")
         if file != os.path.basename(file) or "\\" in file or file in ("", ".", ".."):
-            raise ValueError(f"file is {header_values.told(file)}, not a name in the storyboard's folder")
+            raise ValueError(f"file is {header_values.shortened(file)}, not a name in the storyboard's folder")
         if type(first) is not int or type(last) is not int or not 1 <= first <= last <= MOST_FRAMES:
-            raise ValueError(f"it cannot last from frame {header_values.told(first)} to {header_values.told(last)}")
+            raise ValueError(f"it cannot last from frame {header_values.shortened(first)} to "
+                             f"{header_values.shortened(last)}")
         header_values.check_camera(entry["camera"])
     except KeyError as error:
         raise mns_reader.MnsError(f"{path}: scene {number}: {error} is missing or unknown") from None

@@ -19,7 +19,7 @@ from . import measures, molecules, preparation, wording
 
 #: The kind of a surface in a request -> the value of the program's option.
 SURFACES = {"SES": "ses", "SAS": "sas", "VDW": "vdw"}
-SAYS = "meniscus: error: "
+ERROR_PREFIX = "meniscus: error: "
 POLL = 0.05  # s between two checks if the program has ended and if its result is still needed
 
 
@@ -98,7 +98,7 @@ def surface_by_library(library, atoms, request, task):
     key = request.shape_key(atoms)
     shape = _shapes.get(key)
     if shape is None:
-        shape = _said_by(library, _shape, library, atoms, request, task)
+        shape = _call(library, _shape, library, atoms, request, task)
         with _reading:
             while len(_shapes) >= MOST_SHAPES:
                 del _shapes[next(iter(_shapes))]
@@ -109,10 +109,10 @@ def surface_by_library(library, atoms, request, task):
 
 def _shape(library, atoms, request, task):
     """Returns header and arrays like those of a .mns file, without the arrays of atoms."""
-    task.say("Surface")
+    task.report("Surface")
     made = library.surface(atoms.positions, atoms.radii, request.probe, kind=SURFACES[request.kind])
     task.check()
-    task.say("Mesh")
+    task.report("Mesh")
     mesh = made.mesh(density=request.density) if request.density else made.mesh(request.tolerance)
     vertices = mesh.vertices
     origin = 0.5 * (vertices.min(axis=0) + vertices.max(axis=0))
@@ -169,11 +169,11 @@ def surface_by_program(tools, request, folder, task):
     """Returns a mns_reader.Surface of a request about a file. folder: a folder for temporary files. Raises
     EngineError."""
     program = tools.program_for_files()
-    task.say("Program")
+    task.report("Program")
     with tempfile.TemporaryDirectory(dir=folder, prefix="surface_") as inner:
         target = os.path.join(inner, "run" if request.place else "surface.mns")
         words = [
-            program, "export", "blender", request.file, *_about_atoms(request), "--surface", SURFACES[request.kind],
+            program, "export", "blender", request.file, *_atom_options(request), "--surface", SURFACES[request.kind],
             f"--probe={request.probe!r}",
             f"--density={request.density!r}" if request.density else f"--tolerance={request.tolerance!r}", "--force",
             "-q", "-o", target
@@ -182,7 +182,7 @@ def surface_by_program(tools, request, folder, task):
             words.remove(f"--probe={request.probe!r}")
         if request.place:
             number = read_atoms(tools, request, folder, task).numbers[request.place - 1]
-            words += [*_about_run(request, str(number))]
+            words += [*_run_options(request, str(number))]
         _run(words, task)
         if request.place:
             target = next(os.path.join(target, name) for name in os.listdir(target) if name.endswith(".mns"))
@@ -200,7 +200,7 @@ def read_atoms(tools, request, folder, task):
     key = (request.atoms_key(), request.place > 0)
     with _reading:
         if key not in _files:
-            task.say("Frames" if request.place else "Atoms")
+            task.report("Frames" if request.place else "Atoms")
             found = _fresh_atoms(tools, request, folder, task)
             while len(_files) >= MOST_FILES:
                 del _files[next(iter(_files))]
@@ -212,7 +212,7 @@ def _fresh_atoms(tools, request, folder, task):
     """Reads atoms by the library or, for trajectories and prepared frames, by the program."""
     prepared = preparation.run_names(request.preparation)
     if tools.library is not None and not request.trajectory and not prepared:
-        return _said_by(tools.library, molecules.read, tools.library, request)
+        return _call(tools.library, molecules.read, tools.library, request)
     if request.trajectory:
         program = tools.needed_program("a trajectory", ", or read it by Molecular Nodes and take its atoms")
     elif prepared:
@@ -222,8 +222,8 @@ def _fresh_atoms(tools, request, folder, task):
     descriptor, path = tempfile.mkstemp(dir=folder, prefix="atoms_")
     os.close(descriptor)
     try:
-        run = _about_run(request, request.frames or "all") if request.place else []
-        _run([program, "export", "atoms", request.file, *_about_atoms(request), *run, "--force", "-q", "-o", path],
+        run = _run_options(request, request.frames or "all") if request.place else []
+        _run([program, "export", "atoms", request.file, *_atom_options(request), *run, "--force", "-q", "-o", path],
              task)
         return atom_files.read(path)
     finally:
@@ -242,7 +242,7 @@ def forget():
         _shapes.clear()
 
 
-def _said_by(library, work, *arguments):
+def _call(library, work, *arguments):
     """Returns work(*arguments). Raises EngineError with the message of the library or of a file."""
     try:
         return work(*arguments)
@@ -250,7 +250,7 @@ def _said_by(library, work, *arguments):
         raise EngineError(str(error).splitlines()[0]) from None  # further lines mark a place in a selection
 
 
-def _about_atoms(request):
+def _atom_options(request):
     words = [f"--color={color}" for color in request.colors()]
     if request.numbers:
         words.append(f"--color-by-file={request.numbers}")
@@ -259,7 +259,7 @@ def _about_atoms(request):
     return words + preparation.program_words(request.preparation, False)
 
 
-def _about_run(request, frames):
+def _run_options(request, frames):
     words = [f"--frames={frames}"]
     if request.trajectory:
         words.append(f"--trajectory={request.trajectory}")
@@ -271,8 +271,8 @@ def _about_run(request, frames):
 def _run(words, task):
     """Runs the program to its end, or kills it when its result is no longer needed. Raises EngineError with its
     message, or Cancelled."""
-    with tempfile.TemporaryFile() as said:
-        child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=said)
+    with tempfile.TemporaryFile() as log:
+        child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=log)
         try:
             while True:
                 try:
@@ -285,10 +285,10 @@ def _run(words, task):
                 child.kill()
                 child.wait()
         if code:
-            said.seek(0)
-            lines = said.read().decode("utf-8", "replace").strip().splitlines() or [f"{words[0]} ended with {code}"]
-            told = [line[len(SAYS):] for line in lines if line.startswith(SAYS)]
-            raise EngineError(told[0] if told else lines[-1])
+            log.seek(0)
+            lines = log.read().decode("utf-8", "replace").strip().splitlines() or [f"{words[0]} ended with {code}"]
+            errors = [line[len(ERROR_PREFIX):] for line in lines if line.startswith(ERROR_PREFIX)]
+            raise EngineError(errors[0] if errors else lines[-1])
 
 
 def compute(tools, request, atoms, folder, task):
@@ -311,5 +311,5 @@ def _all_of_it(tools, request, atoms, folder, task):
         return surface_by_program(tools, request, folder, task)
     if atoms is None:
         file = read_atoms(tools, request, folder, task)
-        atoms = _said_by(tools.library, file.frame, request.place) if request.place else file.atoms
+        atoms = _call(tools.library, file.frame, request.place) if request.place else file.atoms
     return surface_by_library(tools.library, atoms, request, task)

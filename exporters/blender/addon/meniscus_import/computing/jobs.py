@@ -17,7 +17,7 @@ class Task:
         self.finished = threading.Event()
         self._unwanted = threading.Event()
 
-    def say(self, stage):
+    def report(self, stage):
         """Receives the name of the current stage for the user. It does nothing by default."""
 
     def cancel(self):
@@ -58,7 +58,7 @@ class Worker:
         self._running = []
         self._threads = 0
 
-    def ask(self, task):
+    def submit(self, task):
         """Adds a task after waiting ones of the same urgency. A waiting task of the same owner is dropped, and a
         running one continues."""
         with self._lock:

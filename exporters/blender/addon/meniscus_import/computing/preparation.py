@@ -35,7 +35,7 @@ OF_RUN = tuple(row for row in ROWS if row.key.startswith("frames."))
 _RUN_NAMES = frozenset(map(name_of, OF_RUN))
 
 
-def asked(rows, value):
+def changed_fields(rows, value):
     """Returns pairs of name and value for all fields that do not have their default values. value(name): returns the
     value of a field."""
     pairs = ((row, value(name_of(row))) for row in rows)

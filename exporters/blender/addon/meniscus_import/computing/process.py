@@ -44,12 +44,12 @@ class Process:
         """package, program: arguments of engines.find_tools(). folder: a folder for temporary files, or None."""
         self.package, self.program = package, program
         self._begin = ("begin", list(sys.path), package, program, folder)
-        self._child = self._connection = self._told = None
+        self._child = self._connection = self._tools = None
         self._jobs = {}  # number -> unfinished Job
         self._over = []  # finished jobs that take() has not returned yet
         self._number = 0
 
-    def ask(self, owner, key, kind, about, urgency=NOW):
+    def submit(self, owner, key, kind, about, urgency=NOW):
         """Sends a request and returns its Job. kind: the name of a function of works.Tools; about: its arguments.
         Waiting jobs of the same owner are dropped. A running one continues, so that surfaces show while a slider keeps
         moving. Raises engines.EngineError if the process does not start."""
@@ -110,15 +110,16 @@ class Process:
             done += self.take(1.0)
         return done
 
-    def told(self):
-        """Returns the result of works.Tools.told() in the process. Raises engines.EngineError if it does not start."""
-        if self._told is None:
-            job = self.ask(None, None, "told", {})
+    def describe_tools(self):
+        """Returns the result of works.Tools.describe_tools() in the process. Raises engines.EngineError if the process
+        does not start."""
+        if self._tools is None:
+            job = self.submit(None, None, "describe_tools", {})
             self._over += [other for other in self.wait(job) if other is not job]
             if job.error is not None:
                 raise job.error
-            self._told = job.result
-        return self._told
+            self._tools = job.result
+        return self._tools
 
     def end(self):
         """Ends the process and its children. Unfinished jobs fail."""

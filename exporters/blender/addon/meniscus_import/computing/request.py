@@ -21,7 +21,7 @@ class Request:
 
     file: the absolute path of a molecule; "" if the atoms come from Blender.
     trajectory, frames, trajectory_atoms: values of the program's options for a run; "" for none.
-    preparation: the result of preparation.asked().
+    preparation: the result of preparation.changed_fields().
     selection, color: values of the program's options. Several colours are separated by ";".
     numbers: the path of a file with numbers, for colour schemes that need one.
     place: the place of the frame in the run, from 1; 0 if there is no run.

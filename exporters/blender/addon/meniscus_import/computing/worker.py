@@ -14,7 +14,7 @@ import types
 
 #: The number of surfaces that are computed at a time. The mesh of each is made by one core.
 THREADS = min(len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1, 4)
-_saying = threading.Lock()
+_sending = threading.Lock()
 
 
 def main(descriptor=""):
@@ -26,14 +26,14 @@ def main(descriptor=""):
     from meniscus_import.computing import jobs, works  # these need sys.path to find numpy
 
     tools = works.Tools(package, program, folder)
-    worker = jobs.Worker(lambda task: say(connection, *outcome(task)), THREADS)
+    worker = jobs.Worker(lambda task: send(connection, *outcome(task)), THREADS)
     while True:
         try:
             word, *rest = connection.receive()
         except (EOFError, OSError):
             leave()
         if word == "do":
-            worker.ask(task_of(jobs.Task, tools, connection, *rest))
+            worker.submit(task_of(jobs.Task, tools, connection, *rest))
         elif word == "forget":
             worker.cancel(*rest)
 
@@ -47,13 +47,13 @@ def adopt(folder):
 
 def task_of(kind_of_task, tools, connection, number, owner, urgency, kind, about):
     task = kind_of_task(owner, number, lambda task: getattr(tools, kind)(task, **about), urgency)
-    task.say = lambda stage: say(connection, "stage", number, stage)
+    task.report = lambda stage: send(connection, "stage", number, stage)
     return task
 
 
-def say(connection, *message):
+def send(connection, *message):
     try:
-        with _saying:  # messages of several threads must not mix
+        with _sending:  # messages of several threads must not mix
             connection.send(message)
     except OSError:
         leave()

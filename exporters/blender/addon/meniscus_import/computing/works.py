@@ -27,7 +27,7 @@ class Tools:
                 self._found = engines.find_tools(*self._named)
             return self._found
 
-    def told(self, _task):
+    def describe_tools(self, _task):
         """Returns a dict about the tools that were found. version, library: version and path of libmeniscus, or "".
         missing: the reason why there is no library. program: the path of the program, or ""."""
         library = self.tools.library
@@ -44,7 +44,7 @@ class Tools:
         if found is None:
             return None
         task.check()
-        task.say("Arrays")
+        task.report("Arrays")
         centers = found["atom.center"]
         middle = 0.5 * (centers.min(axis=0) + centers.max(axis=0))
         base = middle if atoms is None else np.zeros(3)  # atoms of Blender have its own coordinates
