@@ -66,13 +66,14 @@ void MnsWriter::add(const std::string& name, std::span<const std::uint8_t> value
 }
 
 void MnsWriter::write(const std::string& path, Existing existing, nlohmann::json header,
-                      const std::function<void(std::uint64_t)>& tell) const {
+                      const std::function<void(std::uint64_t)>& on_size) const {
   OutputFile file(path, existing);
-  write(file, std::move(header), tell);
+  write(file, std::move(header), on_size);
   file.commit();
 }
 
-void MnsWriter::write(OutputFile& file, nlohmann::json header, const std::function<void(std::uint64_t)>& tell) const {
+void MnsWriter::write(OutputFile& file, nlohmann::json header,
+                      const std::function<void(std::uint64_t)>& on_size) const {
   // Offsets count from the end of the header, so that they do not depend on its length.
   std::size_t offset = 0;
   nlohmann::json table = nlohmann::json::array();
@@ -89,7 +90,7 @@ void MnsWriter::write(OutputFile& file, nlohmann::json header, const std::functi
   text.resize(aligned(text.size() + 1), ' ');
   text.back() = '\n';
   const std::uint64_t size = kPrologue + text.size() + offset;
-  if (tell) tell(size);
+  if (on_size) on_size(size);
 
   // The prologue contains the checksum of everything after it, so it is written as zeros first.
   std::vector<std::byte> prologue(kPrologue);

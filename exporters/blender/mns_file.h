@@ -68,11 +68,11 @@ class MnsWriter {
   }
 
   /// Writes the whole file under `path`, or throws OutputError and leaves none. `header` must be an object; the key
-  /// "arrays" is added to it. tell: a function that is called with the size in bytes before anything is written.
+  /// "arrays" is added to it. on_size: a function that is called with the size in bytes before anything is written.
   void write(const std::string& path, Existing existing, nlohmann::json header,
-             const std::function<void(std::uint64_t)>& tell = {}) const;
+             const std::function<void(std::uint64_t)>& on_size = {}) const;
   /// Writes the whole content into a file, which the caller commits.
-  void write(OutputFile& file, nlohmann::json header, const std::function<void(std::uint64_t)>& tell = {}) const;
+  void write(OutputFile& file, nlohmann::json header, const std::function<void(std::uint64_t)>& on_size = {}) const;
 
  private:
   struct Array {

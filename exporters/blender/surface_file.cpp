@@ -21,7 +21,7 @@ namespace meniscus::blender {
 namespace {
 
 /// Returns the device without the number of threads, on which results do not depend.
-std::string device_alone(const std::string& device) { return device.starts_with("cpu (") ? "cpu" : device; }
+std::string device_without_threads(const std::string& device) { return device.starts_with("cpu (") ? "cpu" : device; }
 
 using nlohmann::json;
 
@@ -318,7 +318,7 @@ json add_objects(MnsWriter& file, std::span<const MeshedObject> objects, const P
   json header{{"format", "meniscus surface"},
               {"generator", "meniscus " MENISCUS_VERSION},
               {"source", {{"file", provenance.source}, {"radii_set", provenance.radii_set}}},
-              {"device", device_alone(provenance.device)},
+              {"device", device_without_threads(provenance.device)},
               {"unit", "angstrom"},
               {"objects", std::move(list)}};
   if (provenance.colors) header["colors"] = color_key_json(*provenance.colors);
@@ -334,12 +334,12 @@ json add_objects(MnsWriter& file, std::span<const MeshedObject> objects, const P
 void write_objects(const std::string& path, Existing existing, std::span<const MeshedObject> objects,
                    const std::optional<Shot>& shot, const Provenance& provenance,
                    const std::optional<PlaceInRun>& place, const CutFile& cut,
-                   const std::function<void(std::uint64_t)>& tell) {
+                   const std::function<void(std::uint64_t)>& on_size) {
   MnsWriter file;
   json header = add_objects(file, objects, provenance, cut);
   if (shot) header["camera"] = shot_object(*shot);
   if (place) header["sequence"] = {{"run", place->run}, {"frame", place->frame}, {"scene_frame", place->scene_frame}};
-  file.write(path, existing, std::move(header), tell);
+  file.write(path, existing, std::move(header), on_size);
 }
 
 void write_objects(OutputFile& file, std::span<const MeshedObject> objects, const Provenance& provenance,

@@ -64,12 +64,12 @@ struct PlaceInRun {
 };
 
 /// Writes the file as FORMAT.md describes. At least one mesh must have triangles. cut: the planes of all objects
-/// without planes of their own. tell: a function that is called with the size of the file in bytes before it is
+/// without planes of their own. on_size: a function that is called with the size of the file in bytes before it is
 /// written. Throws OutputError.
 void write_objects(const std::string& path, Existing existing, std::span<const MeshedObject> objects,
                    const std::optional<Shot>& shot, const Provenance& provenance,
                    const std::optional<PlaceInRun>& place = {}, const CutFile& cut = {},
-                   const std::function<void(std::uint64_t)>& tell = {});
+                   const std::function<void(std::uint64_t)>& on_size = {});
 /// Writes the content without a camera and without a place in a run, into a file that the caller commits.
 void write_objects(OutputFile& file, std::span<const MeshedObject> objects, const Provenance& provenance,
                    const CutFile& cut);

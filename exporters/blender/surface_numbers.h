@@ -30,6 +30,6 @@ SurfaceNumbers parse_surface_numbers(std::string_view text);
 /// in Å², or empty. Returns a sentence about numbers that were left out and the reason, or an empty text. If the
 /// numbers were named by the user, it throws RequestError for smoothed curvature of a surface that is shown in part,
 /// and what atom_areas() throws.
-std::string add_surface_numbers(MeshedObject& object, const SurfaceNumbers& wanted, std::span<const double> buried);
+std::string add_surface_numbers(MeshedObject& object, const SurfaceNumbers& requested, std::span<const double> buried);
 
 }  // namespace meniscus::blender

@@ -69,8 +69,8 @@ class MeshFileMaker {
   MeshFile take();
 
  private:
-  bool may_share(const SurfaceObject& object) const;
-  void put(const SurfaceView& object, FineMesh mesh, std::vector<glm::dvec3> velocities = {});
+  bool can_share_mesh(const SurfaceObject& object) const;
+  void add_meshed(const SurfaceView& object, FineMesh mesh, std::vector<glm::dvec3> velocities = {});
 
   FileRequest request_;
   MeshFile file_;

@@ -95,7 +95,7 @@ class Builder {
     attributes["NORMAL"] = accessor(std::span(object.normals), kFloat, "VEC3", kArrayBuffer);
     attributes["COLOR_0"] = colors(object);
     for (const VertexNumbers& column : object.numbers) {
-      const std::vector<float> values = without_gaps(column.values);
+      const std::vector<float> values = zero_for_missing(column.values);
       attributes[semantic(column.name)] = accessor(std::span(values), kFloat, "SCALAR", kArrayBuffer);
     }
     const std::size_t indices = accessor(std::span(object.triangles), kUnsignedInt, "SCALAR", kElementArrayBuffer, 3);
@@ -110,7 +110,7 @@ class Builder {
     for (const RigidMotion& place : object.places) {
       json_["scenes"][0]["nodes"].push_back(json_["nodes"].size());
       Json node = {{"name", name}, {"mesh", number}};
-      if (!object.stands_once()) {
+      if (!object.is_placed_once()) {
         const glm::dquat turn = glm::normalize(glm::quat_cast(place.rotation));
         node["rotation"] = {turn.x, turn.y, turn.z, turn.w};
         node["translation"] = {place.translation.x, place.translation.y, place.translation.z};

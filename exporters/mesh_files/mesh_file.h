@@ -51,7 +51,7 @@ struct FileObject {
   std::vector<RigidMotion> places{RigidMotion{}};
 
   /// True if the object is in one place and is not moved.
-  bool stands_once() const {
+  bool is_placed_once() const {
     return places.size() == 1 && places[0].rotation == glm::dmat3(1.0) && places[0].translation == glm::dvec3(0.0);
   }
 };

@@ -98,7 +98,7 @@ std::string model_text(const MeshFile& mesh) {
   id = kFirstObject;
   for (const FileObject& object : mesh.objects) {
     for (const RigidMotion& place : object.places)
-      text += fmt::format("  <item objectid=\"{}\"{}/>\n", id, object.stands_once() ? "" : transform_text(place));
+      text += fmt::format("  <item objectid=\"{}\"{}/>\n", id, object.is_placed_once() ? "" : transform_text(place));
     ++id;
   }
   return text + " </build>\n</model>\n";

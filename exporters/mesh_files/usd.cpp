@@ -27,8 +27,8 @@ struct Prim {
   const FileObject& first() const {
     return **std::ranges::find_if(frames, [](const FileObject* o) { return o != nullptr; });
   }
-  bool stands_once() const {
-    return std::ranges::all_of(frames, [](const FileObject* o) { return !o || o->stands_once(); });
+  bool is_placed_once() const {
+    return std::ranges::all_of(frames, [](const FileObject* o) { return !o || o->is_placed_once(); });
   }
   bool is_translucent() const {
     return std::ranges::any_of(frames, [](const FileObject* o) { return o && !o->opacities.empty(); });
@@ -157,7 +157,7 @@ std::string colors_text(std::span<const std::array<std::uint8_t, 3>> rows) {
 }
 
 std::string numbers_text(const std::vector<float>& rows) {
-  const std::vector<float> values = without_gaps(rows);
+  const std::vector<float> values = zero_for_missing(rows);
   return array_text(values.size(), [&](std::size_t n, auto out) { fmt::format_to(out, FMT_COMPILE("{}"), values[n]); });
 }
 
@@ -208,7 +208,7 @@ class UsdWriter {
           (is_translucent ? material_text("translucent", true) : "") + "    }\n");
     write_prototypes(prims);
     for (const Prim& prim : prims) {
-      if (prim.stands_once())
+      if (prim.is_placed_once())
         write_mesh(prim, prim.name);
       else
         write_instances(prim);
@@ -219,10 +219,10 @@ class UsdWriter {
  private:
   /// Writes the meshes that several places share, below a prim that programs do not draw.
   void write_prototypes(const std::vector<Prim>& prims) {
-    if (std::ranges::all_of(prims, &Prim::stands_once)) return;
+    if (std::ranges::all_of(prims, &Prim::is_placed_once)) return;
     sink_("    class Scope \"prototypes\"\n    {\n");
     for (const Prim& prim : prims) {
-      if (prim.stands_once()) continue;
+      if (prim.is_placed_once()) continue;
       sink_(fmt::format("    def Xform \"{}\"\n    {{\n", prim.name));
       write_mesh(prim, "mesh");
       sink_("    }\n");

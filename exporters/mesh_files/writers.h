@@ -113,7 +113,7 @@ std::string text_of_rows(std::string beginning, std::size_t count, const PutRow&
 }
 
 /// Returns the values with 0 in place of those that are not finite, for formats that cannot express missing numbers.
-inline std::vector<float> without_gaps(std::vector<float> values) {
+inline std::vector<float> zero_for_missing(std::vector<float> values) {
   std::ranges::replace_if(
       values, [](float x) { return !std::isfinite(x); }, 0.0f);
   return values;

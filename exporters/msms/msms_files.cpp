@@ -105,7 +105,7 @@ class MsmsMeshes::Numbering {
     }
     for (const std::uint32_t v : used) place_[v] = kNone;
     weld_for_files(made);
-    name_faces(made);
+    set_faces(made);
     return made;
   }
 
@@ -156,12 +156,12 @@ class MsmsMeshes::Numbering {
           atom_of_vertex_[v] = atom;
         }
     }
-    look_farther(distance);
+    search_nearby_atoms(distance);
   }
 
   // Continues the search among all atoms near a vertex. Close to a third atom that only a neighbouring face touches, a
   // vertex between two atoms may be closest to that one.
-  void look_farther(std::vector<double>& distance) {
+  void search_nearby_atoms(std::vector<double>& distance) {
     double largest = 0;
     for (const Ball& atom : s_.atoms) largest = std::max(largest, atom.radius);
     const BallGrid grid(s_.atoms, largest + s_.probe_radius);
@@ -198,12 +198,12 @@ class MsmsMeshes::Numbering {
   }
 
   // Sets the faces of vertices from the remaining triangles, because welding may have removed all triangles of a face.
-  static void name_faces(MsmsMesh& made) {
-    std::vector<bool> named(made.vertices.size(), false);
+  static void set_faces(MsmsMesh& made) {
+    std::vector<bool> is_set(made.vertices.size(), false);
     for (const MsmsTriangle& t : made.triangles)
       for (const std::uint32_t v : t.corner) {
-        if (named[v]) continue;
-        named[v] = true;
+        if (is_set[v]) continue;
+        is_set[v] = true;
         made.vertices[v].face *= static_cast<std::int32_t>(t.face);
       }
   }

@@ -27,7 +27,7 @@ json node(const char* kind, json params) { return {{"kind", kind}, {"params", st
 double rounded(double value) { return std::round(1000.0 * value) / 1000.0; }
 json place(const glm::dvec3& v) { return {rounded(v.x), rounded(v.y), rounded(v.z)}; }
 
-std::string word_of(const glm::vec3& linear) {
+std::string hex_color(const glm::vec3& linear) {
   const glm::vec4 color = display_color(glm::vec4(linear, 1.0f), std::nullopt);
   return fmt::format("#{:02x}{:02x}{:02x}", display_byte(color.x), display_byte(color.y), display_byte(color.z));
 }
@@ -45,7 +45,7 @@ json mesh_node(const path_tracers::SceneMesh& mesh, const glm::dvec3& origin) {
       indices.push_back(corner);
       sum += mesh.colors[corner];
     }
-    const auto [group, is_new] = known.try_emplace(word_of(sum / 3.0f), known.size());
+    const auto [group, is_new] = known.try_emplace(hex_color(sum / 3.0f), known.size());
     if (is_new) colors[std::to_string(group->second)] = group->first;
     groups.push_back(group->second);
   }
@@ -81,18 +81,18 @@ std::vector<json> nodes_of(const path_tracers::SceneItem& item, const glm::dvec3
         .push_back(node("primitive", {{"kind", "ellipsoid"},
                                       {"center", place(origin + sphere.center)},
                                       {"radius", rounded(sphere.radius)},
-                                      {"color", word_of(sphere.paint.color)}}));
+                                      {"color", hex_color(sphere.paint.color)}}));
   for (const path_tracers::SceneCylinder& cylinder : item.cylinders)
     part(cylinder.paint.opacity)
         .push_back(node("primitive", {{"kind", "tube"},
                                       {"start", place(origin + cylinder.from)},
                                       {"end", place(origin + cylinder.to)},
                                       {"radius", rounded(cylinder.radius)},
-                                      {"color", word_of(cylinder.paint.color)}}));
+                                      {"color", hex_color(cylinder.paint.color)}}));
   std::vector<json> nodes;
   for (auto& [opacity, primitives] : parts) {
     json group = node("primitives", {{"opacity", opacity}});
-    if (!item.stands_once()) {
+    if (!item.is_placed_once()) {
       json instances = json::array();
       for (const RigidMotion& copy : item.copies) instances.push_back(matrix_of(copy, origin));
       group["params"]["instances"] = std::move(instances);
@@ -108,11 +108,12 @@ std::vector<json> nodes_of(const path_tracers::SceneItem& item, const glm::dvec3
 /// MolViewSpec cannot specify the projection.
 json camera_node(const Camera& camera) {
   const double half_angle = 0.5 * camera.vertical_fov * std::numbers::pi / 180.0;
-  const glm::dvec3 reach = camera.position - camera.target;
-  const double distance =
-      camera.projection == Projection::perspective ? 2.0 * std::sin(half_angle) * glm::length(reach) : camera.height;
+  const glm::dvec3 from_target = camera.position - camera.target;
+  const double distance = camera.projection == Projection::perspective
+                              ? 2.0 * std::sin(half_angle) * glm::length(from_target)
+                              : camera.height;
   return node("camera", {{"target", place(camera.target)},
-                         {"position", place(camera.target + distance * glm::normalize(reach))},
+                         {"position", place(camera.target + distance * glm::normalize(from_target))},
                          {"up", place(view_basis(camera).up)}});
 }
 

@@ -29,7 +29,7 @@ struct Softbox {
 
 /// All lights of a scene.
 struct Lights {
-  glm::vec3 everywhere{0.0f};  ///< radiance of the uniform environment
+  glm::vec3 environment{0.0f};  ///< radiance of the uniform environment
   std::vector<DistantLight> distant;
   std::vector<Softbox> softboxes;
 };

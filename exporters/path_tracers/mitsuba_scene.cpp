@@ -78,7 +78,7 @@ class MitsubaWriter {
     line(fmt::format("<default name=\"height\" value=\"{}\"/>", scene_.height));
     const bool glass = scene_.material == Material::glass;
     // Mitsuba 3.9.1 crashes where "path" hides emitters and things are placed as instances; "volpath" does not.
-    const bool placed = !std::ranges::all_of(scene_.items, &SceneItem::stands_once);
+    const bool placed = !std::ranges::all_of(scene_.items, &SceneItem::is_placed_once);
     line(fmt::format("<integrator type=\"{}\">{}{}</integrator>", glass || placed ? "volpath" : "path",
                      named("integer", "max_depth", glass ? "32" : "8"), named("boolean", "hide_emitters", "true")));
   }
@@ -109,7 +109,7 @@ class MitsubaWriter {
 
   void lights() {
     const Lights all = lights_of(scene_);
-    line(fmt::format("<emitter type=\"constant\">{}</emitter>", color_value("radiance", all.everywhere)));
+    line(fmt::format("<emitter type=\"constant\">{}</emitter>", color_value("radiance", all.environment)));
     for (const DistantLight& light : all.distant)
       line(fmt::format("<emitter type=\"directional\">{}{}</emitter>", place("vector", "direction", light.direction),
                        color_value("irradiance", std::numbers::pi_v<float> * light.strength)));
@@ -179,7 +179,7 @@ class MitsubaWriter {
   }
 
   void item(const SceneItem& item, std::size_t n) {
-    const bool grouped = !item.stands_once();
+    const bool grouped = !item.is_placed_once();
     // Materials must be written before the group that uses them.
     std::vector<std::string> shapes;
     for (const SceneMesh& mesh : item.meshes)

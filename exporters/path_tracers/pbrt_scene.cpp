@@ -94,7 +94,7 @@ class PbrtWriter {
 
   void lights() {
     const Lights all = lights_of(scene_);
-    line("LightSource \"infinite\"" + parameter("rgb L", all.everywhere));
+    line("LightSource \"infinite\"" + parameter("rgb L", all.environment));
     for (const DistantLight& light : all.distant)
       line("LightSource \"distant\"" + parameter("point3 from", "0 0 0") +
            parameter("point3 to", vector_text(light.direction)) +
@@ -174,7 +174,7 @@ class PbrtWriter {
       made.push_back("Shape \"cylinder\"" + parameter("float radius", cylinder.radius) + parameter("float zmin", 0.0) +
                      parameter("float zmax", glm::length(along)) + alpha(cylinder.paint.opacity));
     }
-    const bool grouped = !item.stands_once();
+    const bool grouped = !item.is_placed_once();
     if (grouped) line(fmt::format("ObjectBegin \"object_{}\"", n + 1));
     for (const std::vector<std::string>& statements : shapes) attributes(statements);
     if (!grouped) return;

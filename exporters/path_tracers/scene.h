@@ -55,7 +55,7 @@ struct SceneItem {
   bool is_surface = true;                          ///< true if it has the scene's material; false if it is matte
 
   /// True if there is a single copy, which is not moved.
-  bool stands_once() const {
+  bool is_placed_once() const {
     return copies.size() == 1 && copies[0].rotation == glm::dmat3(1.0) && copies[0].translation == glm::dvec3(0.0);
   }
   bool empty() const { return meshes.empty() && spheres.empty() && cylinders.empty(); }

@@ -37,14 +37,14 @@ class MeshMaker {
   std::uint32_t corner(std::uint32_t vertex, const glm::dvec3& position, const glm::dvec3& normal,
                        const glm::vec3& color) {
     const glm::vec3 written(normal);
-    const auto [begin, end] = doubles_.equal_range(vertex);
+    const auto [begin, end] = duplicates_.equal_range(vertex);
     for (auto entry = begin; entry != end; ++entry)
       if (mesh_.normals[entry->second] == written && mesh_.colors[entry->second] == color) return entry->second;
     const auto made = static_cast<std::uint32_t>(mesh_.positions.size());
     mesh_.positions.emplace_back(position - origin_);
     mesh_.normals.push_back(written);
     mesh_.colors.push_back(color);
-    doubles_.emplace(vertex, made);
+    duplicates_.emplace(vertex, made);
     return made;
   }
 
@@ -54,7 +54,7 @@ class MeshMaker {
  private:
   SceneMesh mesh_;
   glm::dvec3 origin_;
-  std::unordered_multimap<std::uint32_t, std::uint32_t> doubles_;
+  std::unordered_multimap<std::uint32_t, std::uint32_t> duplicates_;
 };
 
 /// Adds the whole spheres of a surface to `spheres`. Returns true for each triangle of these spheres. Spheres that a

@@ -60,7 +60,7 @@ void append_textures(SceneText& out, const ColoredPiece& piece, std::string_view
 Geometry::Geometry(std::span<const SurfaceObject> objects, const glm::dvec3& origin, ColorTable& table,
                    ObjectStyle style, std::span<const ClipPlane> clip, std::span<const std::string> names)
     : objects_(objects), origin_(origin), style_(style), clip_(clip), names_(names) {
-  if (!clip_.empty() && declares()) throw Error("POV-Ray export: planes cut a single object in its place");
+  if (!clip_.empty() && declares_objects()) throw Error("POV-Ray export: planes cut a single object in its place");
   for (const SurfaceObject& object : objects)
     palettes_.push_back(make_palette(object.surface, object.coloring, table, style_));
   for (std::size_t n = 0; !clip_.empty() && n < palettes_.size(); ++n) {
@@ -76,20 +76,20 @@ std::size_t Geometry::primitive_count() const {
 }
 
 std::size_t Geometry::primitives_in_memory() const {
-  if (!declares()) return primitive_count();
+  if (!declares_objects()) return primitive_count();
   std::size_t count = 0;
   for (std::size_t n = 0; n < objects_.size(); ++n)
     count += palettes_[n].pieces.size() * (1 + objects_[n].copies.size());
   return count;
 }
 
-bool Geometry::declares() const {
+bool Geometry::declares_objects() const {
   if (objects_.empty()) return false;
   return objects_.size() > 1 || objects_[0].copies.size() != 1 || !is_identity(objects_[0].copies[0]);
 }
 
 bool Geometry::is_one_item() const {
-  if (!declares()) return !objects_.empty() && item_count(0) == 1;
+  if (!declares_objects()) return !objects_.empty() && item_count(0) == 1;
   std::size_t copies = 0;
   for (std::size_t n = 0; n < objects_.size(); ++n)
     copies += palettes_[n].pieces.empty() ? 0 : objects_[n].copies.size();
@@ -101,7 +101,7 @@ std::size_t Geometry::item_count(std::size_t object) const {
   std::size_t count = 0;
   for (std::size_t begin = 0; begin < pieces.size();) {
     const std::size_t end = group_end(pieces, begin);
-    count += has_own_way(object, pieces[begin]) ? end - begin : 1;
+    count += has_offset_textures(object, pieces[begin]) ? end - begin : 1;
     begin = end;
   }
   return count;
@@ -112,7 +112,7 @@ void Geometry::write_pieces(OutputFile& file, SceneText& out, std::size_t object
   const PatchObjects primitives(objects_[object].surface, palettes_[object], origin_, clip_);
   for (std::size_t begin = 0; begin < pieces.size();) {
     const std::size_t end = group_end(pieces, begin);
-    if (has_own_way(object, pieces[begin])) {
+    if (has_offset_textures(object, pieces[begin])) {
       for (; begin < end; ++begin) {
         out.literal("object{\n");
         append_comment(out, object, pieces[begin]);
@@ -149,7 +149,7 @@ void Geometry::append_comment(SceneText& out, std::size_t object, const ColoredP
   out.literal(piece_comment(piece.kind, atoms, names_));
 }
 
-bool Geometry::has_own_way(std::size_t object, const ColoredPiece& piece) const {
+bool Geometry::has_offset_textures(std::size_t object, const ColoredPiece& piece) const {
   const Coloring& coloring = objects_[object].coloring;
   return coloring.volume && coloring.volume->offset != 0.0 && piece.by_map;
 }
@@ -216,11 +216,11 @@ void Geometry::write(OutputFile& file, std::string_view head) const {
   for (std::size_t n = 0; n < objects_.size(); ++n) {
     if (palettes_[n].pieces.empty()) continue;
     const bool several = item_count(n) > 1;
-    if (declares()) out.literal("#local object_").count(n + 1).literal(several ? " =\nunion{\n" : " =\n");
+    if (declares_objects()) out.literal("#local object_").count(n + 1).literal(several ? " =\nunion{\n" : " =\n");
     write_pieces(file, out, n);
-    if (declares() && several) out.literal("}\n");
+    if (declares_objects() && several) out.literal("}\n");
   }
-  for (std::size_t n = 0; declares() && n < objects_.size(); ++n) {
+  for (std::size_t n = 0; declares_objects() && n < objects_.size(); ++n) {
     if (palettes_[n].pieces.empty()) continue;
     for (const RigidMotion& copy : objects_[n].copies) append_copy(out, n, copy);
   }

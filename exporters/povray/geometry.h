@@ -43,13 +43,13 @@ class Geometry {
   /// True if the text of write() is a single item. POV-Ray warns about a union of a single item.
   bool is_one_item() const;
 
-  /// Writes the pieces. If declares() is true, it writes `#local object_N = union {...}` for each object that shows
-  /// something and then `object { object_N matrix <...> }` for each copy. head: scene text after the comments at the
-  /// top.
+  /// Writes the pieces. If declares_objects() is true, it writes `#local object_N = union {...}` for each object that
+  /// shows something and then `object { object_N matrix <...> }` for each copy. head: scene text after the comments at
+  /// the top.
   void write(OutputFile& file, std::string_view head = {}) const;
 
   /// True if objects are declared under names: there are several, or one is copied or moved.
-  bool declares() const;
+  bool declares_objects() const;
 
   /// Returns the JSON text that maps object names of the scene to names of the molecule:
   /// {"objects": [{"object": "object_1", "name": ..., "primitives": ..., "copies": ...}], "colors": ...}
@@ -62,7 +62,7 @@ class Geometry {
   void append_comment(SceneText& out, std::size_t object, const ColoredPiece& piece) const;
   /// True if the volume map is sampled at an offset from the surface. Each patch then has a texture of its own that
   /// moves its points to where the map is sampled.
-  bool has_own_way(std::size_t object, const ColoredPiece& piece) const;
+  bool has_offset_textures(std::size_t object, const ColoredPiece& piece) const;
   void append_offset_textures(SceneText& out, std::size_t object, const ColoredPiece& piece) const;
   void append_copy(SceneText& out, std::size_t object, const RigidMotion& motion) const;
 

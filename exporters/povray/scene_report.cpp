@@ -59,10 +59,10 @@ std::vector<std::string> notes(std::span<const SurfaceObject> objects, const Geo
   if (cut_away > 0)
     sentences.push_back(
         fmt::format("{} fixed probes have no object: other probes cut all of their patch away", cut_away));
-  const std::size_t held = geometry.primitives_in_memory();
-  if (held > kMemoryWarningObjects)
-    sentences.push_back(fmt::format("{} primitives, copies included, need about {} GB of memory in POV-Ray", held,
-                                    held * 18 / 10'000'000));
+  const std::size_t primitives = geometry.primitives_in_memory();
+  if (primitives > kMemoryWarningObjects)
+    sentences.push_back(fmt::format("{} primitives, copies included, need about {} GB of memory in POV-Ray", primitives,
+                                    primitives * 18 / 10'000'000));
   return sentences;
 }
 

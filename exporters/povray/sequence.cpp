@@ -148,7 +148,7 @@ SceneReport SequenceScene::write_frame(std::size_t place, const Shown& shown) co
     return output.file(name);
   };
   const Geometry& geometry = content.geometry();
-  if (geometry.declares()) begin_file("objects", ".json").write(geometry.names_json({}));
+  if (geometry.declares_objects()) begin_file("objects", ".json").write(geometry.names_json({}));
   const std::uint32_t palette = run_.colors ? palette_ : palette_number(table.colors(), origin_);
   if (!run_.colors) {
     SceneText colors = frame_colors_text(table.colors(), options_, palette_, palette);

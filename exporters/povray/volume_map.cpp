@@ -60,10 +60,10 @@ void append_map(SceneText& out, const VolumePaint& paint, std::string_view file,
   const auto [low, high] = std::ranges::minmax(paint.grid.values());
   // A density file fills the unit cube with its n-th value of N at n/N. After the last value, the first is repeated.
   SceneText matrix;
-  glm::dvec3 reach(0.0);
+  glm::dvec3 valid_extent(0.0);
   for (int axis = 0; axis < 3; ++axis) {
     const auto points = static_cast<double>(frame.size[axis]);
-    reach[axis] = (points - 1.0) / points;
+    valid_extent[axis] = (points - 1.0) / points;
     const glm::dvec3 edge = points * frame.step[axis];
     for (int k = 0; k < 3; ++k) matrix.full(edge[k]).literal(",");
   }
@@ -88,7 +88,7 @@ void append_map(SceneText& out, const VolumePaint& paint, std::string_view file,
               {"FROM", number(range[0])},
               {"TO", number(range[1])},
               {"MATRIX", matrix.text()},
-              {"REACH", text_of([&](SceneText& text) { text.full_vector(reach); })},
+              {"REACH", text_of([&](SceneText& text) { text.full_vector(valid_extent); })},
               {"MISSING", text_of([&](SceneText& text) { text.direction(glm::dvec3(paint.scale.missing_color)); })},
               {"COUNT", std::to_string(kMapSteps + 1)},
               {"COLORS", colors.text()},

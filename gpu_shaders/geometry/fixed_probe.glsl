@@ -59,16 +59,16 @@ GEOMETRY FixedProbe fixed_probe(real3 b, real3 c, real ra, real rb, real rc, rea
 
 // True if two probes are in one place. d: vector from one to the other; height0, height1: heights over the planes of
 // their atoms.
-GEOMETRY bool stand_together(real3 d, real height0, real height1) {
+GEOMETRY bool are_coincident(real3 d, real height0, real height1) {
   real near = kMergeDistance * min(real(1), min(height0, height1) / kSteep);
   return dot(d, d) < near * near;
 }
 
 GEOMETRY bool is_flat(real height) { return height * height < real(2) * kFlat; }
 
-// True if two probes may be in one place although stand_together() is false, because one of them is flat and its
+// True if two probes may be in one place although are_coincident() is false, because one of them is flat and its
 // position inaccurate. They are in one place if the other one touches all atoms of the flat one.
-GEOMETRY bool may_stand_together(real3 d, real height0, real height1) {
+GEOMETRY bool may_be_coincident(real3 d, real height0, real height1) {
   return dot(d, d) <= real(4) * kFlat && is_flat(height0) != is_flat(height1);
 }
 

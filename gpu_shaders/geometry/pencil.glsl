@@ -7,7 +7,7 @@
 // first_side(s) to before first_side(s + 1). The includer defines kNone and
 //   uint first_side(uint probe), uint circle_of(uint side), uint partner_of(uint side)   the members of CuspSide
 //   pencil_sides                  a list of uint
-//   bool hold_pencils(uint count) makes room for `count` entries; false if there is no room
+//   bool reserve_pencils(uint count) makes room for `count` entries; false if there is no room
 
 uint pencil_count;
 bool pencils_left_out;  // true if there was no room
@@ -22,7 +22,7 @@ GEOMETRY bool find_pencils(uint s, uint t) {
     for (uint m = first_side(t); m < first_side(t + 1u); ++m) {
       if (circle_of(m) != circle_of(n)) continue;
       if (partner_of(n) != t) return false;
-      if (hold_pencils(pencil_count + 1u)) pencil_sides[pencil_count++] = n;
+      if (reserve_pencils(pencil_count + 1u)) pencil_sides[pencil_count++] = n;
       else pencils_left_out = true;
     }
   }

@@ -55,12 +55,12 @@ bool touches_all(dvec3 position, uvec3 of) {
 // that is valid.
 bool coincides(uint place, uint self) {
   vec3 coarse = neighbor_balls[place].xyz;
-  if (dot(coarse, coarse) > 1e-6) return false;  // farther apart than may_stand_together() allows
+  if (dot(coarse, coarse) > 1e-6) return false;  // farther apart than may_be_coincident() allows
   ProbeRecord s = probes[self];
   ProbeRecord t = probes[neighbor_labels[place]];
   dvec3 d = t.position - s.position;
-  if (stand_together(d, s.height, t.height)) return true;
-  if (!may_stand_together(d, s.height, t.height)) return false;
+  if (are_coincident(d, s.height, t.height)) return true;
+  if (!may_be_coincident(d, s.height, t.height)) return false;
   return is_flat(s.height) ? touches_all(t.position, s.atoms.xyz) : touches_all(s.position, t.atoms.xyz);
 }
 

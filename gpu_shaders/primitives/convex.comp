@@ -49,7 +49,7 @@ void make_patch(uint a, uint entry) {
 // True if the sphere of an atom without arcs is exposed, which is then the whole sphere (theorem 4): no ball certainly
 // overlaps it. Balls that touch it within rounding cover caps that are too small to cover a sphere together, and the
 // border of any cap would be an exposed arc.
-bool alone(uint a, uint entry) {
+bool is_sphere_exposed(uint a, uint entry) {
   const double nearer = 1.0LF + 32.0LF * kUnitRoundoff;
   for (uint n = neighbor_first[entry]; n < neighbor_first[entry + 1u]; ++n) {
     dvec4 other = atoms[neighbor_labels[n]];
@@ -87,7 +87,7 @@ void add_planes(uint a, uint entry, uint first, uint last, bool into_rows) {
 void make_patch(uint a, uint entry) {
   uint first = texelFetch(atom_arc_first, int(a)).x;
   uint last = texelFetch(atom_arc_first, int(a) + 1).x;
-  if (clips[a] == kNotShown || (first == last && !alone(a, entry))) return;
+  if (clips[a] == kNotShown || (first == last && !is_sphere_exposed(a, entry))) return;
   plane_count = 0u;
   bound = PatchBound(atoms[a].xyz, radii[a]);
   add_planes(a, entry, first, last, false);

@@ -23,7 +23,7 @@ CoveredArc decided_arc(uint k, uint i, Circle circle) {
 
 // True if an arc is empty rather than (nearly) a whole turn. It uses double precision, where
 // core/surface/fixed_probes.cpp uses quadruple precision; arc_vanishes() says when that matters.
-bool vanishes(uvec4 arc) {
+bool is_empty_arc(uvec4 arc) {
   Circle decided = circle_of_two_spheres(atoms[arc.y].xyz - atoms[arc.x].xyz, atoms[arc.x].w, atoms[arc.y].w);
   return arc_vanishes(decided_arc(arc.z, arc.x, decided), decided_arc(arc.w, arc.x, decided));
 }
@@ -35,10 +35,10 @@ bool touches_all(dvec3 position, Triple t) {
          touches_atom(position - atoms[t.c].xyz, extended(t.c, scene.probe_radius));
 }
 
-bool coincide(Triple s, FixedProbe at_s, Triple t, FixedProbe at_t) {
+bool are_same_probe(Triple s, FixedProbe at_s, Triple t, FixedProbe at_t) {
   dvec3 d = at_s.position - at_t.position;
-  if (stand_together(d, at_s.height, at_t.height)) return true;
-  if (!may_stand_together(d, at_s.height, at_t.height)) return false;
+  if (are_coincident(d, at_s.height, at_t.height)) return true;
+  if (!may_be_coincident(d, at_s.height, at_t.height)) return false;
   return is_flat(at_s.height) ? touches_all(at_t.position, s) : touches_all(at_s.position, t);
 }
 
@@ -59,7 +59,7 @@ void main() {
     FixedProbe begin = place_probe(first, scene.probe_radius);
     FixedProbe end = place_probe(last, scene.probe_radius);
     bool together = ends_coincide(begin.position, end.position);
-    if ((together || coincide(first, begin, last, end)) && vanishes(arc)) return;
+    if ((together || are_same_probe(first, begin, last, end)) && is_empty_arc(arc)) return;
     rolling = part_between(rolling, begin.position, end.position);
     if (together) {
       rolling.cosine = 1.0LF;

@@ -29,16 +29,16 @@ void keep_nearest(uint index, Primitive primitive, int k, float t, inout Nearest
   }
 }
 
-// Returns which of the four points x are on the patch. x: points relative to the patch's centre; asked: true for each
+// Returns which of the four points x are on the patch. x: points relative to the patch's centre; tested: true for each
 // point to test.
-bvec4 on_clipped_sphere(Primitive primitive, vec3 x[4], float radius, bvec4 asked) {
+bvec4 on_clipped_sphere(Primitive primitive, vec3 x[4], float radius, bvec4 tested) {
   uint end = primitive.first_row + 1u + primitive.plane_count;
-  for (uint i = primitive.first_row + 1u; i < end && any(asked); ++i) {
+  for (uint i = primitive.first_row + 1u; i < end && any(tested); ++i) {
     vec4 plane = row(i);
-    for (int k = 0; k < 4; ++k) asked[k] = asked[k] && in_half_space(x[k], plane.xyz, plane.w, params.slack);
+    for (int k = 0; k < 4; ++k) tested[k] = tested[k] && in_half_space(x[k], plane.xyz, plane.w, params.slack);
   }
-  for (int k = 0; k < 4; ++k) asked[k] = asked[k] && shows_sphere_point(primitive, x[k], radius);
-  return asked;
+  for (int k = 0; k < 4; ++k) tested[k] = tested[k] && shows_sphere_point(primitive, x[k], radius);
+  return tested;
 }
 
 void hit_clipped_sphere(uint index, Primitive primitive, Rays rays, inout Nearest nearest) {

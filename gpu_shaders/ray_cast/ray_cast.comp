@@ -150,7 +150,7 @@ void trace_tori(Walk walk, inout Nearest nearest) {
   } while (waiting != 0u);
 }
 
-Nearest nothing_yet() {
+Nearest no_hits() {
   Nearest nearest;
   nearest.t = vec4(kMiss);
   nearest.primitive = nearest.kind = nearest.tie_key = uvec4(kNoPrimitive);
@@ -194,7 +194,7 @@ layout(std430, binding = 4) buffer States { State states[]; };  // by invocation
 // Traces one part of the list. Returns true if the invocation has traversed its whole list. An invocation that is cut
 // short again is resumed with shorter parts.
 bool trace_part(uint tile, uint place, out Nearest nearest) {
-  nearest = nothing_yet();
+  nearest = no_hits();
   if (params.part > 0)
     nearest = Nearest(states[place].t, states[place].primitive, states[place].kind, states[place].tie_key);
   ivec3 list = list_of(tile);
@@ -246,7 +246,7 @@ void main() {
   unfinished[place] = 0u;
 #else
   ivec3 list = list_of(tile);
-  Nearest nearest = nothing_yet();
+  Nearest nearest = no_hits();
   trace(list, nearest);
   if (loops_cut_short()) {
     unfinished[place] = 1u;

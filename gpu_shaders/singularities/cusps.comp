@@ -33,7 +33,7 @@ layout(std140, binding = 0) uniform Parameters { CuspParameters params; };
 const uint kPencilCapacity = 6u;  // spindle circles that a pair of probes may share; pairs with more are doubtful
 uint pencil_sides[kPencilCapacity];
 
-bool hold_pencils(uint count) { return count <= kPencilCapacity; }
+bool reserve_pencils(uint count) { return count <= kPencilCapacity; }
 uint first_side(uint probe) { return heads[probe].x; }
 uint circle_of(uint side) { return sides[side].circle; }
 uint partner_of(uint side) { return sides[side].partner; }
