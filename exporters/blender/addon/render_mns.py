@@ -36,7 +36,7 @@ import bpy
 import mathutils
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from meniscus_import import (build, camera_reader, compat, looks, materials, mns_reader, sequence,  # noqa: E402
+from meniscus_import import (build, compat, looks, materials, mns_reader, sequence,  # noqa: E402
                              sequence_reader)
 
 #: The lights of the studio style: the direction towards the light in the camera's axes (right, up, back), and the
@@ -471,7 +471,7 @@ def main():
     arguments = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
     options = parse(arguments)
     try:
-        options.shot = camera_reader.read(options.camera) if options.camera else None
+        options.shot = sequence_reader.read_camera(options.camera) if options.camera else None
         code = run_sequence(options) if options.is_sequence else run_file(options)
     except (mns_reader.MnsError, OSError, RuntimeError) as error:
         fail(exit_code(error), error)

@@ -201,7 +201,8 @@ def middle_of(points):
 def scene_origin(scene, otherwise, source, atoms):
     """Returns the origin of coordinates in Å that an earlier import of the same molecule used, so that its surfaces
     stay together, or otherwise() if there is none. Two molecules are the same if their files (source) have the same
-    name without endings, or if their numbers of atoms agree and are at least MANY_ATOMS, which cannot be a coincidence."""
+    name without endings, or if their numbers of atoms agree and are at least MANY_ATOMS, which is unlikely by
+    chance."""
     for item in scene.objects:
         same_name = stem_of(source) and stem_of(source) == stem_of(item.get("meniscus_source", ""))
         is_same = same_name or (atoms >= MANY_ATOMS and atoms == item.get("meniscus_atoms"))

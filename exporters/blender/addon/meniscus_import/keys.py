@@ -1,16 +1,53 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Key frames of a property, and the curves between them."""
+"""Key frames of a property, and the curves between them, which are fitted to a path."""
 
 import numpy as np
 
-from . import compat, curves
+from . import compat
 
 CONSTANT, LINEAR = "CONSTANT", "LINEAR"
+#: The times at which a path is fitted.
+TIMES = np.linspace(0.0, 1.0, 201)
+#: The handles of a straight line, and of a curve that starts and ends slowly: t² (3 - 2 t).
+EVEN, SMOOTH = (1 / 3, 1 / 3, 2 / 3, 2 / 3), (1 / 3, 0.0, 2 / 3, 1.0)
+
+
+def bezier(handles, times=TIMES):
+    """Returns the heights at `times` of Blender's curve from (0, 0) to (1, 1) with the handles (x, y, x, y)."""
+    x1, y1, x2, y2 = handles
+    place = times.copy()
+    low, high = np.zeros_like(times), np.ones_like(times)
+    for _ in range(50):  # bisection works even where the slope is zero
+        along = 3 * (1 - place) ** 2 * place * x1 + 3 * (1 - place) * place ** 2 * x2 + place ** 3
+        low, high = np.where(along < times, place, low), np.where(along < times, high, place)
+        place = 0.5 * (low + high)
+    return 3 * (1 - place) ** 2 * place * y1 + 3 * (1 - place) * place ** 2 * y2 + place ** 3
+
+
+def fitted(way, start):
+    """Returns the handles of the curve nearest to a path, and the largest distance between both. The path is given by
+    its heights at TIMES. The fit uses the method of Levenberg and Marquardt from the handles `start`."""
+    handles = np.array(start, dtype=np.float64)
+    rest, damping = bezier(handles) - way, 1e-6
+    for _ in range(40):
+        if np.abs(rest).max() < 1e-9:
+            break
+        slopes = np.stack([(bezier(handles + step) - bezier(handles - step)) / 2e-5 for step in 1e-5 * np.eye(4)],
+                          axis=1)
+        change = np.linalg.solve(slopes.T @ slopes + damping * np.eye(4), -slopes.T @ rest)
+        tried = handles + change
+        tried[[0, 2]] = np.clip(tried[[0, 2]], 1e-3, 1.0 - 1e-3)
+        found = bezier(tried) - way
+        if found @ found < rest @ rest:
+            handles, rest, damping = tried, found, damping * 0.3
+        else:
+            damping *= 10.0
+    return tuple(handles), float(np.abs(rest).max())
 
 
 class Way:
     """Key frames of one value. points: pairs of a frame and a value. ways: the curve between two successive points,
-    which is CONSTANT, LINEAR or the handles of curves.bezier()."""
+    which is CONSTANT, LINEAR or the handles of bezier()."""
 
     def __init__(self, frame, value):
         self.points, self.ways = [(frame, value)], []
@@ -49,7 +86,7 @@ def follow(ways, frames, ends, share, tolerance, start, most=2):
     the curve would deviate by more than `tolerance` of the path, keys are added by halving the time, up to `most`
     times. start: the initial handles of the fit."""
     low, high = (float(share(time)) for time in (0.0, 1.0))
-    handles, missed = curves.fitted((share(curves.TIMES) - low) / (high - low), start)
+    handles, missed = fitted((share(TIMES) - low) / (high - low), start)
     if missed * abs(high - low) > tolerance and most > 0 and frames[1] - frames[0] >= 2:
         middle = round(0.5 * (frames[0] + frames[1]))
         part = (middle - frames[0]) / (frames[1] - frames[0])

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads and checks the manifest of a sequence of .mns files (FORMAT.md). Uses numpy only, not Blender."""
+"""Reads and checks the manifest of a sequence of .mns files (FORMAT.md), and cameras that --save-camera writes. Uses
+numpy only, not Blender."""
 
 import math
 import os
@@ -160,3 +161,18 @@ def parse_frames(text, known):
             raise ValueError(f"'{part}' names no frames, or too many")
         numbers.extend(range(begin, end + 1, stride))
     return list(dict.fromkeys(numbers))
+
+
+def read_camera(path):
+    """Returns the camera of a file as a dict with the keys of a .mns header. Raises MnsError or OSError."""
+    camera = mns_reader.read_json(path, ", such as --save-camera writes")
+    if not isinstance(camera, dict) or str(camera.get("projection")) not in header_values.SIZES:
+        raise mns_reader.MnsError(f"{path}: no camera: its projection is neither perspective nor orthographic")
+    unknown = set(camera) - {*header_values.VECTORS, "projection", header_values.SIZES[camera["projection"]]}
+    if unknown:
+        raise mns_reader.MnsError(f"{path}: camera: '{min(unknown)}' is not a key of a camera of this projection")
+    try:
+        header_values.check_camera(camera)
+    except ValueError as error:
+        raise mns_reader.MnsError(f"{path}: camera: {error}") from None
+    return camera

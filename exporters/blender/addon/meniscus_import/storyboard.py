@@ -9,7 +9,7 @@ import os
 import bpy
 import numpy as np
 
-from . import build, camera_rig, compat, curves, frames, keys, mesh_arrays, mns_reader, storyboard_reader
+from . import build, camera_rig, compat, frames, keys, mesh_arrays, mns_reader, storyboard_reader
 from .mesh_arrays import names_of
 
 #: The keys of a surface's header that affect its look.
@@ -167,7 +167,7 @@ def nudge(mesh, normals, distance):
 def fade(item, board, shows):
     """Adds key frames to the alpha of an object's colour: from 0 to 1 in a transition to a scene that shows it, and to
     2 in a transition to one that does not. shows: True for each scene that shows the object."""
-    easing = curves.SMOOTH if board.is_smooth else curves.EVEN
+    easing = keys.SMOOTH if board.is_smooth else keys.EVEN
     way = keys.Way(board.scenes[0].first, float(shows[0]))
     for number, (before, after, dissolves) in enumerate(camera_rig.transitions(board), 1):
         if shows[number] != shows[number - 1]:

@@ -6,6 +6,7 @@ import importlib
 import importlib.util
 import os
 import shutil
+import re
 import subprocess
 import sys
 import tempfile
@@ -15,12 +16,51 @@ import numpy as np
 
 from .. import joined, mns_reader
 from . import atoms as atom_files
-from . import measures, molecules, preparation, wording
+from . import measures, preparation
 
 #: The kind of a surface in a request -> the value of the program's option.
 SURFACES = {"SES": "ses", "SAS": "sas", "VDW": "vdw"}
 ERROR_PREFIX = "meniscus: error: "
 POLL = 0.05  # s between two checks if the program has ended and if its result is still needed
+
+#: Options of the program -> labels of fields of the panel, or of values of fields.
+FIELDS = {
+    "--select": "Selection",
+    "--color": "Colour",
+    "--surface": "Surface",
+    "--probe": "Probe",
+    "--tolerance": "Tolerance",
+    "--density": "Density",
+    "--trajectory": "Trajectory",
+    "--trajectory-atoms": "Trajectory's atoms",
+    "--frames": "Frames",
+    "--cavities": "Cavities",
+    "--color-by-file": "Numbers",
+    **{preparation.option_of(row): preparation.label_of(row) for row in preparation.ROWS},
+}
+#: Options in the spelling of libmeniscus.
+OF_LIBRARY = re.compile(r"\A(?:select|%s)(?=: )|\b(?:keep_water|keep_ions|unknown_element)\b|(?<=another )color\b" %
+                        "|".join(map(preparation.name_of, preparation.OF_MOLECULE)))
+OPTION = re.compile(r"(?<![\w/-])--([a-z][a-z0-9]*(?:-[a-z0-9]+)*)")
+
+
+def for_panel(text):
+    """Returns a message with labels of fields in place of options. Options without a field are quoted without dashes,
+    and the message explains them."""
+    lacking = []
+
+    def field(found):
+        name = FIELDS.get(found.group(0))
+        if name is None and found.group(1) not in lacking:
+            lacking.append(found.group(1))
+        return name or f"\"{found.group(1)}\""
+
+    text = OF_LIBRARY.sub(lambda found: "--" + found.group(0).replace("_", "-"), text)
+    worded = OPTION.sub(field, text)
+    if not lacking:
+        return worded
+    return (f"{worded} ({', '.join(lacking)}: {'an option' if len(lacking) == 1 else 'options'} "
+            "of the program meniscus that this panel does not have)")
 
 
 class EngineError(mns_reader.MnsError):
@@ -28,7 +68,7 @@ class EngineError(mns_reader.MnsError):
     panel."""
 
     def __init__(self, text):
-        super().__init__(wording.for_panel(text))
+        super().__init__(for_panel(text))
 
 
 class Cancelled(Exception):
@@ -212,7 +252,7 @@ def _fresh_atoms(tools, request, folder, task):
     """Reads atoms by the library or, for trajectories and prepared frames, by the program."""
     prepared = preparation.run_names(request.preparation)
     if tools.library is not None and not request.trajectory and not prepared:
-        return _call(tools.library, molecules.read, tools.library, request)
+        return _call(tools.library, atom_files.read_molecule, tools.library, request)
     if request.trajectory:
         program = tools.needed_program("a trajectory", ", or read it by Molecular Nodes and take its atoms")
     elif prepared:
