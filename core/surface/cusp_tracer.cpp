@@ -70,7 +70,7 @@ struct Pencils {
   const CuspProblem* problem = nullptr;
   std::vector<uint> pencil_sides;
 
-  bool hold_pencils(uint count) {
+  bool reserve_pencils(uint count) {
     if (pencil_sides.size() < count) pencil_sides.resize(count);
     return true;
   }

@@ -161,8 +161,8 @@ class Placement {
 
   bool coincide(std::uint32_t s, std::uint32_t t) const {
     const glm::dvec3 d = position_[s] - position_[t];
-    if (geometry::stand_together(d, height_[s], height_[t])) return true;
-    if (!geometry::may_stand_together(d, height_[s], height_[t])) return false;
+    if (geometry::are_coincident(d, height_[s], height_[t])) return true;
+    if (!geometry::may_be_coincident(d, height_[s], height_[t])) return false;
     const auto [flat, sharp] = geometry::is_flat(height_[s]) ? std::pair(s, t) : std::pair(t, s);
     return std::ranges::all_of(triples_[flat].atom, [&, at = position_[sharp]](std::uint32_t a) {
       return geometry::touches_atom(at - atoms_[a].center, extended(a));

@@ -35,12 +35,13 @@ TYPES = {header.VALUE_FLAG: "bool", header.VALUE_NUMBER: "float", header.VALUE_C
 PANEL = ("molecule.model", "molecule.altloc", "molecule.assembly", "molecule.hydrogens", "molecule.radii", "molecule.keep_water",
          "molecule.keep_ions", "frames.superpose", "frames.whole", "frames.smooth")
 PANEL_HEAD = '''# SPDX-License-Identifier: GPL-3.0-or-later
-"""What the panel asks about molecules and runs, written by scripts/check/scene_values.py from Meniscus' table of properties."""
+"""The fields of the panel about molecules and runs. scripts/check/scene_values.py writes this file from Meniscus' table of
+properties."""
 
 import collections
 
-#: key: of scene files. type: flag, count, word or text. words: all of a word, some usual ones of a text. initial: the default.
-#: lowest, highest: of a count.
+#: A field. key: key in scene files. type: flag, count, word or text. words: all values of a word, or some usual values of
+#: a text. initial: the default. lowest, highest: range of a count.
 Row = collections.namedtuple("Row", "key type words initial lowest highest help")
 
 ROWS = (
@@ -73,7 +74,7 @@ def panel_text():
     rows = [known[key] for key in PANEL]
     return PANEL_HEAD + "".join(
         f"    Row({p.key!r}, {PANEL_TYPES[p.type]!r}, {tuple(p.words)!r}, {p.initial!r}, {p.lowest:g}, {p.highest:g},\n        {p.help!r}),\n"
-        for p in rows) + ")\n\n#: Colour schemes, and whether they need more than the atoms of a file.\nSCHEMES = (\n" + textwrap.fill(
+        for p in rows) + ")\n\n#: Colour schemes, and True for those that need more than the atoms of a file.\nSCHEMES = (\n" + textwrap.fill(
             ", ".join(map(repr, schemes())), 140, initial_indent="    ", subsequent_indent="    ") + ")\n"
 
 
