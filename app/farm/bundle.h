@@ -14,7 +14,7 @@
 
 namespace meniscus::farm {
 
-/// One kind of work on every frame. A picture of a renderer needs the scene of the same frame, nothing else.
+/// A kind of work that is done on every frame. A picture of a renderer needs the scene of the same frame, nothing else.
 enum class Step {
   surface,  ///< scenes for a renderer, by this program
   render    ///< pictures

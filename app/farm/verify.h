@@ -24,7 +24,7 @@ using FrameFaults = std::map<std::uint64_t, FrameFault>;
 /// equal.
 FrameFaults faults_of(const Bundle& bundle, const std::filesystem::path& folder);
 
-/// What a film shows instead of a frame that is not good.
+/// The choice of what a film shows instead of a frame that is not good.
 enum class InPlace {
   hold,  ///< the frame before once more; before the first good frame that one
   drop   ///< nothing: the film is shorter
