@@ -14,8 +14,8 @@
 #include "app/commands/figure_run.h"
 #include "app/commands/picture_sink.h"
 #include "app/commands/render_command.h"
+#include "app/commands/resumed_run.h"
 #include "app/commands/scene_files.h"
-#include "app/farm/missing_frames.h"
 #include "app/film/film_format.h"
 #include "app/options/named_files.h"
 #include "app/options/numbered_path.h"
@@ -220,7 +220,7 @@ bool leave_missing(RenderCommand& command) {
   const std::optional<NumberedPath> pictures = NumberedPath::parse(command.scene.output);
   if (is_run && !pictures)
     throw UsageError("--resume: a film is made as a whole; name pictures instead, such as -o frame_#####.png");
-  command.made_of = farm::made_of(command.scene);
+  command.made_of = made_of(command.scene);
   std::vector<std::string> paths{command.scene.output};
   std::vector<std::uint64_t> frames;
   if (is_run) {
@@ -230,7 +230,7 @@ bool leave_missing(RenderCommand& command) {
     paths.clear();
     for (const std::uint64_t frame : frames) paths.push_back(pictures->at(frame));
   }
-  const std::vector<std::size_t> missing = farm::missing_pictures(paths, command.made_of, command.existing());
+  const std::vector<std::size_t> missing = missing_pictures(paths, command.made_of, command.existing());
   say(command, fmt::format("{} of {} pictures are there", with_thousands(paths.size() - missing.size()),
                            with_thousands(paths.size())));
   std::vector<std::uint64_t> numbers;

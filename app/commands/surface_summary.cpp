@@ -2,7 +2,7 @@
 // Computes the files of `meniscus surface --csv-summary` in a pipeline, and keeps tables that a later call can
 // continue.
 #include "app/commands/surface_command.h"
-#include "app/farm/missing_frames.h"
+#include "app/commands/resumed_run.h"
 
 #include <cerrno>
 #include <chrono>
@@ -117,7 +117,7 @@ class Summary {
       : command_(command),
         files_(std::move(files)),
         summary_(command.summary_csv,
-                 fmt::format("#{}{}{}", farm::made_of(command.scene), command.atom_csv.empty() ? "" : " atoms",
+                 fmt::format("#{}{}{}", made_of(command.scene), command.atom_csv.empty() ? "" : " atoms",
                              command.residue_csv.empty() ? "" : " residues"),
                  summary_header()),
         atoms_(command.atom_csv, "", "file," + atom_csv_header(columns_of({}))),

@@ -42,8 +42,8 @@ constexpr Property kRows[] = {
          "Make the film even if frames are missing or bad. hold: show the previous frame again; drop: leave them out")
         .one_of("hold|drop")
         .in("Options"),
-    text("work.step", "--step", "STEP", "Do only this step: surface or render")
-        .proposes("surface|render")
+    word("work.step", "--step", "STEP", "Do only this step: surface or render")
+        .one_of("surface|render")
         .initially("all, in order")
         .in("Options"),
     text("work.frames", "--frames", "LIST", "Make only these frames of the run, such as 0-99:10,250").in("Options"),
@@ -53,8 +53,6 @@ constexpr Property kRows[] = {
     text("work.device", "--device", "DEVICE", "Device instead of the bundle's: auto, gpu, gpu:N, software, cpu")
         .proposes("auto|gpu|software|cpu")
         .in("Options"),
-    flag("work.require_gpu", "--require-gpu", "Fail with exit code 4 if there is no hardware GPU").in("Options"),
-    count("work.threads", "--threads", "N", "CPU threads per process").from(1, 4096).initially("all").in("Options"),
 };
 const PropertyTable kFarmProperties(kRows);
 

@@ -222,6 +222,7 @@ std::vector<std::uint8_t> encode_png(const ImageToEncode& image, std::span<const
 namespace {
 
 constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
+constexpr std::string_view kLastChunk("\0\0\0\0IEND\xae\x42\x60\x82", 12);
 constexpr std::uint32_t kLongestNote = 16u << 20;
 
 std::uint32_t word_at(const char* bytes) {
@@ -259,6 +260,30 @@ std::optional<std::string> png_note(const std::filesystem::path& path, std::stri
     }
   }
   return {};
+}
+
+bool ends_as_png(const std::filesystem::path& path) {
+  std::string end(kLastChunk.size(), '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end);
+  return file.read(end.data(), static_cast<std::streamsize>(end.size())) && end == kLastChunk;
+}
+
+std::optional<std::string> png_without_time(std::string_view file) {
+  constexpr std::array<std::string_view, 4> kDropped{"tIME", "tEXt", "zTXt", "iTXt"};
+  constexpr std::size_t kAround = 12;  // bytes of a chunk besides its data: length, type, CRC
+  if (!file.starts_with(kSignature)) return {};
+  std::string result(kSignature);
+  file.remove_prefix(kSignature.size());
+  for (std::string_view type; type != "IEND";) {
+    if (file.size() < kAround) return {};
+    const std::size_t size = kAround + word_at(file.data());
+    if (file.size() < size) return {};
+    type = file.substr(4, 4);
+    if (std::ranges::find(kDropped, type) == kDropped.end()) result.append(file.substr(0, size));
+    file.remove_prefix(size);
+  }
+  return result;
 }
 
 }  // namespace meniscus

@@ -63,4 +63,11 @@ bool is_png(const std::filesystem::path& path);
 /// 11.3.4.5); nothing if there is none or the file is not PNG.
 std::optional<std::string> png_note(const std::filesystem::path& path, std::string_view key);
 
+/// True if a file ends as whole PNG files do.
+bool ends_as_png(const std::filesystem::path& path);
+
+/// Returns a PNG file without its chunks of time and text (tIME, tEXt, zTXt, iTXt; PNG, W3C 2003), so that the same
+/// picture is the same file. Pixels and colour space stay as they are. Returns nothing if it is no whole PNG file.
+std::optional<std::string> png_without_time(std::string_view file);
+
 }  // namespace meniscus
