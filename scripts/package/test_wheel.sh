@@ -21,6 +21,6 @@ unset MENISCUS_LIBRARY MENISCUS_PACKAGE
 "$python" -c 'import meniscus; print("libmeniscus", meniscus.version(), meniscus.library_path())'
 "$python" -B "$tests/package_test.py"
 "$python" -B "$tests/structure_test.py"
-"$python" -B "$tests/page_test.py"
+"$python" -B "$tests/python_pages_test.py"
 "$python" -B "$tests/examples_test.py" "${packages[@]}" anywidget
 "$python" -B "$tests/adapters_test.py" "${packages[@]}"
