@@ -35,7 +35,7 @@ void check(const farm::Bundle& bundle) {
   require(frames == bundle.frames, "the tasks together make the run");
 }
 
-void run(std::string_view bytes) {
+void run_bundle(std::string_view bytes) {
   static const ScratchFile file("bundle.json");
   file.write(bytes);
   try {
@@ -49,7 +49,7 @@ void run(std::string_view bytes) {
   }
 }
 
-const Registration registration{"bundle", run};
+const Registration registered_bundle{"bundle", run_bundle};
 
 }  // namespace
 }  // namespace meniscus::fuzz
