@@ -3,59 +3,132 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <initializer_list>
 #include <optional>
+#include <ranges>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
+#include <fmt/ranges.h>
 
+#include "app/commands/blender_meshes.h"
 #include "app/commands/commands.h"
-#include "app/commands/parse_bundled_command.h"
+#include "app/commands/povray_figures.h"
+#include "app/commands/render_command.h"
+#include "app/commands/traced_scene.h"
+#include "app/farm/bundle_folder.h"
 #include "app/farm/make_bundle.h"
-#include "app/farm/make_frames.h"
 #include "app/farm/verify.h"
-#include "app/farm/worker.h"
 #include "app/options/property_options.h"
-#include "app/options/scene_options.h"
+#include "app/options/usage_faults.h"
 #include "app/process/child_process.h"
 #include "app/process/program_error.h"
 #include "app/process/stop_signals.h"
 #include "app/process/this_program.h"
 #include "core/base/text.h"
 #include "core/base/utf8.h"
+#include "core/render/picture_file.h"
 #include "core/trajectory/frame_list.h"
 
 namespace meniscus {
 namespace {
 
+using Words = std::vector<std::string>;
+
 constexpr std::size_t kFaultsShown = 10;
+constexpr std::initializer_list<const char*> kDeviceOptions{"--device", "--threads", "--require-gpu", "--jobs"};
 
 struct BundleCommand {
-  std::vector<std::string> words;  // after --
+  Words words;  // behind --
   farm::BundleOptions options;
-  std::string folder, engines = "make,slurm,snakemake,openjd,kubernetes,flamenco", film, addon = addon_folder();
-  double frames_per_second = 25.0;
-  FilmFormat film_format;
+  std::string engines = "make,slurm,snakemake,openjd,kubernetes,flamenco";
+  farm::Film film;
 };
+
+/// Returns those of the options that were typed, with their values.
+Words typed(const CLI::App& command, std::initializer_list<const char*> options) {
+  Words words;
+  for (const char* const name : options) {
+    const CLI::Option* const option = command.get_option_no_throw(name);
+    if (!option || option->count() == 0) continue;
+    words.emplace_back(name);
+    if (option->get_expected_max() > 0) words.push_back(option->results().back());
+  }
+  return words;
+}
+
+/// Throws UsageError for an option that a bundle does not have. Some of them a bundle decides by itself, and others
+/// write files. The legend of --legend-file is written when the bundle is made.
+void refuse_options(const SceneOptions& options) {
+  for (const Property* const property : properties()) {
+    const bool is_possible = property->has(in_bundle) || property->section() == "scene" ||
+                             property->key == "legend.file" || property->key == "molecule.file" ||
+                             std::ranges::find(kDeviceOptions, property->long_option()) != kDeviceOptions.end();
+    if (!is_possible && options.taken().has(*property) && options.typed(property->key))
+      throw UsageError(fmt::format("{} after --: a bundle decides that by itself, or does not have it; leave it out",
+                                   property->long_option()));
+  }
+}
+
+TakenProperties properties_of(const farm::CommandKind& kind) {
+  return kind.renderer == farm::Maker::povray    ? povray_properties()
+         : kind.renderer == farm::Maker::blender ? blender_properties()
+         : kind.name == "render"                 ? render_properties()
+                                                 : traced_properties();
+}
+
+/// Parses the words behind -- by the program's own options, without running their command. Throws UsageError for a
+/// command that makes no frames, and for wrong options.
+farm::BundledCommand parsed(const Words& words, RenderCommand& command) {
+  const std::ptrdiff_t count = words.front() == "export" ? 2 : 1;
+  const auto behind = words.begin() + std::min(count, std::ssize(words));
+  const auto second = std::find(behind, words.end(), "--");
+  farm::BundledCommand bundled;
+  bundled.words.assign(words.begin(), behind);
+  if (second != words.end()) bundled.renderer.assign(second + 1, words.end());
+  const farm::CommandKind& kind = farm::kind_of(bundled.words);
+  if (!bundled.renderer.empty() && kind.steps.size() < 2)
+    throw UsageError(fmt::format("no renderer is started for {}; leave out what follows the second --", kind.name));
+  CLI::App app("", bundled.words.back());
+  app.set_help_flag();
+  let_the_last_count(app);
+  SceneOptions declared(app, properties_of(kind), command);
+  PropertyOptions options(app);
+  if (kind.name == "render") {
+    declared.describe_output("", OutputName::optional);
+    options.add("picture.provenance", command.provenance);
+    options.add_switch("picture.no_provenance", [&] { command.names_program = false; });
+  }
+  Words arguments(behind, second);
+  std::ranges::reverse(arguments);  // as CLI11 takes them
+  try {
+    app.parse(arguments);
+    refuse_options(declared);
+    declared.take();
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(fmt::format("after --: {}", error.what()));
+  }
+  if (command.scene.molecule.file == "-") throw UsageError("standard input cannot be bundled; name a FILE");
+  bundled.command = command;
+  bundled.further = typed(app, {"--provenance", "--no-provenance"});
+  bundled.device = typed(app, kDeviceOptions);
+  return bundled;
+}
 
 std::vector<farm::Engine> engines_of(const BundleCommand& command) {
   std::vector<farm::Engine> chosen;
-  std::string names;
-  for (const farm::Engine& engine : farm::engines()) names.append(names.empty() ? "" : ", ").append(engine.name);
   for (const std::string& word : CLI::detail::split(command.engines, ',')) {
-    const auto& table = farm::engines();
-    const auto found = std::ranges::find_if(table, [&](const farm::Engine& engine) { return word == engine.name; });
-    if (word == "all") {
-      chosen = table;
-    } else if (found == table.end()) {
-      throw UsageError(fmt::format("--engine: {} is not one of {}, all", in_quotes(word), names));
-    } else {
-      chosen.push_back(*found);
-    }
+    const std::vector<std::string> known = words_of(property_of("bundle.engine"));
+    if (std::ranges::find(known, word) == known.end())
+      throw UsageError(fmt::format("--engine: {} is not one of {}", in_quotes(word), fmt::join(known, ", ")));
+    std::ranges::copy_if(farm::engines(), std::back_inserter(chosen),
+                         [&](const farm::Engine& engine) { return word == "all" || word == engine.name; });
   }
   for (const farm::Engine& engine : chosen)
     if (engine.needs_farm_path && command.options.farm_path.empty())
-      throw UsageError(fmt::format("--engine {} needs --farm-path: {}", engine.name, engine.needs_farm_path));
+      throw UsageError(
+          fmt::format("--engine {} needs --farm-path: its commands have no working directory", engine.name));
   return chosen;
 }
 
@@ -68,26 +141,26 @@ void check_film_name(const std::string& name) {
 
 void bundle(BundleCommand command) {
   farm::BundleOptions& options = command.options;
-  options.folder = command.folder;
-  options.addon = command.addon;
   options.engines = engines_of(command);
-  if (!command.film.empty()) {
-    check_film_name(command.film);
-    options.film = farm::Film{command.film, command.frames_per_second, command.film_format};
+  if (!command.film.file.empty()) {
+    check_film_name(command.film.file);
+    options.film = command.film;
   }
-  const farm::BundledCommand bundled = farm::parse_bundled_command(command.words);
-  const farm::MadeBundle made = farm::make_bundle(options, bundled);
+  RenderCommand render;
+  const farm::MadeBundle made = farm::make_bundle(options, parsed(command.words, render));
+  render.force = options.force;
+  if (made.legend) write_legend_picture(render.scene.legend.file, *made.legend, image_settings(render));
   for (const std::string& note : made.notes) std::cerr << "meniscus: note: " << escaped(note) << "\n";
+  const std::string folder = options.folder.string();
   const farm::Chunking& chunking = made.bundle.chunking;
-  fmt::print(std::cout, "{}: {} frames in {} {}{}{}\n", escaped(command.folder),
-             with_thousands(made.bundle.frames.size()), chunking.count, chunking.count == 1 ? "task" : "tasks",
+  fmt::print(std::cout, "{}: {} frames in {} {}{}{}\n", escaped(folder), with_thousands(made.bundle.frames.size()),
+             chunking.count, chunking.count == 1 ? "task" : "tasks",
              chunking.seconds_per_frame ? fmt::format(", {:.3g} s a frame here", *chunking.seconds_per_frame) : "",
              made.was_there ? "; it was there already" : "");
   fmt::print(std::cout, "a task: {} {}{}\n", chunking.cores, chunking.cores == 1 ? "core" : "cores",
              chunking.memory() ? fmt::format(", {} MiB of memory", with_thousands(*chunking.memory())) : "");
   for (const farm::Engine& engine : options.engines)
-    fmt::print(std::cout, "  {:<9} {}\n", engine.name,
-               escaped(filled(engine.start, {{"DIR", shell_word(command.folder)}})));
+    fmt::print(std::cout, "  {:<9} {}\n", engine.name, escaped(filled(engine.start, {{"DIR", shell_word(folder)}})));
 }
 
 }  // namespace
@@ -102,45 +175,43 @@ void add_farm_bundle(CLI::App& command) {
            "Blender's\ndriver. Files that the command reads are copied into the bundle. One trial frame is made to "
            "measure its\ntime, unless --chunk-frames sets the number of frames of a task.");
   auto state = std::make_shared<BundleCommand>();
-  command.add_option("DIR", state->folder, "Folder to make")->required()->type_name("");
+  command.add_option("DIR", state->options.folder, "Folder to make")->required()->type_name("");
   command
       .add_option("COMMAND", state->words, "After --: render, or export povray, blender, mitsuba or pbrt, with options")
       ->required()
       ->type_name("");
   PropertyOptions options(command);
   options.add("bundle.engine", state->engines);
-  CLI::Option* const minutes = options.add("bundle.chunk_minutes", state->options.chunking.asked_minutes);
-  options.add("bundle.chunk_frames", state->options.chunking.asked_frames)->excludes(minutes);
+  CLI::Option* const minutes = options.add("bundle.chunk_minutes", state->options.chunking.wanted_minutes);
+  options.add("bundle.chunk_frames", state->options.chunking.wanted_frames)->excludes(minutes);
   options.add("bundle.task_cores", state->options.chunking.cores);
-  options.add("bundle.task_memory", state->options.chunking.asked_memory);
-  CLI::Option* const film = options.add("bundle.film", state->film);
-  options.add("bundle.fps", state->frames_per_second)->needs(film);
-  options.add("frames.codec", state->film_format.codec)->check(one_of(film_codec_names()));
-  options.add("frames.crf", state->film_format.rate_factor);
-  options.add("frames.bits", state->film_format.bits)->check(CLI::IsMember({8, 10}).description(""));
-  options.add("frames.chroma", state->film_format.chroma)->check(CLI::IsMember({420, 422, 444}).description(""));
+  options.add("bundle.task_memory", state->options.chunking.wanted_memory);
+  CLI::Option* const film = options.add("bundle.film", state->film.file);
+  options.add("bundle.fps", state->film.format.frames_per_second)->needs(film);
+  options.add("frames.codec", state->film.format.codec)->check(one_of(film_codec_names()));
+  options.add("frames.crf", state->film.format.rate_factor);
+  options.add("frames.bits", state->film.format.bits)->check(CLI::IsMember({8, 10}).description(""));
+  options.add("frames.chroma", state->film.format.chroma)->check(CLI::IsMember({420, 422, 444}).description(""));
   options.add("bundle.farm_path", state->options.farm_path);
   options.add("bundle.by_reference", state->options.by_reference);
-  options.add("bundle.addon", state->addon);
+  state->options.addon = addon_folder();
+  options.add("bundle.addon", state->options.addon);
   options.add("bundle.force", state->options.force);
   command.callback([state, &command] {
-    state->options.cores_asked = command.count("--task-cores") > 0;
+    state->options.cores_given = command.count("--task-cores") > 0;
     bundle(*state);
   });
 }
 
 namespace {
 
-/// What can be done about frames that are not good.
-std::string advice(const std::vector<farm::FrameFault>& faults, const std::string& folder) {
+/// Says how frames that are not good can be made.
+std::string advice(const farm::FrameFaults& faults, const std::string& folder) {
   std::vector<std::uint64_t> damaged;
-  for (const farm::FrameFault& fault : faults)
-    if (fault.is_there) damaged.push_back(fault.frame);
-  std::string text;
-  if (damaged.size() < faults.size()) text = fmt::format("`meniscus work {}` makes what is missing", folder);
-  if (!damaged.empty())
-    text += fmt::format("{}`meniscus work {} --frames {} --force` makes what is damaged once more",
-                        text.empty() ? "" : ", ", folder, frame_list_text(damaged));
+  for (const auto& [frame, fault] : faults)
+    if (fault.is_there) damaged.push_back(frame);
+  std::string text = fmt::format("`meniscus work {}` makes what is missing", folder);
+  if (!damaged.empty()) text += fmt::format(", with --frames {} --force what is damaged", frame_list_text(damaged));
   return text + "; --allow-missing hold goes on without them";
 }
 
@@ -148,9 +219,9 @@ void verify(const std::filesystem::path& folder, const std::optional<farm::InPla
   const farm::Bundle bundle = farm::read_bundle(folder);
   const StopHandler handler([] { stop_children(); }, std::nullopt);
   farm::check_inputs(bundle, folder, true);
-  const std::vector<farm::FrameFault> faults = farm::faults_of(bundle, folder);
-  for (std::size_t n = 0; n < std::min(faults.size(), kFaultsShown); ++n)
-    std::cerr << fmt::format("meniscus: frame {}: {}\n", faults[n].frame, escaped(faults[n].what));
+  const farm::FrameFaults faults = farm::faults_of(bundle, folder);
+  for (const auto& [frame, fault] : faults | std::views::take(kFaultsShown))
+    std::cerr << fmt::format("meniscus: frame {}: {}\n", frame, escaped(fault.sentence));
   const std::size_t all = bundle.frames.size(), good = all - faults.size();
   if (!faults.empty() && (!in_place || good == 0))
     throw RunError(kExitInput,
@@ -160,8 +231,8 @@ void verify(const std::filesystem::path& folder, const std::optional<farm::InPla
   if (bundle.film) farm::encode_film(bundle, folder, faults, in_place.value_or(farm::InPlace::hold));
   fmt::print(std::cout, "{} frames are good", with_thousands(good));
   if (!faults.empty()) {
-    std::vector<std::uint64_t> missing;
-    for (const farm::FrameFault& fault : faults) missing.push_back(fault.frame);
+    const auto numbers = std::views::keys(faults);
+    const std::vector<std::uint64_t> missing(numbers.begin(), numbers.end());
     fmt::print(std::cout, ", {} missing: {}; {}", with_thousands(faults.size()), frame_list_text(missing),
                in_place == farm::InPlace::drop ? "the film is shorter" : "the frame before is shown again");
   }

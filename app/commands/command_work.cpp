@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `meniscus work`: makes the missing frames of a bundle, for a person or for any engine.
 #include <algorithm>
-#include <charconv>
 #include <cstdlib>
 #include <filesystem>
 #include <iterator>
 #include <memory>
 #include <optional>
-#include <unordered_set>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -18,6 +17,7 @@
 #include "app/process/child_process.h"
 #include "app/process/program_error.h"
 #include "app/process/stop_signals.h"
+#include "core/base/parse_number.h"
 #include "core/base/text.h"
 #include "core/trajectory/frame_list.h"
 
@@ -25,34 +25,30 @@ namespace meniscus {
 namespace {
 
 struct WorkCommand {
-  std::string folder, step, frames, chunk;
-  bool force = false, require_gpu = false;
-  std::string device;
-  int threads = 0;
+  std::string folder, frames, chunk, device;
+  std::optional<farm::Step> step;
+  bool require_gpu = false;
+  farm::Order order;
   ProgressStyle progress = ProgressStyle::automatic;
 };
 
-struct Chunk {
-  std::uint64_t number = 0, count = 0;
-};
-
-/// K/N, 1 <= K <= N.
-Chunk parse_chunk(const std::string& text) {
-  std::uint64_t k = 0, n = 0;
-  const char* const end = text.data() + text.size();
-  const auto [slash, first_error] = std::from_chars(text.data(), end, k);
-  const bool has_slash = first_error == std::errc() && slash != end && *slash == '/';
-  const auto [rest, second_error] = has_slash ? std::from_chars(slash + 1, end, n) : std::from_chars(end, end, n);
-  if (!has_slash || second_error != std::errc() || rest != end || k < 1 || k > n)
+/// Returns the frames of K/N, 1 <= K <= N.
+std::vector<std::uint64_t> frames_of_chunk(const farm::Bundle& bundle, const std::string& text) {
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  std::int64_t k = 0, n = 0;
+  if (!parse_whole_number(text.substr(0, slash), k) || slash == text.size() ||
+      !parse_whole_number(text.substr(slash + 1), n) || k < 1 || k > n)
     throw UsageError(fmt::format("--chunk is {}; it must be K/N with K from 1 to N, such as 3/10", in_quotes(text)));
-  return {k, n};
+  // Workers of neighbouring shares on a machine of several GPUs take one each.
+  ::setenv(kWorkerVariable, std::to_string(k - 1).c_str(), 0);
+  return farm::chunk_of(bundle, static_cast<std::uint64_t>(k), static_cast<std::uint64_t>(n));
 }
 
-/// Of the run those that the list has: of every tenth frame, 0-30 means four.
+/// Returns those frames of the run that are in the list: 0-30 means four frames of a run of every tenth.
 std::vector<std::uint64_t> listed_frames(const farm::Bundle& bundle, const std::string& text) {
   const std::uint64_t largest = *std::ranges::max_element(bundle.frames);
   const std::vector<std::uint64_t> list = parse_frame_list("--frames", text, largest + 1);
-  const std::unordered_set<std::uint64_t> wanted(list.begin(), list.end());
+  const std::set<std::uint64_t> wanted(list.begin(), list.end());
   std::vector<std::uint64_t> frames;
   std::ranges::copy_if(bundle.frames, std::back_inserter(frames), [&](std::uint64_t n) { return wanted.contains(n); });
   if (frames.empty())
@@ -61,40 +57,23 @@ std::vector<std::uint64_t> listed_frames(const farm::Bundle& bundle, const std::
   return frames;
 }
 
-farm::Share share_of(const WorkCommand& command, const farm::Bundle& bundle) {
-  farm::Share share;
-  share.force = command.force;
-  share.is_whole_run = command.chunk.empty() && command.frames.empty();
+void run(WorkCommand command) {
+  const farm::Bundle bundle = farm::read_bundle(command.folder);
+  farm::Order& order = command.order;
+  order.folder = std::filesystem::absolute(command.folder);
   for (const farm::Step step : bundle.steps())
-    if (command.step.empty() || command.step == farm::word_of(step)) share.steps.push_back(step);
-  if (share.steps.empty())
-    throw UsageError(fmt::format("--step {} is not a step of this bundle", in_quotes(command.step)));
-  const std::optional<Chunk> chunk = command.chunk.empty() ? std::nullopt : std::optional(parse_chunk(command.chunk));
-  // Workers of neighbouring shares on a machine of several GPUs take one each.
-  if (chunk) ::setenv(kWorkerVariable, std::to_string(chunk->number - 1).c_str(), 0);
-  share.frames = chunk                     ? farm::chunk_of(bundle, chunk->number, chunk->count)
+    if (!command.step || command.step == step) order.steps.push_back(step);
+  if (order.steps.empty()) throw UsageError("--step: this bundle has no such step; leave it out");
+  order.is_whole_run = command.chunk.empty() && command.frames.empty();
+  order.frames = !command.chunk.empty()    ? frames_of_chunk(bundle, command.chunk)
                  : !command.frames.empty() ? listed_frames(bundle, command.frames)
                                            : bundle.frames;
-  return share;
-}
-
-farm::Workplace workplace_of(const WorkCommand& command) {
-  farm::Workplace place;
-  place.folder = std::filesystem::absolute(command.folder);
-  place.threads = command.threads;
-  if (!command.device.empty()) place.device = {"--device", command.device};
-  if (command.require_gpu) place.device.emplace_back("--require-gpu");
-  return place;
-}
-
-void run(const WorkCommand& command) {
-  const farm::Bundle bundle = farm::read_bundle(command.folder);
-  const farm::Share share = share_of(command, bundle);
-  const farm::Workplace place = workplace_of(command);
-  // Software GL takes as many threads as the machine has cores unless set.
-  if (command.threads > 0) ::setenv("LP_NUM_THREADS", std::to_string(command.threads).c_str(), 0);
+  if (!command.device.empty()) order.device = {"--device", command.device};
+  if (command.require_gpu) order.device.emplace_back("--require-gpu");
+  // Software GL takes as many threads as the machine has cores unless this is set.
+  if (order.threads > 0) ::setenv("LP_NUM_THREADS", std::to_string(order.threads).c_str(), 0);
   const StopHandler handler([] { stop_children(); }, kExitStopped);
-  farm::work(bundle, place, share, command.progress);
+  farm::work(bundle, order, command.progress);
 }
 
 }  // namespace
@@ -112,15 +91,15 @@ void add_work(CLI::App& command) {
   auto state = std::make_shared<WorkCommand>();
   command.add_option("BUNDLE", state->folder, "Folder of the bundle")->required()->type_name("");
   PropertyOptions options(command);
-  options.add("work.step", state->step);
+  options.add_word("work.step", state->step, {farm::Step::surface, farm::Step::render});
   CLI::Option* const frames = options.add("work.frames", state->frames);
   options.add("work.chunk", state->chunk)->excludes(frames);
-  options.add("work.force", state->force);
+  options.add("work.force", state->order.force);
   using enum ProgressStyle;
   options.add_word("frames.progress", state->progress, {automatic, bar, plain, json, openjd, none});
   options.add("work.device", state->device);
-  options.add("work.require_gpu", state->require_gpu);
-  options.add("work.threads", state->threads);
+  options.add("surface.require_gpu", state->require_gpu);
+  options.add("surface.threads", state->order.threads);
   command.callback([state] { run(*state); });
 }
 

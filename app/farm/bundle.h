@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run of frames as a folder that any machine can work on: the content of bundle.json.
+// A bundle is a run of frames as a folder that any machine can work on; bundle.json in it says what is to be made.
 #pragma once
 
 #include <cstdint>
@@ -10,23 +10,33 @@
 #include <vector>
 
 #include "app/film/film_format.h"
+#include "core/properties/property.h"
 
 namespace meniscus::farm {
 
-/// One kind of work on every frame. A picture of a renderer needs the scene of the same frame, nothing else.
+/// A kind of work that is done on every frame. A picture of a renderer needs the scene of the same frame, nothing else.
 enum class Step {
   surface,  ///< scenes for a renderer, by this program
   render    ///< pictures
 };
 
-std::string_view word_of(Step step);
-
-/// What makes the frames of a step.
+/// The program that makes the frames of a step.
 enum class Maker {
   meniscus,  ///< this program
-  povray,    ///< one process a frame
+  povray,    ///< one process for each frame
   blender    ///< one process for many frames
 };
+
+/// A command that makes frames, and how a bundle divides its work.
+struct CommandKind {
+  std::string_view name;    ///< "render" or "export povray"
+  std::vector<Step> steps;  ///< in order; the last one makes the results
+  Maker renderer;           ///< the program of Step::render
+};
+
+/// Returns the kind of {"render", ...} or {"export", "povray", ...}. Throws RequestError for a command that cannot be
+/// bundled.
+const CommandKind& kind_of(const std::vector<std::string>& command);
 
 /// A file that the command reads.
 struct Input {
@@ -37,67 +47,63 @@ struct Input {
 
 /// The film that `farm verify` makes of the pictures.
 struct Film {
-  std::string file;  ///< plain name, in the bundle
-  double frames_per_second = 25.0;
+  std::string file;  ///< a plain name, in the bundle
   FilmFormat format;
 };
 
-/// How the run is cut into tasks, and what each needs: as asked for, and as decided.
-struct Chunking {
-  std::optional<std::uint64_t> asked_frames;  ///< of a task; else the time decides
-  double asked_minutes = 5.0;                 ///< of a task
-  std::optional<double> seconds_per_frame;    ///< of the trial frame, in all steps
-  std::uint64_t count = 1;                    ///< tasks
-  std::uint64_t cores = 2;                    ///< of a task
-  std::optional<std::uint64_t> asked_memory;  ///< of a task, in MiB
-  std::optional<std::uint64_t> peak_memory;   ///< of the largest process of the trial frame, in MiB
+/// The most tasks of a bundle, because Slurm's MaxArraySize is 1001 unless a site says otherwise.
+inline constexpr std::uint64_t kMostTasks = 1000;
 
-  /// Tasks of as many frames, or as much time, as was asked for: at least 1.
+/// How the run is cut into tasks, and what each task needs.
+struct Chunking {
+  std::optional<std::uint64_t> wanted_frames;  ///< frames of a task; without them the time decides
+  double wanted_minutes = 5.0;                 ///< time of a task
+  std::optional<double> seconds_per_frame;     ///< time of the trial frame, in all steps
+  std::uint64_t count = 1;                     ///< tasks
+  std::uint64_t cores = 2;                     ///< cores of a task
+  std::optional<std::uint64_t> wanted_memory;  ///< memory of a task, in MiB
+  std::optional<std::uint64_t> peak_memory;    ///< memory of the largest process of the trial frame, in MiB
+
+  /// Returns the number of tasks, from 1 to frame_count, that have the wanted frames or the wanted time.
   std::uint64_t wanted_count(std::uint64_t frame_count) const;
-  /// Decides `count` for so many frames: what is wanted, at most 1000, for queues take arrays of 1000 by default.
-  void decide(std::uint64_t frame_count);
-  /// Memory that a task should be given, in MiB: what was asked for; else half as much again as was measured, for other
-  /// frames may need more, and something for the worker itself. Nothing if neither is known.
+  /// Returns the memory of a task in MiB: the wanted memory, or half as much again as was measured, since other frames
+  /// may need more, and 256 MiB for the worker itself. Returns nothing if neither is known.
   std::optional<std::uint64_t> memory() const;
 };
 
-/// Everything a worker needs to know. Nothing in it depends on time, machine or user, but what was measured and
-/// follows from it.
+/// Everything that a worker needs to know. Nothing in it depends on time, machine or user, except the measurements of
+/// the trial frame and the number of tasks that follows from them.
 struct Bundle {
   std::string program_version;        ///< with its commit (app/process/this_program.h)
-  std::vector<std::string> command;   ///< {"render", "inputs/a.pdb", ...}: as this program is run in the bundle
+  std::vector<std::string> command;   ///< {"render", "inputs/a.pdb", ...}: this program's words, run in the bundle
   std::vector<std::string> device;    ///< options that say where this program computes
   std::vector<std::string> renderer;  ///< options of POV-Ray or of Blender's driver
-  std::vector<std::uint64_t> frames;  ///< of the run, by their numbers in the trajectory
+  std::vector<std::uint64_t> frames;  ///< frames of the run, by their numbers in the trajectory
   std::vector<Input> inputs;
-  int width = 0, height = 0;  ///< of the pictures, in pixels
+  int width = 0, height = 0;  ///< size of the pictures, in pixels
   std::optional<Film> film;
   Chunking chunking;
 
-  /// Returns the steps in order. The last one makes the results of the bundle.
-  std::vector<Step> steps() const;
-  Maker maker(Step step) const;
-  /// Where the results of a step lie in the bundle, with ##### for the number of the frame. That file is the last of
-  /// its frame to appear.
+  const std::vector<Step>& steps() const { return kind_of(command).steps; }
+  Maker maker(Step step) const { return step == Step::surface ? Maker::meniscus : kind_of(command).renderer; }
+  /// Returns the path of a step's results in the bundle, with ##### for the number of the frame. This file is the last
+  /// one of its frame to appear.
   std::string result_pattern(Step step) const;
+  /// Returns the path of a step's result for one frame, relative to the bundle.
+  std::string result(Step step, std::uint64_t frame) const;
 };
 
-/// The steps of {"render", ...} or {"export", "povray", ...}. Throws RequestError for a command that cannot be bundled.
-std::vector<Step> steps_of(const std::vector<std::string>& command);
-
-/// Part K of N of the run, K from 1: frames that follow each other in it, sizes differing by one at most.
+/// Returns part K of N of the run, K from 1. Its frames follow each other in the run; sizes of parts differ by one at
+/// most.
 std::vector<std::uint64_t> chunk_of(const Bundle& bundle, std::uint64_t k, std::uint64_t n);
 
-/// The pattern with the frame's number, of five digits or more, instead of #####.
+/// Returns the pattern with the frame's number, of five digits or more, instead of #####.
 std::string numbered(std::string_view pattern, std::uint64_t frame);
 
-/// The text of bundle.json, with a line end.
+/// Returns the text of bundle.json, with a line end.
 std::string bundle_json(const Bundle& bundle);
 
-/// Whether both are the same but for what was measured.
-bool same_but_for_measurement(const Bundle& a, const Bundle& b);
-
-/// Reads DIR/bundle.json. Throws InputError: missing, damaged, or of another schema.
+/// Reads DIR/bundle.json. Throws InputError if it is missing, damaged, or of another schema.
 Bundle read_bundle(const std::filesystem::path& folder);
 
 }  // namespace meniscus::farm

@@ -8,12 +8,16 @@
 
 #include <fmt/format.h>
 
+#include "app/farm/bundle_folder.h"
 #include "core/base/error.h"
 
 namespace meniscus::farm {
 namespace {
 
-// Three times what was measured, and ten minutes for a slow start; a site's default where nothing was measured.
+namespace fs = std::filesystem;
+
+/// Returns three times the time that a task was measured to take, and ten minutes for a slow start. The text is empty
+/// where nothing was measured, so that the site's default counts.
 std::string minutes(const Bundle& bundle) {
   const Chunking& chunking = bundle.chunking;
   if (!chunking.seconds_per_frame) return {};
@@ -24,10 +28,9 @@ std::string minutes(const Bundle& bundle) {
 std::vector<Filling> fillings(const Bundle& bundle, const std::string& farm_path) {
   const Chunking& chunking = bundle.chunking;
   const bool needs_gpu = std::ranges::find(bundle.device, "--require-gpu") != bundle.device.end();
-  const std::string memory = chunking.memory() ? std::to_string(*chunking.memory()) : "";
   return {{"COUNT", std::to_string(chunking.count)},
           {"CORES", std::to_string(chunking.cores)},
-          {"MEMORY", memory},
+          {"MEMORY", chunking.memory() ? std::to_string(*chunking.memory()) : ""},
           {"GPUS", needs_gpu ? "1" : ""},
           {"MINUTES", minutes(bundle)},
           {"PATH", farm_path.empty() ? "PATH_OF_THE_BUNDLE" : farm_path}};
@@ -36,7 +39,7 @@ std::vector<Filling> fillings(const Bundle& bundle, const std::string& farm_path
 std::string filled_lines(std::string_view text, const std::vector<Filling>& fillings) {
   std::string result;
   while (!text.empty()) {
-    const std::string_view line = text.substr(0, std::min(text.find('\n'), text.size() - 1) + 1);
+    const std::string_view line = text.substr(0, text.find('\n') + 1);
     const auto is_unknown = [&](const Filling& filling) {
       return filling.text.empty() && line.find("@" + filling.name + "@") != std::string_view::npos;
     };
@@ -50,22 +53,17 @@ std::string filled_lines(std::string_view text, const std::vector<Filling>& fill
 
 const std::vector<Engine>& engines() {
   static const std::vector<Engine> table{
-      {"make", {"Makefile"}, nullptr, "make -C @DIR@ -j2"},
-      {"slurm", {"submit.sh", "slurm/work.sbatch", "slurm/verify.sbatch"}, nullptr, "@DIR@/submit.sh"},
-      {"snakemake", {"Snakefile"}, nullptr, "snakemake --cores 2 -d @DIR@ -s @DIR@/Snakefile"},
-      {"openjd", {"template.json"}, nullptr, "deadline bundle submit @DIR@, or openjd run @DIR@/template.json"},
+      {"make", {"Makefile"}, "make -C @DIR@ -j2"},
+      {"slurm", {"submit.sh", "slurm/work.sbatch", "slurm/verify.sbatch"}, "@DIR@/submit.sh"},
+      {"snakemake", {"Snakefile"}, "snakemake --cores 2 -d @DIR@ -s @DIR@/Snakefile"},
+      {"openjd", {"template.json"}, "deadline bundle submit @DIR@, or openjd run @DIR@/template.json"},
       {"kubernetes",
        {"kubernetes.yaml"},
-       nullptr,
        "set image and volume in @DIR@/kubernetes.yaml; then kubectl apply -f @DIR@/kubernetes.yaml"},
       {"flamenco",
        {"meniscus_film.js", "flamenco_job.json"},
-       nullptr,
        "once: @DIR@/meniscus_film.js into the manager's scripts folder; then POST @DIR@/flamenco_job.json"},
-      {"opencue",
-       {"opencue.xml"},
-       "its commands have no working directory",
-       "launch @DIR@/opencue.xml, by pycue's launchSpec"},
+      {"opencue", {"opencue.xml"}, "launch @DIR@/opencue.xml, by pycue's launchSpec", true},
   };
   return table;
 }
@@ -79,14 +77,14 @@ void require_plain_path(const std::string& farm_path) {
                     in_quotes(farm_path)));
 }
 
-std::vector<EngineFile> emit(const Engine& engine, const Bundle& bundle, const std::string& farm_path) {
+void write_job_files(const Engine& engine, const Bundle& bundle, const std::string& farm_path, const fs::path& folder) {
   require_plain_path(farm_path);
-  const std::vector<Filling> values = fillings(bundle, farm_path);
-  std::vector<EngineFile> files;
-  for (const char* const path : engine.files)
-    files.push_back(
-        {path, filled_lines(template_text(farm_templates(), path), values), std::string_view(path).ends_with(".sh")});
-  return files;
+  for (const char* const file : engine.files) {
+    const fs::path path = folder / file;
+    write_file(path, filled_lines(template_text(farm_templates(), file), fillings(bundle, farm_path)));
+    constexpr auto kExecutable = fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec;
+    if (path.extension() == ".sh") fs::permissions(path, kExecutable, fs::perm_options::add);
+  }
 }
 
 }  // namespace meniscus::farm

@@ -2,6 +2,7 @@
 // The engines that work on a bundle, and the job files for them. Each engine runs `meniscus work` and no more.
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,27 +20,21 @@ namespace farm {
 /// An engine and its templates.
 struct Engine {
   const char* name;
-  std::vector<const char*> files;  ///< in the bundle, by their names among the templates
-  const char* needs_farm_path;     ///< nullptr, or why
-  const char* start;               ///< for people: how to start it, with @DIR@ for the bundle
+  std::vector<const char*> files;  ///< paths in the bundle and among the templates
+  const char* start;               ///< how people start it, with @DIR@ for the bundle
+  bool needs_farm_path = false;    ///< true if its commands have no working directory
 };
 
 const std::vector<Engine>& engines();
 
-/// A file of an engine in the bundle.
-struct EngineFile {
-  std::string path;  ///< relative to the bundle
-  std::string text;
-  bool is_executable = false;
-};
-
-/// Throws RequestError for a path that could mean more than a path to some engine: it has letters, digits and ._-/
-/// only.
+/// Throws RequestError for a path with other characters than letters, digits and ._-/, which could mean more than a
+/// path to some engine.
 void require_plain_path(const std::string& farm_path);
 
-/// The files of an engine: its templates with numbers, and with the bundle's path as the farm's machines see it. A line
-/// whose number is not known is left out. Throws as require_plain_path does.
-std::vector<EngineFile> emit(const Engine& engine, const Bundle& bundle, const std::string& farm_path);
+/// Writes an engine's templates into the bundle's folder, with the numbers of the bundle and its path on the farm's
+/// machines. A line with an unknown number is left out. Throws as require_plain_path and write_file do.
+void write_job_files(const Engine& engine, const Bundle& bundle, const std::string& farm_path,
+                     const std::filesystem::path& folder);
 
 }  // namespace farm
 }  // namespace meniscus

@@ -6,19 +6,17 @@
 #include <array>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <fmt/format.h>
 
-#include "app/farm/bundle_inputs.h"
+#include "app/farm/bundle_folder.h"
 #include "app/farm/worker.h"
 #include "app/film/film.h"
 #include "app/options/scene_words.h"
-#include "app/process/child_process.h"
 #include "app/process/program_error.h"
-#include "app/process/stop_signals.h"
 #include "app/process/this_program.h"
 #include "app/reports/notes.h"
 #include "core/base/output_file.h"
@@ -26,8 +24,6 @@
 #include "core/base/utf8.h"
 #include "core/camera/camera_json.h"
 #include "core/render/image_output.h"
-#include "core/render/legend.h"
-#include "core/render/picture_file.h"
 #include "core/scene/annotations.h"
 #include "core/scene/figure_key.h"
 #include "core/scene/frame_run.h"
@@ -42,8 +38,106 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The camera that shows all of every frame, so that no worker has to read all frames for it. Nothing if the command
-/// has its own, or frames the molecule beside a legend.
+/// Turns a name into letters, digits and "._-". Its end tells the format, so it is kept; a leading dot or dash would
+/// hide or mislead.
+std::string plain(std::string name) {
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-";
+  constexpr std::size_t kLongest = 100;
+  std::ranges::replace_if(
+      name, [&](char c) { return kPlain.find(c) == std::string_view::npos; }, '_');
+  if (name.starts_with('.') || name.starts_with('-')) name.front() = '_';
+  return name.size() > kLongest ? name.substr(name.size() - kLongest) : name;
+}
+
+/// Collects the inputs of a bundle.
+class BundleInputs {
+ public:
+  /// If by_reference, files that the command reads stay where they are.
+  explicit BundleInputs(bool by_reference) : by_reference_(by_reference) {}
+
+  /// Adds a file that the command reads, and returns its path for a command that runs in the bundle. The same file has
+  /// one name however often it is added. Throws InputError.
+  std::string add_file(const fs::path& source) {
+    if (!fs::is_regular_file(source))
+      throw InputError(source.string(), 0, "is not a regular file and cannot be bundled");
+    const fs::path path = fs::canonical(source);
+    for (const Item& item : items_)
+      if (item.source == path) return item.path;
+    items_.push_back({by_reference_ ? path.string() : unique_path(plain(source.filename().string())), path, {}});
+    return items_.back().path;
+  }
+
+  /// Adds a text under this name, and returns its path in the bundle.
+  std::string add_text(const std::string& name, std::string text) {
+    items_.push_back({unique_path(name), {}, std::move(text)});
+    return items_.back().path;
+  }
+
+  /// Adds Blender's driver and the add-on, without files that Python has compiled.
+  void add_addon(const fs::path& addon) {
+    if (!fs::exists(addon / "render_mns.py"))
+      throw InputError(
+          addon.string(), 0,
+          "has no render_mns.py, Blender's driver; name its folder by --addon: in the sources exporters/blender/addon");
+    std::set<std::string> names;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(addon)) {
+      const fs::path inside = entry.path().lexically_relative(addon);
+      if (inside.extension() == ".py" || inside.filename().string().ends_with("LICENSE.txt"))
+        names.insert(inside.string());
+    }
+    for (const std::string& name : names) items_.push_back({"inputs/blender/" + name, fs::absolute(addon / name), {}});
+  }
+
+  /// Reads every file, and returns sizes and checksums in the order in which they were added. Throws InputError.
+  std::vector<Input> measured() const {
+    std::vector<Input> inputs;
+    for (const Item& item : items_)
+      inputs.push_back(item.source.empty() ? Input{item.path, item.text.size(), sha256(item.text)}
+                                           : Input{item.path, fs::file_size(item.source), sha256_of_file(item.source)});
+    return inputs;
+  }
+
+  /// Throws OutputError if a file lies in this folder, which is about to be replaced.
+  void refuse_within(const fs::path& folder) const {
+    const fs::path place = fs::weakly_canonical(folder);
+    for (const Item& item : items_) {
+      const fs::path inside = item.source.lexically_relative(place);
+      if (!inside.empty() && *inside.begin() != "..")
+        throw OutputError(folder.string(),
+                          fmt::format("holds {}, which this command reads; choose another folder", inside.string()));
+    }
+  }
+
+  /// Copies what does not stay where it is. Throws OutputError, and std::filesystem::filesystem_error on a full disk.
+  void copy_to(const fs::path& folder) const {
+    for (const Item& item : items_) {
+      if (item.source.empty()) write_file(folder / item.path, item.text);
+      if (item.source.empty() || fs::path(item.path).is_absolute()) continue;
+      const StopBarrier barrier;
+      make_folders_of(folder / item.path);
+      fs::copy_file(item.source, folder / item.path);
+    }
+  }
+
+ private:
+  struct Item {
+    std::string path;  ///< in the bundle; an absolute one stays where it is
+    fs::path source;   ///< empty for a text
+    std::string text;
+  };
+  std::string unique_path(const std::string& name) {
+    std::string result = name;
+    for (int n = 2; !names_.insert(result).second; ++n) result = fmt::format("{}_{}", n, name);
+    return "inputs/" + result;
+  }
+
+  bool by_reference_;
+  std::vector<Item> items_;
+  std::set<std::string> names_;
+};
+
+/// Returns the camera that shows all of every frame, so that no worker has to read all frames for it. Returns nothing
+/// if the command has its own camera, or frames the molecule next to a legend.
 std::optional<Camera> default_camera(const Scene& scene, const GivenCameras& given, ShownFrames& frames) {
   if (given.any() || scene.legend.within) return {};
   ViewRequest molecule = scene.picture;
@@ -52,8 +146,8 @@ std::optional<Camera> default_camera(const Scene& scene, const GivenCameras& giv
   return run_cameras(molecule, scene.run_camera, given, frames).front();
 }
 
-/// Measures colours where that spares each worker to do it: buried areas need the surfaces of all frames. Returns their
-/// range, if the command has none.
+/// Measures colours where that saves work for each worker: buried areas need the surfaces of all frames. Returns their
+/// range, unless the command has one.
 std::optional<std::array<double, 2>> measured_range(Scene& scene, ShownFrames& frames) {
   ColorScheme& color = scene.molecule.color;
   const bool is_buried = color.by == ColorScheme::By::buried && !color.range;
@@ -62,38 +156,7 @@ std::optional<std::array<double, 2>> measured_range(Scene& scene, ShownFrames& f
   return color.frames_range;
 }
 
-/// That of --legend-file, which is the same for all frames.
-std::optional<Legend> legend_of(const Scene& scene, const FrameRun& frames) {
-  if (scene.legend.file.empty()) return {};
-  return Legend(key_of(frames, scene), scene.picture.size(),
-                legend_style(scene.legend.style, scene.annotations.letters));
-}
-
-void write_legend(const BundledCommand& command, const Legend& legend, Existing existing) {
-  const Scene& scene = command.command.scene;
-  ImageSettings settings{scene.image.background, existing, scene.look.has_linear_alpha(), scene.picture.dots_per_inch};
-  const auto is_given = [&](const char* option) { return std::ranges::count(command.further, option) > 0; };
-  settings.names_program = !is_given("--no-provenance");
-  if (is_given("--provenance")) settings.command = command_line();
-  write_legend_picture(scene.legend.file, legend, settings);
-}
-
-/// Blender's driver and the add-on, but for what Python has compiled.
-void add_addon(const fs::path& addon, BundleInputs& inputs) {
-  if (!fs::exists(addon / "render_mns.py"))
-    throw InputError(
-        addon.string(), 0,
-        "has no render_mns.py, Blender's driver; name its folder by --addon: in the sources exporters/blender/addon");
-  std::set<std::string> names;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(addon)) {
-    const fs::path inside = entry.path().lexically_relative(addon);
-    if (inside.extension() == ".py" || inside.filename().string().ends_with("LICENSE.txt"))
-      names.insert(inside.string());
-  }
-  for (const std::string& name : names) inputs.add_own_file("blender/" + name, addon / name);
-}
-
-/// The words of the command with paths in the bundle, and with the camera and the range of colours.
+/// Returns the words of the command with paths in the bundle, with the camera and the range of colours.
 std::vector<std::string> bundled_words(const BundledCommand& command, const std::optional<Camera>& camera,
                                        const std::optional<std::array<double, 2>>& range, BundleInputs& inputs) {
   Scene scene = command.command.scene;
@@ -103,7 +166,7 @@ std::vector<std::string> bundled_words(const BundledCommand& command, const std:
   scene.molecule.surface.cpu = false;
   scene.molecule.surface.gl = {};
   scene.molecule.surface.threads = 0;
-  // All that was asked of the default camera is in the one that is added.
+  // The camera that is added includes everything that these values say of the default one.
   if (camera) {
     scene.picture.projection = Projection::perspective;
     scene.picture.direction.reset();
@@ -111,173 +174,113 @@ std::vector<std::string> bundled_words(const BundledCommand& command, const std:
     scene.picture.zoom_to.reset();
   }
   std::vector<std::string> words = command.words;
-  const std::vector<std::string> values =
-      scene_words(scene, command.bit, [&](const std::string& path) { return inputs.add_file(path); });
+  const std::vector<std::string> values = scene_words(scene, kind_of(command.words).options,
+                                                      [&](const std::string& path) { return inputs.add_file(path); });
   words.insert(words.end(), values.begin(), values.end());
   words.insert(words.end(), command.further.begin(), command.further.end());
   if (camera) words.insert(words.end(), {"--camera", inputs.add_text("camera.json", camera_json(*camera))});
   return words;
 }
 
-/// A folder under a hidden name beside its final one; it vanishes unless renamed, on a signal, too. What is made in it
-/// is made while there is a StopBarrier, or by children.
-class Staging {
- public:
-  explicit Staging(const fs::path& target)
-      : target_(target),
-        path_(target.parent_path() / fmt::format(".{}.{}.part", target.filename().string(), ::getpid())) {
-    const StopBarrier barrier;
-    std::error_code error;
-    fs::create_directories(path_, error);
-    if (error) throw OutputError(target.string(), fmt::format("cannot be made: {}", error.message()));
-  }
-  ~Staging() { remove(); }
-  Staging(const Staging&) = delete;
-  Staging& operator=(const Staging&) = delete;
-
-  const fs::path& path() const { return path_; }
-  /// An older bundle under that name goes away.
-  void become_target() {
-    const StopBarrier barrier;
-    std::error_code error;
-    if (fs::exists(target_ / "bundle.json")) fs::remove_all(target_, error);
-    if (!error) fs::rename(path_, target_, error);
-    if (error) throw OutputError(target_.string(), fmt::format("cannot get its final name: {}", error.message()));
-  }
-
- private:
-  /// Again and again, for another thread may be about to write into it.
-  void remove() const {
-    std::error_code failed;
-    constexpr int kMostTries = 100;
-    for (int tries = 0; tries < kMostTries && fs::exists(path_, failed); ++tries) fs::remove_all(path_, failed);
-  }
-
-  fs::path target_, path_;
-  StopHandler stop_{[this] {
-                      stop_children();
-                      remove();
-                    },
-                    std::nullopt};
-};
-
-/// In MiB, of the largest child that this process has had.
-std::uint64_t peak_memory_of_children() {
-  struct rusage usage {};
-  ::getrusage(RUSAGE_CHILDREN, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) / 1024 + 1;
-}
-
-/// Makes the first frame and takes it away again: the farm's machines should make all of them alike.
-void make_trial(const Bundle& bundle, const Staging& staging, Chunking& measured) {
-  const Share share{bundle.steps(), {bundle.frames.front()}};
+/// Makes the first frame and removes it again: the farm's machines should make all of them alike.
+void make_trial(const Bundle& bundle, const fs::path& folder, Chunking& measured) {
+  Order order;
+  order.folder = folder;
+  order.steps = bundle.steps();
+  order.frames = {bundle.frames.front()};
   try {
-    const double seconds = work(bundle, Workplace{staging.path(), {}, 0}, share, ProgressStyle::none);
-    measured.seconds_per_frame = std::max(seconds, 1e-3);
+    measured.seconds_per_frame = std::max(work(bundle, order, ProgressStyle::none), 1e-3);
   } catch (const RunError& error) {
     throw RunError(error.code(), fmt::format("the trial frame: {}; with --chunk-frames N there is none", error.what()));
   }
   const StopBarrier barrier;
-  for (const char* made : {"images", "scene"}) fs::remove_all(staging.path() / made);
-  measured.peak_memory = peak_memory_of_children();
+  for (const char* made : {"images", "scene"}) fs::remove_all(folder / made);
+  rusage children{};
+  ::getrusage(RUSAGE_CHILDREN, &children);
+  measured.peak_memory = static_cast<std::uint64_t>(children.ru_maxrss) / 1024 + 1;  // MiB of the largest process
 }
 
-void write_engine_files(const BundleOptions& options, const Bundle& bundle, const fs::path& folder) {
-  const StopBarrier barrier;
-  for (const Engine& engine : options.engines) {
-    for (const EngineFile& text : emit(engine, bundle, options.farm_path)) {
-      const fs::path path = folder / text.path;
-      fs::create_directories(path.parent_path());
-      OutputFile file(path, Existing::replace);
-      file.write(text.text);
-      file.commit();
-      if (text.is_executable)
-        fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
-                        fs::perm_options::add);
-    }
-  }
-}
-
-/// What lies at the target: nothing, or the same bundle. Throws OutputError for anything else, unless forced.
-std::optional<Bundle> same_bundle_at(const BundleOptions& options, const Bundle& bundle) {
-  std::error_code error;
+/// Takes the measurements of an equal bundle that is there, and returns true. Returns false if nothing is there, or
+/// another bundle that `force` allows to replace; throws OutputError for anything else.
+bool take_measurements(const BundleOptions& options, Bundle& bundle) {
   if (!fs::exists(options.folder / "bundle.json")) {
-    if (fs::exists(options.folder) && !fs::is_empty(options.folder, error))
+    if (fs::exists(options.folder) && !fs::is_empty(options.folder))
       throw OutputError(options.folder.string(), "exists and is not a bundle; choose another folder");
-    return {};
+    return false;
   }
   try {
-    Bundle there = read_bundle(options.folder);
-    if (same_but_for_measurement(there, bundle)) return there;
+    const Bundle there = read_bundle(options.folder);
+    Bundle same = bundle;
+    same.chunking.seconds_per_frame = there.chunking.seconds_per_frame;
+    same.chunking.peak_memory = there.chunking.peak_memory;
+    same.chunking.count = there.chunking.count;
+    if (bundle_json(same) == bundle_json(there)) {
+      bundle = same;
+      return true;
+    }
   } catch (const InputError&) {
-    // Damaged: another bundle, then.
+    // A damaged bundle is another bundle.
   }
   if (!options.force)
     throw OutputError(options.folder.string(), "holds another bundle; use --force to replace it and all its frames");
-  return {};
+  return false;
 }
 
-/// Cores of a task that uses as many threads as the command says.
-std::uint64_t cores_for(const std::vector<std::string>& device, std::uint64_t otherwise) {
-  const auto option = std::ranges::find(device, "--threads");
-  return option == device.end() ? otherwise : std::stoull(*(option + 1));
-}
-
-Bundle described(const BundleOptions& options, const BundledCommand& asked, BundleInputs& inputs,
-                 std::optional<Legend>& legend, std::vector<std::string>& notes) {
-  SceneCommand command = asked.command;
+MadeBundle described(const BundleOptions& options, const BundledCommand& given, BundleInputs& inputs) {
+  SceneCommand command = given.command;
   command.scene = readied(command.scene);
   Scene& scene = command.scene;
-  settle_selections(scene.molecule, scene.frames, {.view = &scene.picture, .motion = &scene.run_camera});
+  settle_selections(scene);
   check_picture(scene);
   if (!scene.legend.file.empty()) check_image_path(scene.legend.file);
   const GivenCameras cameras = given_cameras(scene.picture, scene.run_camera);
   FrameRun frames(scene.molecule, scene.frames);
   tell_run(command, frames);
+  MadeBundle made;
   if (!frames.trajectory().cut_short().empty())
-    notes.push_back(frames.trajectory().path() + ": " + frames.trajectory().cut_short());
-  Bundle bundle;
+    made.notes.push_back(frames.trajectory().path() + ": " + frames.trajectory().cut_short());
+  Bundle& bundle = made.bundle;
   bundle.program_version = build_version();
   bundle.frames = frames.numbers();
-  bundle.command = asked.words;
-  bundle.device = asked.device;
-  bundle.renderer = asked.renderer;
-  if (options.film && bundle.steps().back() != Step::render)
-    throw UsageError("--film: this bundle makes scenes, not pictures; leave it out");
-  if (options.film && (scene.image.aovs || scene.image.cryptomatte || scene.image.primaries != Primaries::rec709))
-    throw UsageError(
-        "--film: pictures with --aovs, --cryptomatte or --color-space are .exr, which films cannot use; leave one of "
-        "them out");
+  bundle.command = given.words;
+  bundle.device = given.device;
+  bundle.renderer = given.renderer;
   bundle.width = scene.picture.width;
   bundle.height = scene.picture.height;
   bundle.film = options.film;
   if (bundle.film) {
+    const bool is_layered = scene.image.aovs || scene.image.cryptomatte || scene.image.primaries != Primaries::rec709;
+    if (is_layered || bundle.steps().back() != Step::render)
+      throw UsageError(
+          "--film: this bundle makes scenes, or .exr pictures by --aovs, --cryptomatte or --color-space, which films "
+          "cannot use; leave one of them out");
     bundle.film->format.transparent = scene.film.transparent;
     check_film_size(film_encoder(bundle.film->file, bundle.film->format), {bundle.width, bundle.height});
   }
   ShownFrames shown(scene.molecule, frames);
   const std::optional<std::array<double, 2>> range = measured_range(scene, shown);
-  legend = legend_of(scene, frames);
-  bundle.command = bundled_words(asked, default_camera(scene, cameras, shown), range, inputs);
+  if (!scene.legend.file.empty())
+    made.legend.emplace(key_of(frames, scene), scene.picture.size(),
+                        legend_style(scene.legend.style, scene.annotations.letters));
+  bundle.command = bundled_words(given, default_camera(scene, cameras, shown), range, inputs);
   for (const std::string& word : bundle.command)
     if (!is_utf8(word)) throw UsageError(fmt::format("after --: {} is not UTF-8, as a bundle is", in_quotes(word)));
-  if (bundle.maker(bundle.steps().back()) == Maker::blender) add_addon(options.addon, inputs);
+  if (bundle.maker(bundle.steps().back()) == Maker::blender) inputs.add_addon(options.addon);
   bundle.inputs = inputs.measured();
   bundle.chunking = options.chunking;
-  if (!options.cores_asked) bundle.chunking.cores = cores_for(asked.device, bundle.chunking.cores);
-  return bundle;
+  const auto threads = std::ranges::find(given.device, "--threads");
+  if (!options.cores_given && threads != given.device.end()) bundle.chunking.cores = std::stoull(threads[1]);
+  return made;
 }
 
-/// Larger tasks than were asked for are told.
-void note_larger_tasks(const Bundle& bundle, std::vector<std::string>& notes) {
-  const Chunking& chunking = bundle.chunking;
-  const std::uint64_t frames = bundle.frames.size(), wanted = chunking.wanted_count(frames);
+/// Adds a note if tasks are larger than was wanted.
+void note_larger_tasks(MadeBundle& made) {
+  const Chunking& chunking = made.bundle.chunking;
+  const std::uint64_t frames = made.bundle.frames.size(), wanted = chunking.wanted_count(frames);
   if (wanted <= chunking.count) return;
-  const std::string asked = chunking.asked_frames ? fmt::format("--chunk-frames {}", *chunking.asked_frames)
-                                                  : fmt::format("--chunk-minutes {}", chunking.asked_minutes);
-  notes.push_back(fmt::format("{} would make {} tasks; queues accept {}, so a task has up to {} frames", asked,
-                              with_thousands(wanted), with_thousands(chunking.count),
-                              with_thousands((frames + chunking.count - 1) / chunking.count)));
+  made.notes.push_back(fmt::format("{} tasks were wanted; queues accept {}, so a task has up to {} frames",
+                                   with_thousands(wanted), with_thousands(chunking.count),
+                                   with_thousands((frames + chunking.count - 1) / chunking.count)));
 }
 
 }  // namespace
@@ -287,35 +290,32 @@ MadeBundle make_bundle(const BundleOptions& given, const BundledCommand& command
   options.folder = fs::absolute(options.folder).lexically_normal();
   if (!options.folder.has_filename()) options.folder = options.folder.parent_path();
   require_plain_path(options.farm_path);
-  MadeBundle made;
   BundleInputs inputs(options.by_reference);
-  std::optional<Legend> legend;
-  made.bundle = described(options, command, inputs, legend, made.notes);
-  if (const std::optional<Bundle> there = same_bundle_at(options, made.bundle)) {
-    made.bundle = *there;
-    made.was_there = true;
-    note_larger_tasks(made.bundle, made.notes);
-    write_engine_files(options, made.bundle, options.folder);
-    return made;
+  MadeBundle made = described(options, command, inputs);
+  made.was_there = take_measurements(options, made.bundle);
+  std::optional<HiddenFolder> staging;
+  if (made.was_there) {
+    made.legend.reset();
+  } else {
+    if (made.legend)
+      check_output(command.command.scene.legend.file, options.force ? Existing::replace : Existing::refuse);
+    inputs.refuse_within(options.folder);
+    make_folders_of(options.folder);
+    staging.emplace(options.folder.parent_path(), options.folder.filename().string());
+    inputs.copy_to(staging->path());
+    Chunking& chunking = made.bundle.chunking;
+    if (!chunking.wanted_frames) make_trial(made.bundle, staging->path(), chunking);
+    chunking.count = std::min(chunking.wanted_count(made.bundle.frames.size()), kMostTasks);
   }
-  const Existing existing = options.force ? Existing::replace : Existing::refuse;
-  if (legend) check_output(command.command.scene.legend.file, existing);
-  inputs.refuse_within(options.folder);
-  Staging staging(options.folder);
-  inputs.copy_to(staging.path());
-  Chunking& chunking = made.bundle.chunking;
-  if (!chunking.asked_frames) make_trial(made.bundle, staging, chunking);
-  chunking.decide(made.bundle.frames.size());
-  note_larger_tasks(made.bundle, made.notes);
-  write_engine_files(options, made.bundle, staging.path());
-  {
+  note_larger_tasks(made);
+  for (const Engine& engine : options.engines)
+    write_job_files(engine, made.bundle, options.farm_path, staging ? staging->path() : options.folder);
+  if (staging) {
+    write_file(staging->path() / "bundle.json", bundle_json(made.bundle));
     const StopBarrier barrier;
-    OutputFile file(staging.path() / "bundle.json", Existing::refuse);
-    file.write(bundle_json(made.bundle));
-    file.commit();
+    if (fs::exists(options.folder / "bundle.json")) fs::remove_all(options.folder);
+    fs::rename(staging->path(), options.folder);
   }
-  staging.become_target();
-  if (legend) write_legend(command, *legend, existing);
   return made;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the folder of a bundle.
+// Makes the folder of a bundle from a command that was parsed, but not run.
 #pragma once
 
 #include <filesystem>
@@ -7,10 +7,20 @@
 #include <string>
 #include <vector>
 
-#include "app/farm/bundled_command.h"
 #include "app/farm/emit.h"
+#include "app/options/scene_options.h"
+#include "core/render/legend.h"
 
 namespace meniscus::farm {
+
+/// The command after `farm bundle ... --`.
+struct BundledCommand {
+  std::vector<std::string> words;     ///< {"render"}, {"export", "povray"} and others of kind_of()
+  SceneCommand command;               ///< its scene, complete
+  std::vector<std::string> further;   ///< options that are not of the scene: --provenance
+  std::vector<std::string> device;    ///< options that say where it is computed
+  std::vector<std::string> renderer;  ///< words after a second --, for POV-Ray or Blender's driver
+};
 
 struct BundleOptions {
   std::filesystem::path folder;
@@ -18,23 +28,23 @@ struct BundleOptions {
   std::string farm_path;
   std::optional<Film> film;
   Chunking chunking;
-  bool cores_asked = false;     ///< else as many as --threads after -- says, if it does
+  bool cores_given = false;     ///< otherwise the cores of a task are --threads after --, if that is there
   bool by_reference = false;    ///< files that the command reads are not copied
   std::filesystem::path addon;  ///< folder of render_mns.py
   bool force = false;
 };
 
-/// What came of it.
+/// A bundle that was made, or was there before.
 struct MadeBundle {
   Bundle bundle;
-  bool was_there = false;          ///< the same bundle lay there already; only engine files were written
-  std::vector<std::string> notes;  ///< for people
+  bool was_there = false;          ///< the same bundle was there already; only engine files were written
+  std::optional<Legend> legend;    ///< the legend of --legend-file, which all frames have in common, of a new bundle
+  std::vector<std::string> notes;  ///< sentences for people
 };
 
 /// Chooses the camera and the chunks, and writes the bundle whole or not at all. For chunks by time it makes one frame
-/// and measures how long that takes. Then it writes the legend that all frames have in common, if the command has one
-/// as a picture of its own. Throws UsageError, InputError, OutputError (another bundle is there and `force` is not, or
-/// something that is not a bundle), RunError if the trial frame fails.
+/// and measures how long that takes. Throws UsageError, InputError, OutputError (another bundle is there and `force` is
+/// not, or something that is not a bundle), RunError if the trial frame fails.
 MadeBundle make_bundle(const BundleOptions& options, const BundledCommand& command);
 
 }  // namespace meniscus::farm

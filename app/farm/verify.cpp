@@ -5,56 +5,42 @@
 #include <algorithm>
 #include <cstddef>
 #include <stdexcept>
-#include <unordered_set>
 
 #include <fmt/format.h>
 
-#include "app/farm/worker.h"
+#include "app/farm/bundle_folder.h"
 #include "app/film/film.h"
-#include "core/base/error.h"
 #include "core/image/image_codec.h"
-#include "core/image/png_file.h"
 
 namespace meniscus::farm {
 namespace {
 
 namespace fs = std::filesystem;
 
-fs::path picture_path(const Bundle& bundle, const fs::path& folder, std::uint64_t frame) {
-  return folder / numbered(bundle.result_pattern(Step::render), frame);
+DecodedImage decoded(const Bundle& bundle, const fs::path& folder, std::uint64_t frame) {
+  return image_codec().decode((folder / bundle.result(Step::render, frame)).string());
 }
 
-/// Throws InputError.
-DecodedImage decoded(const fs::path& path) {
-  if (path.extension() == ".png" && !is_png(path)) throw InputError(path.string(), 0, "is not a PNG file");
-  try {
-    return image_codec().decode(path.string());
-  } catch (const Error&) {
-    throw;
-  } catch (const std::runtime_error& error) {
-    throw InputError(path.string(), 0, std::string("cannot be read as a picture: ") + error.what());
-  }
-}
-
-// Every value equals the one a pixel before.
 bool is_blank(const DecodedImage& picture) {
+  // Every value equals the one a pixel before.
   const auto one = static_cast<std::ptrdiff_t>(picture.channels);
   return std::equal(picture.values.begin() + one, picture.values.end(), picture.values.begin());
 }
 
-std::string picture_fault(const Bundle& bundle, const fs::path& path) {
+std::string picture_fault(const Bundle& bundle, const fs::path& folder, std::uint64_t frame) {
+  const std::string path = (folder / bundle.result(Step::render, frame)).string();
   try {
-    const DecodedImage picture = decoded(path);
+    const DecodedImage picture = decoded(bundle, folder, frame);
     if (picture.width != bundle.width || picture.height != bundle.height)
-      return fmt::format("{}: is {}x{} pixels, not {}x{}", path.string(), picture.width, picture.height, bundle.width,
+      return fmt::format("{}: is {}x{} pixels, not {}x{}", path, picture.width, picture.height, bundle.width,
                          bundle.height);
-    return is_blank(picture) ? path.string() + ": is blank: all its pixels are equal" : "";
-  } catch (const InputError& error) {
-    return error.what();
+    return is_blank(picture) ? path + ": is blank: all its pixels are equal" : "";
+  } catch (const std::runtime_error& error) {
+    return fmt::format("{}: cannot be read as a picture: {}", path, error.what());
   }
 }
 
-/// sRGB as the film takes it; what is transparent shows white where it keeps no alpha.
+/// Returns sRGB as the film takes it, on white where the film keeps no alpha.
 std::vector<std::uint8_t> film_pixels(const DecodedImage& picture, const FilmPixels& pixels) {
   const auto channels = static_cast<std::size_t>(picture.channels);
   const bool keeps_alpha = pixels.channels == 4;
@@ -78,34 +64,28 @@ std::vector<std::uint8_t> film_pixels(const DecodedImage& picture, const FilmPix
 
 }  // namespace
 
-std::vector<FrameFault> faults_of(const Bundle& bundle, const fs::path& folder) {
+FrameFaults faults_of(const Bundle& bundle, const fs::path& folder) {
   const Step last = bundle.steps().back();
-  const std::vector<std::uint64_t> list = missing_frames(bundle, folder, last, bundle.frames);
-  const std::unordered_set<std::uint64_t> missing(list.begin(), list.end());
-  std::vector<FrameFault> faults;
+  FrameFaults faults;
+  for (const std::uint64_t frame : missing_frames(bundle, folder, last, bundle.frames))
+    faults[frame] = {"is not made yet", false};
   for (const std::uint64_t frame : bundle.frames) {
-    if (missing.contains(frame)) {
-      faults.push_back({frame, "is not made yet", false});
-    } else if (last == Step::render) {
-      const std::string fault = picture_fault(bundle, picture_path(bundle, folder, frame));
-      if (!fault.empty()) faults.push_back({frame, fault, true});
-    }
+    if (last == Step::surface || faults.contains(frame)) continue;
+    const std::string fault = picture_fault(bundle, folder, frame);
+    if (!fault.empty()) faults[frame] = {fault, true};
   }
   return faults;
 }
 
-void encode_film(const Bundle& bundle, const fs::path& folder, const std::vector<FrameFault>& faults,
-                 InPlace in_place) {
+void encode_film(const Bundle& bundle, const fs::path& folder, const FrameFaults& faults, InPlace in_place) {
   FilmWriter film((folder / bundle.film->file).string(), Existing::replace, {bundle.width, bundle.height},
-                  bundle.film->frames_per_second, bundle.film->format);
-  std::unordered_set<std::uint64_t> bad;
-  for (const FrameFault& fault : faults) bad.insert(fault.frame);
+                  bundle.film->format.frames_per_second, bundle.film->format);
   std::vector<std::uint8_t> shown;
-  std::size_t waiting = 0;  // before the first good frame
+  std::size_t waiting = 0;  // frames before the first good one
   for (const std::uint64_t frame : bundle.frames) {
-    const bool is_bad = bad.contains(frame);
+    const bool is_bad = faults.contains(frame);
     if (is_bad && in_place == InPlace::drop) continue;
-    if (!is_bad) shown = film_pixels(decoded(picture_path(bundle, folder, frame)), film.pixels());
+    if (!is_bad) shown = film_pixels(decoded(bundle, folder, frame), film.pixels());
     ++waiting;
     for (; waiting > 0 && !shown.empty(); --waiting) film.add(shown);
   }

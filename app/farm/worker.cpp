@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds missing frames, and has them made.
+// Finds missing frames, and runs this program, POV-Ray and Blender to make them. Pictures of the renderers appear in a
+// hidden folder of the worker, and get their names when they are whole and without dates.
 #include "app/farm/worker.h"
 
 #include <algorithm>
@@ -7,56 +8,169 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <optional>
 #include <random>
 #include <set>
 #include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
-#include "app/farm/checksum.h"
-#include "app/farm/missing_frames.h"
+#include "app/farm/bundle_folder.h"
 #include "app/process/child_process.h"
 #include "app/process/program_error.h"
 #include "app/process/this_program.h"
 #include "core/base/output_file.h"
+#include "core/base/system_file.h"
 #include "core/base/text.h"
+#include "core/image/png_file.h"
+#include "core/trajectory/frame_list.h"
 
 namespace meniscus::farm {
 namespace {
 
 namespace fs = std::filesystem;
+using nlohmann::json;
+using Words = std::vector<std::string>;
 using Frames = std::vector<std::uint64_t>;
-
-constexpr std::uint64_t kQuickToCheck = std::uint64_t{256} << 20;  // bytes; a tenth of a second
 
 // A process begins slowly, and makes so many frames that its start is a twentieth of its time.
 constexpr double kStartShare = 1.0 / 20.0;
 // But never more than this part of what is missing, so that workers come to the end together (guided self-scheduling:
 // Polychronopoulos & Kuck, IEEE Trans. Comput. 1987).
 constexpr std::size_t kShareOfRest = 8;
-// How often a worker goes elsewhere though its next frames are missing: two that began at the same frame part again.
-constexpr double kRestlessness = 0.25;
 
-/// The path of a result in the bundle.
-std::string result_of(const Bundle& bundle, Step step, std::uint64_t frame) {
-  return numbered(bundle.result_pattern(step), frame);
+void append(Words& words, const Words& more) { words.insert(words.end(), more.begin(), more.end()); }
+
+/// Keeps why a program failed: its first line about an error, else its last line with text.
+void keep_reason(std::string_view line, std::string& reason) {
+  const std::size_t begin = line.find_first_not_of(" =-\t\r");
+  if (begin != std::string::npos && reason.find("rror") == std::string::npos) reason = line.substr(begin);
+}
+
+Words meniscus_command(const Bundle& bundle, Step step, const Order& order, const Frames& frames, bool alone) {
+  // The frames of a run must come from one version, so PATH does not count.
+  Words words{system_file::program_path().string()};
+  append(words, bundle.command);
+  append(words, bundle.device);
+  if (!order.device.empty()) std::erase(words, "--require-gpu");
+  append(words, order.device);
+  if (order.threads > 0) append(words, {"--threads", std::to_string(order.threads)});
+  if (alone) append(words, {"--jobs", "1"});
+  const std::string output = step == Step::render ? bundle.result_pattern(step) : "scene";
+  append(words, {"--force", "-q", "--progress", "json", "-o", output, "--only", frame_list_text(frames)});
+  return words;
+}
+
+Words blender_command(const Bundle& bundle, const Order& order, const std::string& pictures, const Frames& frames) {
+  Words words{"blender", "-b", "--factory-startup"};
+  if (order.threads > 0) append(words, {"-t", std::to_string(order.threads)});
+  append(words, {"--python-exit-code", "3", "--python-expr", "import sys; sys.dont_write_bytecode = True", "--python",
+                 "inputs/blender/render_mns.py", "--", "scene/surface_sequence.json", "--output", pictures, "--frames",
+                 frame_list_text(frames)});
+  append(words, bundle.renderer);
+  return words;
+}
+
+Words povray_command(const Bundle& bundle, const Order& order, const std::string& picture, std::uint64_t frame) {
+  constexpr const char* kScene = "surface.ini";
+  Words words{"povray"};
+  const auto is_scene = [](const std::string& word) { return word.starts_with(kScene); };
+  if (std::ranges::none_of(bundle.renderer, is_scene)) words.emplace_back(kScene);
+  append(words, bundle.renderer);
+  if (order.threads > 0) words.push_back(fmt::format("+WT{}", order.threads));
+  append(words, {fmt::format("+SF{}", frame), fmt::format("+EF{}", frame), "-D", "+FN", "+O" + picture});
+  return words;
+}
+
+/// Gives a renderer's picture its name if it is whole, removes the renderer's file, and reports the frame.
+void take_picture(const Bundle& bundle, const Order& order, std::uint64_t frame, const fs::path& from, double seconds,
+                  const FrameListener& listener) {
+  std::ifstream stream(from, std::ios::binary);
+  const std::string bytes(std::istreambuf_iterator<char>(stream), {});
+  const std::optional<std::string> picture = png_without_time(bytes);
+  if (!picture) return listener.failed(frame, kExitInput, "the renderer made no whole PNG file");
+  const std::string result = bundle.result(Step::render, frame);
+  write_file(order.folder / result, *picture);
+  fs::remove(from);
+  listener.done(frame, {result}, seconds);
+}
+
+void make_by_povray(const Bundle& bundle, const Order& order, const Frames& frames, const FrameListener& listener) {
+  for (const std::uint64_t frame : frames) {
+    const auto begin = std::chrono::steady_clock::now();
+    const HiddenFolder own(order.folder, "work");
+    const std::string picture = (".." / own.path().filename() / "frame.png").string();
+    std::string reason;
+    int code = kSignalCode + 1;
+    for (int tries = 0; tries < 2 && code > kSignalCode; ++tries) {
+      ChildProcess child(povray_command(bundle, order, picture, frame), order.folder / "scene");
+      while (const std::optional<std::string> line = child.next_line()) keep_reason(*line, reason);
+      code = child.wait();
+    }
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+    // POV-Ray adds the number of the frame to the name.
+    const auto made = fs::directory_iterator(own.path());
+    if (code > kSignalCode)
+      listener.failed(frame, signal_exit_code(code), signal_text(code) + ", twice");
+    else if (code != 0 || made == fs::directory_iterator())
+      listener.failed(frame, kExitInput, fmt::format("povray ended with code {}: {}", code, reason));
+    else
+      take_picture(bundle, order, frame, made->path(), elapsed.count(), listener);
+  }
+}
+
+void make_by_blender(const Bundle& bundle, const Order& order, const Frames& frames, const FrameListener& listener) {
+  const HiddenFolder own(order.folder, "work");
+  const std::string pictures = (own.path().filename() / "frame_#####.png").string();
+  FrameListener hearing = listener;
+  hearing.done = [&](std::uint64_t frame, const Words&, double seconds) {
+    take_picture(bundle, order, frame, order.folder / numbered(pictures, frame), seconds, listener);
+  };
+  make_by_lines([&](const Frames& left, bool) { return blender_command(bundle, order, pictures, left); }, order.folder,
+                frames, hearing);
+}
+
+/// Reports the frame that a line from a program is about, and takes it off the list. Returns false for a line that is
+/// for people.
+bool take_line(const std::string& line, Frames& frames, const FrameListener& listener) {
+  const json event = line.starts_with('{') ? json::parse(line, nullptr, false) : json();
+  if (!event.is_object()) return false;
+  if (!event.contains("frame") || !event.contains("state")) return true;
+  const auto frame = event["frame"].get<std::uint64_t>();
+  if (std::erase(frames, frame) == 0) return true;
+  if (event["state"] == "done")
+    listener.done(frame, event.value("files", Words()), event.value("ms", 0.0) / 1000.0);
+  else
+    listener.failed(frame, event.value("exit", static_cast<int>(kExitInternal)), event.value("error", "no reason"));
+  return true;
+}
+
+/// Makes these frames of the step, in this order, and reports each. A process that a signal ends is started once more,
+/// for one frame after another, so that it is known which frame ended it. Throws RunError with the process' own exit
+/// code where it cannot work at all, InputError if it cannot be started.
+void make_frames(const Bundle& bundle, Step step, const Order& order, const Frames& frames,
+                 const FrameListener& listener) {
+  make_folders_of(order.folder / bundle.result_pattern(step));
+  const Maker maker = bundle.maker(step);
+  if (maker == Maker::povray) return make_by_povray(bundle, order, frames, listener);
+  if (maker == Maker::blender) return make_by_blender(bundle, order, frames, listener);
+  make_by_lines([&](const Frames& left, bool alone) { return meniscus_command(bundle, step, order, left, alone); },
+                order.folder, frames, listener);
 }
 
 class Worker {
  public:
-  Worker(const Bundle& bundle, const Workplace& place, const Share& share, ProgressStyle style)
+  Worker(const Bundle& bundle, const Order& order, ProgressStyle style)
       : bundle_(bundle),
-        place_(place),
-        share_(share),
-        open_(share.force ? share.frames : missing_frames(bundle, place.folder, share.steps.back(), share.frames)),
+        order_(order),
+        open_(order.force ? order.frames : missing_frames(bundle, order.folder, order.steps.back(), order.frames)),
         progress_(style, false, open_.size()) {}
 
   double run() {
     for (Frames batch = next_batch(); !batch.empty(); batch = next_batch()) {
       const auto begin = std::chrono::steady_clock::now();
       const double before = seconds_;
-      for (const Step step : share_.steps) make(step, batch);
+      for (const Step step : order_.steps) make(step, batch);
       const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
       const double start = std::max(0.0, elapsed.count() - (seconds_ - before));
       const double frame = (seconds_ - before) / static_cast<double>(batch.size());
@@ -64,51 +178,42 @@ class Worker {
     }
     progress_.end();
     if (!failed_.empty())
-      throw RunError(first_code_,
-                     fmt::format("{} of {} frames failed; the first, frame {}: {}", with_thousands(failed_.size()),
-                                 with_thousands(share_.frames.size()), first_failed_, first_error_));
+      throw RunError(first_code_, fmt::format("{} of {} frames failed; the first, {}", with_thousands(failed_.size()),
+                                              with_thousands(order_.frames.size()), first_error_));
     return seconds_;
   }
 
  private:
-  /// Takes frames that follow each other off those that are open: all of a share that is this worker's alone. It goes
-  /// on behind its last ones; where another has been there already, it looks for a new place.
+  /// Takes frames that follow each other off those that are open: all of a share that is this worker's alone, else some
+  /// from a place drawn by chance.
   Frames next_batch() {
-    if (share_.is_whole_run) open_ = missing_of(share_.steps.back(), open_);
-    if (!share_.is_whole_run || open_.empty()) return std::exchange(open_, {});
-    const bool stays = next_ && !std::bernoulli_distribution(kRestlessness)(random_);
-    auto first = stays ? std::ranges::find(open_, *next_) : open_.end();
-    if (first == open_.end()) {
-      std::uniform_int_distribution<std::ptrdiff_t> any(0, std::ssize(open_) - 1);
-      first = open_.begin() + any(random_);
-    }
+    if (order_.is_whole_run) open_ = missing_of(order_.steps.back(), open_);
+    if (!order_.is_whole_run || open_.empty()) return std::exchange(open_, {});
+    std::uniform_int_distribution<std::ptrdiff_t> any(0, std::ssize(open_) - 1);
+    const auto first = open_.begin() + any(random_);
     const double most = std::max(1.0, static_cast<double>(open_.size() / kShareOfRest));
-    const auto size = static_cast<std::size_t>(std::clamp(std::ceil(worthwhile_), 1.0, most));
-    auto in_run = std::ranges::find(share_.frames, *first);
-    auto last = first;
-    Frames batch;
-    while (last != open_.end() && *last == *in_run && batch.size() < size) {
-      batch.push_back(*last++);
-      ++in_run;
-    }
-    next_ = in_run == share_.frames.end() ? std::nullopt : std::optional(*in_run);
+    const auto size = static_cast<std::ptrdiff_t>(std::clamp(std::ceil(worthwhile_), 1.0, most));
+    const auto limit = first + std::min(size, open_.end() - first);
+    const auto in_run = std::ranges::find(order_.frames, *first);
+    const auto last = std::mismatch(first, limit, in_run, order_.frames.end()).first;
+    Frames batch(first, last);
     open_.erase(first, last);
     return batch;
   }
 
   /// Returns those frames that have no result of the step. At the last step it reports the others as done.
   Frames missing_of(Step step, const Frames& frames) {
-    if (share_.force) return frames;
-    Frames missing = missing_frames(bundle_, place_.folder, step, frames);
-    if (step != share_.steps.back()) return missing;
+    if (order_.force) return frames;
+    Frames missing = missing_frames(bundle_, order_.folder, step, frames);
+    if (step != order_.steps.back()) return missing;
     const std::set<std::uint64_t> is_missing(missing.begin(), missing.end());
     for (const std::uint64_t frame : frames)
-      if (!is_missing.contains(frame)) progress_.done(frame, {result_of(bundle_, step, frame)}, 0.0);
+      if (!is_missing.contains(frame)) progress_.done(frame, {bundle_.result(step, frame)}, 0.0);
     return missing;
   }
 
   void make(Step step, const Frames& batch) {
-    if (share_.is_whole_run && bundle_.maker(step) == Maker::povray && batch.size() > 1) {
+    if (order_.is_whole_run && bundle_.maker(step) == Maker::povray && batch.size() > 1) {
       // A process makes one frame, so there is time to look before each; workers with the same batch seldom meet.
       Frames shuffled = batch;
       std::ranges::shuffle(shuffled, random_);
@@ -118,107 +223,87 @@ class Worker {
     Frames frames;
     std::ranges::copy_if(batch, std::back_inserter(frames), [&](auto frame) { return !failed_.contains(frame); });
     frames = missing_of(step, frames);
-    if (step == Step::render && bundle_.steps().size() > 1) drop_without_scene(frames);
     if (frames.empty()) return;
     FrameListener listener;
     listener.done = [&](std::uint64_t frame, const std::vector<std::string>& files, double seconds) {
       seconds_ += seconds;
-      if (step == Step::surface) mark_scene(frame, files);
-      if (step == share_.steps.back()) progress_.done(frame, files, 1000.0 * seconds);
+      if (step == Step::surface) list_scene(frame, files);
+      if (step == order_.steps.back()) progress_.done(frame, files, 1000.0 * seconds);
     };
     listener.failed = [&](std::uint64_t frame, int code, const std::string& error) {
       // Another worker may have made it, and replaced files that were being read.
-      if (share_.force || !missing_of(share_.steps.back(), {frame}).empty()) fail(frame, code, error);
+      if (order_.force || !missing_of(order_.steps.back(), {frame}).empty()) fail(frame, code, error);
     };
-    make_frames(bundle_, step, place_, frames, listener);
+    make_frames(bundle_, step, order_, frames, listener);
   }
 
-  /// A scene may be of several files, so a last one names them.
-  void mark_scene(std::uint64_t frame, const std::vector<std::string>& files) const {
-    const StopBarrier barrier;
-    OutputFile mark(place_.folder / result_of(bundle_, Step::surface, frame), Existing::replace);
-    for (const std::string& file : files) mark.write(fmt::format("{} {}\n", fs::file_size(place_.folder / file), file));
-    mark.commit();
-  }
-
-  void drop_without_scene(Frames& frames) {
-    for (const std::uint64_t frame : missing_frames(bundle_, place_.folder, Step::surface, frames)) {
-      fail(frame, kExitInput, "its scene is not made yet; leave --step out, or run --step surface first");
-      std::erase(frames, frame);
-    }
+  /// Writes the sizes and the names of a scene's files. This list is the scene's last file.
+  void list_scene(std::uint64_t frame, const std::vector<std::string>& files) const {
+    std::string list;
+    for (const std::string& file : files) list += fmt::format("{} {}\n", fs::file_size(order_.folder / file), file);
+    write_file(order_.folder / bundle_.result(Step::surface, frame), list);
   }
 
   void fail(std::uint64_t frame, int code, const std::string& error) {
     if (failed_.empty()) {
-      first_failed_ = frame;
       first_code_ = static_cast<ExitCode>(code);
-      first_error_ = error;
+      first_error_ = fmt::format("frame {}: {}", frame, error);
     }
     failed_.insert(frame);
     progress_.failed(frame, code, error);
   }
 
   const Bundle& bundle_;
-  const Workplace& place_;
-  const Share& share_;
+  const Order& order_;
   Frames open_;  ///< frames that this worker neither made nor tried, and that were missing when it looked last
   RunProgress progress_;
   std::mt19937 random_{std::random_device{}()};
-  std::optional<std::uint64_t> next_;  ///< the frame behind the last batch
-  double worthwhile_ = 1.0;            ///< frames that one process should make at least
-  double seconds_ = 0.0;               ///< that frames took
+  double worthwhile_ = 1.0;  ///< frames that one process should make at least
+  double seconds_ = 0.0;     ///< time that the frames took
   std::set<std::uint64_t> failed_;
-  std::uint64_t first_failed_ = 0;
   ExitCode first_code_ = kExitOk;
   std::string first_error_;
 };
 
-/// True if the files of a scene have the sizes that its mark lists.
-bool is_whole_scene(const fs::path& folder, const std::string& mark) {
-  std::ifstream lines(mark);
-  std::uintmax_t bytes = 0;
-  std::error_code none;
-  for (std::string file; lines >> bytes >> file;)
-    if (fs::file_size(folder / file, none) != bytes) return false;
-  return true;
-}
-
 }  // namespace
 
-Frames missing_frames(const Bundle& bundle, const fs::path& folder, Step step, const Frames& frames) {
-  std::vector<std::string> paths;
-  for (const std::uint64_t frame : frames) paths.push_back((folder / result_of(bundle, step, frame)).string());
-  const std::vector<std::size_t> places = missing_files(paths);
-  Frames missing;
-  for (std::size_t n = 0, next = 0; n < frames.size(); ++n) {
-    const bool is_missing = next < places.size() && places[next] == n;
-    if (is_missing) ++next;
-    if (is_missing || (step == Step::surface && !is_whole_scene(folder, paths[n]))) missing.push_back(frames[n]);
+void make_by_lines(const std::function<Words(const Frames& frames, bool alone)>& command_for, const fs::path& folder,
+                   Frames frames, const FrameListener& listener) {
+  std::optional<std::uint64_t> tried;  // the frame that was given a second process
+  while (!frames.empty()) {
+    ChildProcess child(command_for(frames, tried.has_value()), folder);
+    std::string reason;
+    while (const std::optional<std::string> line = child.next_line())
+      if (!take_line(*line, frames, listener)) keep_reason(*line, reason);
+    const int code = child.wait();
+    if (frames.empty()) return;
+    // This reason is printed after the program's own prefix, which appears once.
+    constexpr std::string_view kPrefix = "meniscus: error: ";
+    if (reason.starts_with(kPrefix)) reason.erase(0, kPrefix.size());
+    const std::uint64_t culprit = frames.front();
+    if (code <= kSignalCode) {
+      // The process ended by itself before the last frame, and another one would do the same.
+      throw RunError(code == kExitOk ? kExitInternal : static_cast<ExitCode>(code),
+                     fmt::format("frame {}{} not made: {}", culprit,
+                                 frames.size() == 1 ? " was" : fmt::format(" and {} more were", frames.size() - 1),
+                                 reason.empty() ? fmt::format("exit code {}", code) : reason));
+    }
+    if (tried == culprit) {
+      frames.erase(frames.begin());
+      listener.failed(culprit, signal_exit_code(code), signal_text(code) + ", twice");
+    }
+    tried = culprit;
   }
-  return missing;
 }
 
-void check_inputs(const Bundle& bundle, const fs::path& folder, bool thorough) {
-  for (const Input& input : bundle.inputs) {
-    const fs::path path = folder / input.path;  // of an absolute path, that path
-    std::error_code none;
-    if (!fs::is_regular_file(path, none))
-      throw InputError(path.string(), 0, "is missing; bring it there, or make the bundle again");
-    const std::uintmax_t bytes = fs::file_size(path);
-    const bool quick = !thorough && bytes > kQuickToCheck;
-    if (bytes != input.bytes || (!quick && sha256_of_file(path) != input.sha256))
-      throw InputError(path.string(), 0, "is not what was bundled (size or SHA-256); make the bundle again");
-  }
-}
-
-double work(const Bundle& bundle, const Workplace& place, const Share& share, ProgressStyle progress) {
+double work(const Bundle& bundle, const Order& order, ProgressStyle progress) {
   // Frames of one film must not come from two programs.
   if (bundle.program_version != build_version())
-    throw InputError((place.folder / "bundle.json").string(), 0,
+    throw InputError((order.folder / "bundle.json").string(), 0,
                      fmt::format("was made by meniscus {}, and this is {}; use one build on all machines",
                                  in_quotes(bundle.program_version), build_version()));
-  check_inputs(bundle, place.folder, false);
-  return Worker(bundle, place, share, progress).run();
+  check_inputs(bundle, order.folder, false);
+  return Worker(bundle, order, progress).run();
 }
 
 }  // namespace meniscus::farm

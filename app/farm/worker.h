@@ -1,38 +1,48 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the missing frames of a bundle: the one worker that people and every engine run.
+// The one worker that people and every engine run: makes the missing frames of a bundle by the programs of its steps.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "app/farm/bundle.h"
-#include "app/farm/make_frames.h"
 #include "app/reports/run_progress.h"
 
 namespace meniscus::farm {
 
-/// Which part of the work is done.
-struct Share {
+/// Hears of each frame, once, as soon as it is over.
+struct FrameListener {
+  /// files: paths relative to the bundle.
+  std::function<void(std::uint64_t frame, const std::vector<std::string>& files, double seconds)> done;
+  std::function<void(std::uint64_t frame, int exit_code, const std::string& error)> failed;
+};
+
+/// The work that is to be done on a bundle, and where.
+struct Order {
+  std::filesystem::path folder;       ///< of the bundle; absolute
   std::vector<Step> steps;            ///< in order
   std::vector<std::uint64_t> frames;  ///< in the order of the run
   bool force = false;                 ///< frames that are there are made again
-  bool is_whole_run = false;          ///< others may be at it, too
+  bool is_whole_run = false;          ///< other workers may have the same order
+  std::vector<std::string> device;    ///< options of this program, which override those of the bundle
+  int threads = 0;                    ///< threads of each process; 0: as many as the bundle says, else all
 };
 
-/// Returns those frames, in order, that have no result of the step.
-std::vector<std::uint64_t> missing_frames(const Bundle& bundle, const std::filesystem::path& folder, Step step,
-                                          const std::vector<std::uint64_t>& frames);
+/// Makes frames by a program that reports each frame by a line of JSON, {"frame":42,"state":"done","files":[...],
+/// "ms":1.5} or {"frame":42,"state":"failed","exit":7,"error":"..."}, in the order of the list. `command_for` returns
+/// the words of its command line for a list of frames; if `alone`, it has to make one frame at a time.
+void make_by_lines(
+    const std::function<std::vector<std::string>(const std::vector<std::uint64_t>& frames, bool alone)>& command_for,
+    const std::filesystem::path& folder, std::vector<std::uint64_t> frames, const FrameListener& listener);
 
-/// Checks the sizes of the bundle's inputs, and the checksums of those up to 256 MiB; `thorough`: of all. Throws
-/// InputError.
-void check_inputs(const Bundle& bundle, const std::filesystem::path& folder, bool thorough);
-
-/// Makes the frames of the share that are missing, and returns the seconds that they took. Of a whole run, it begins at
-/// a place of its own and looks again and again which frames are there, so that any number of workers that do not know
-/// of each other share a run; some frames are then made twice, with the same bytes. A frame that fails is told, and the
-/// others are made. Throws RunError with the code of the first frame that failed; InputError for a bundle of another
-/// version of the program; what check_inputs and make_frames throw.
-double work(const Bundle& bundle, const Workplace& place, const Share& share, ProgressStyle progress);
+/// Makes the frames of the order that are missing, and returns the seconds that they took. Of a whole run, it begins at
+/// a place drawn by chance and looks again and again which frames are there, so that any number of workers that do not
+/// know of each other share a run; some frames are then made twice, with the same bytes. A frame that fails is
+/// reported, and the others are made. Throws RunError with the code of the first frame that failed; InputError for a
+/// bundle of another version of the program; the errors of check_inputs and make_frames.
+double work(const Bundle& bundle, const Order& order, ProgressStyle progress);
 
 }  // namespace meniscus::farm

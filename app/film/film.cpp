@@ -32,12 +32,12 @@ namespace {
 
 using Size = std::uint64_t;
 
-/// A box of MP4 or an element of Matroska: what it is, and where its content lies.
+/// A box of MP4 or an element of Matroska: its kind, and where its content lies.
 struct Part {
   Size kind = 0, begin = 0, end = 0;
 };
 
-/// Unsigned, big-endian, of up to 8 bytes.
+/// Reads an unsigned big-endian number of up to 8 bytes.
 Size number(const BinaryFile& file, Size offset, Size bytes) {
   std::array<std::byte, 8> raw{};
   file.read(offset, std::span(raw).last(bytes));
@@ -84,7 +84,7 @@ Size pictures_of_mp4(const BinaryFile& file) {
   Part box = first_of(top, four_letters("moov"), "moov box");
   for (const std::string_view name : {"trak", "mdia", "minf", "stbl", "stsz"})
     box = first_of(boxes(file, box.begin, box.end), four_letters(name), fmt::format("{} box", name));
-  constexpr Size kSizes = 12;  // behind version and flags, the size of all samples or 0, their count
+  constexpr Size kSizes = 12;  // the sizes are behind version and flags, the size of all samples or 0, and their count
   if (box.end - box.begin < kSizes) cut_short(box.begin);
   const Size equal = number(file, box.begin + 4, 4), count = number(file, box.begin + 8, 4);
   if (equal == 0 && box.end - box.begin < kSizes + 4 * count) cut_short(box.begin);
@@ -95,7 +95,8 @@ Size pictures_of_mp4(const BinaryFile& file) {
   return count;
 }
 
-/// EBML (RFC 8794): the leading zero bits of the first byte tell the length of an identifier or a size.
+/// Returns the elements of EBML (RFC 8794). The leading zero bits of the first byte tell the length of an identifier or
+/// a size.
 std::vector<Part> elements(const BinaryFile& file, Size begin, Size end) {
   std::vector<Part> found;
   const auto length_at = [&](Size offset, Size longest) {
@@ -131,7 +132,8 @@ Size pictures_of_matroska(const BinaryFile& file) {
   return count;
 }
 
-/// Behind a block's data in pieces of up to 255 bytes, each after its length; one of none ends them.
+/// Returns the place behind a block's data. It comes in pieces of up to 255 bytes, each after its length; a piece of 0
+/// bytes ends them.
 Size end_of_pieces(const BinaryFile& file, Size at) {
   while (at < file.size()) {
     const Size length = number(file, at, 1);
@@ -191,12 +193,12 @@ std::string pixel_format(const FilmPixels& pixels) {
 std::vector<std::string> arguments(const FilmEncoder& encoder, const std::string& output, glm::ivec2 size,
                                    double frames_per_second) {
   std::vector<std::string> words{"ffmpeg", "-hide_banner", "-loglevel", "error", "-xerror", "-y",
-                                 // pictures as they come
+                                 // The pictures have no container.
                                  "-f", "rawvideo", "-pixel_format", pixel_format(encoder.pixels), "-video_size",
                                  fmt::format("{}x{}", size.x, size.y), "-framerate",
                                  fmt::format("{}", frames_per_second), "-i", "pipe:0"};
   words.insert(words.end(), encoder.arguments.begin(), encoder.arguments.end());
-  // without names, dates or versions
+  // The film has no names, dates or versions.
   words.insert(words.end(), {"-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1", output});
   return words;
 }
@@ -207,7 +209,7 @@ std::string in_one_line(std::string_view text) {
   return line;
 }
 
-/// Its number stays taken.
+/// Waits until the process has ended. Its number is not given to another process yet.
 void await_end(pid_t process) {
   siginfo_t ended{};
   while (::waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
@@ -232,7 +234,7 @@ FilmWriter::FilmWriter(const std::string& path, Existing existing, glm::ivec2 si
   pixels_ = encoder.pixels;
   check_film_size(encoder, size);
   std::array<int, 2> ends{-1, -1};
-  // A socket rather than a pipe: writing to an encoder that died is then an error, and no signal.
+  // This is a socket rather than a pipe, so that writing to an encoder that died is an error, not a signal.
   if (!system_process::make_connection(ends))
     throw OutputError(path, std::string("cannot connect to ffmpeg: ") + std::strerror(errno));
   pictures_ = ends[0];
@@ -263,7 +265,7 @@ FilmWriter::FilmWriter(const std::string& path, Existing existing, glm::ivec2 si
 }
 
 FilmWriter::~FilmWriter() {
-  kill_encoder();  // given up: nobody wants what it has
+  kill_encoder();  // of a film that was given up
   end_pictures();
   ::close(complaints_);
 }
@@ -277,7 +279,7 @@ void FilmWriter::kill_encoder() const {
 void FilmWriter::wait() {
   if (encoder_ < 0) return;
   await_end(encoder_);
-  // Its number is given back under the lock, lest a signal kills another process that got it meanwhile.
+  // The number is given back under the lock, so that a stop cannot kill another process that got it meanwhile.
   const auto held = hold_stops();
   ::waitpid(encoder_, &status_, 0);
   encoder_ = -1;
@@ -288,7 +290,7 @@ void FilmWriter::end_pictures() {
   wait();
 }
 
-// On a full disk ffmpeg may end with 0, and says so on standard error only.
+/// On a full disk ffmpeg may end with 0, and reports the fault on standard error only.
 std::string FilmWriter::fault() const {
   std::array<char, 2000> text{};
   const ssize_t length = ::pread(complaints_, text.data(), text.size(), 0);

@@ -19,28 +19,28 @@
 
 namespace meniscus {
 
-/// Why the file is not a whole film of this many pictures; empty if it is. MP4 and MOV (ISO/IEC 14496-12): the boxes
-/// fill the file, and the table of samples has all pictures and no more bytes than the media data. Matroska (RFC 9559)
-/// for names in .mkv and .webm: the elements fill the file, the clusters hold all pictures, and there are cues to seek
-/// by. GIF (CompuServe 1990) for names in .gif: the blocks fill the file, and the trailer ends it.
+/// Says why the file is not a whole film of this many pictures; the text is empty if it is one. MP4 and MOV (ISO/IEC
+/// 14496-12): the boxes fill the file, and the table of samples has all pictures and no more bytes than the media data.
+/// Matroska (RFC 9559) (names in .mkv and .webm): the elements fill the file, the clusters hold all pictures, and there
+/// are cues to seek by. GIF (CompuServe 1990): the blocks fill the file, and the trailer ends it.
 std::string film_fault(const std::filesystem::path& path, std::uint64_t pictures);
 
-/// Throws UsageError unless the size, in pixels, is such as the encoder takes: even where it halves colours.
+/// Throws UsageError unless the encoder takes the size, in pixels, which is even where the encoder halves colours.
 void check_film_size(const FilmEncoder& encoder, glm::ivec2 size);
 
-/// One film, in BT.709; equal pictures give equal bytes on one machine. It appears under its name when finish()
-/// succeeds: when ffmpeg had nothing to complain of and the file is whole. Needs the program ffmpeg; without it, or
-/// when it fails, throws OutputError.
+/// Writes one film, in BT.709; equal pictures give equal bytes on one machine. The film appears under its name when
+/// finish() succeeds: ffmpeg reported no error and the file is whole. Throws OutputError if the program ffmpeg is
+/// missing or fails.
 class FilmWriter {
  public:
-  /// Throws UsageError for what the format cannot be.
+  /// Throws UsageError for values that the format cannot have.
   FilmWriter(const std::string& path, Existing existing, glm::ivec2 size, double frames_per_second,
              const FilmFormat& format = {});
   ~FilmWriter();
   FilmWriter(const FilmWriter&) = delete;
   FilmWriter& operator=(const FilmWriter&) = delete;
 
-  /// What add() takes.
+  /// Returns the kind of pixels that add() takes.
   const FilmPixels& pixels() const { return pixels_; }
 
   void add(std::span<const std::uint8_t> picture);
@@ -51,15 +51,16 @@ class FilmWriter {
   void kill_encoder() const;
   void wait();
   void end_pictures();
-  std::string fault() const;  ///< why what the encoder has written is not a film; empty if it is one
+  /// Says why the encoder's file is not a film; the text is empty if it is one.
+  std::string fault() const;
 
   OutputFile file_;
   FilmPixels pixels_;
   pid_t encoder_ = -1;
   int pictures_ = -1;    ///< socket to the encoder's standard input
-  int complaints_ = -1;  ///< what it writes on standard error
+  int complaints_ = -1;  ///< file with the encoder's standard error
   int status_ = 0;
-  std::uint64_t added_ = 0;  ///< pictures
+  std::uint64_t added_ = 0;  ///< number of pictures
   StopHandler stop_{[this] { kill_encoder(); }, std::nullopt};
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of codecs, with the limits of ffmpeg's encoders of the same names, as Debian builds them. What they can do
-// is that of ffmpeg's encoders of the same names, as Debian builds them.
+// The table of codecs, with the limits of ffmpeg's encoders of the same names, as Debian builds them.
 #include "app/film/film_format.h"
 
 #include <algorithm>
@@ -16,15 +15,15 @@ namespace {
 
 using Strings = std::vector<std::string>;
 
-/// Whether a codec keeps what is transparent.
+/// Says when a codec keeps transparency: `asked` means only where a film is to be transparent.
 enum class Alpha { never, asked, always };
 
 struct Codec {
   std::string name;
-  Strings endings;                 // of the containers that hold it
-  Strings arguments;               // of ffmpeg
+  Strings endings;                 // endings of the containers that hold it
+  Strings arguments;               // arguments of ffmpeg
   std::vector<int> bits, chromas;  // the first is its own choice
-  int rate_factor = 0, worst = 0;  // its own choice, and the largest; 0: it has none
+  int rate_factor = 0, worst = 0;  // its own choice, and the largest; 0 if the codec has no rate factor
   Alpha alpha = Alpha::never;
 
   bool keeps_alpha(const FilmFormat& format) const {
@@ -35,7 +34,7 @@ struct Codec {
 const std::vector<Codec>& codecs() {
   static const std::vector<Codec> table{
       {"h264", {".mp4", ".mov", ".mkv"}, {"libx264", "-preset", "medium"}, {8, 10}, {420, 422, 444}, 18, 51},
-      // without its report on standard error, and without its version in the stream
+      // The encoder does not report on standard error, nor write its version into the stream.
       {"h265",
        {".mp4", ".mov", ".mkv"},
        {"libx265", "-preset", "medium", "-tag:v", "hvc1", "-x265-params", "log-level=error:info=0"},
@@ -66,7 +65,7 @@ std::string ending_of(const std::string& path) {
 
 bool holds(const auto& list, const auto& value) { return std::ranges::find(list, value) != list.end(); }
 
-/// The first encoder that a container holds, and that keeps transparency where it is wanted, is that of its ending.
+/// Returns the first codec that the container of this name holds and that keeps transparency where it is wanted.
 const Codec& codec_of(const std::string& path, const FilmFormat& format) {
   const std::string ending = ending_of(path);
   Strings fitting;
@@ -87,7 +86,7 @@ const Codec& codec_of(const std::string& path, const FilmFormat& format) {
   throw UsageError(fmt::format("--codec {}: {} films hold {}", format.codec, ending, fmt::join(fitting, ", ")));
 }
 
-/// Of what the codec can do that which was asked for, or its own choice.
+/// Returns the requested value if the codec has it; its own choice if the request is 0.
 int chosen(const Codec& codec, const char* option, const std::vector<int>& possible, int asked) {
   if (asked == 0) return possible.front();
   if (holds(possible, asked)) return asked;
@@ -135,11 +134,11 @@ FilmEncoder film_encoder(const std::string& path, const FilmFormat& format) {
     if (format.rate_factor) rate_factor_of(codec, format);
     return encoder;
   }
-  // BT.709 as players expect it
+  // Players expect BT.709.
   append({"-vf", "scale=out_color_matrix=bt709:out_range=tv", "-c:v"});
   append(codec.arguments);
   if (codec.name == "dnxhr") append({profile_of_dnxhr(bits, chroma)});
-  if (codec.name == "vp9" && keeps_alpha) append({"-auto-alt-ref", "0"});  // libvpx has none with alpha
+  if (codec.name == "vp9" && keeps_alpha) append({"-auto-alt-ref", "0"});  // libvpx has no such frames with alpha
   if (codec.worst > 0 || format.rate_factor) append({"-crf", fmt::format("{}", rate_factor_of(codec, format))});
   append({"-pix_fmt", fmt::format("yuv{}{}p{}", keeps_alpha ? "a" : "", chroma, bits > 8 ? "10le" : ""), "-colorspace",
           "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range", "tv"});

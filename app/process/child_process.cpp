@@ -32,7 +32,7 @@ namespace {
 
 constexpr std::size_t kLongestLine = 1 << 16;
 
-/// Processes started and not yet waited for.
+/// The processes that were started and not yet waited for.
 struct Registry {
   std::mutex mutex;
   std::vector<pid_t> running;
@@ -44,19 +44,19 @@ Registry& registry() {
   return instance;
 }
 
-// A child that was stopped has not failed, and its work is not to be judged: the program is about to end. Under the
-// lock.
+/// Never returns once the program is about to end: a child that was stopped has not failed, and its work is not to be
+/// judged. The caller holds the lock.
 void stay_if_stopping() {
   while (registry().closed) std::this_thread::sleep_for(std::chrono::hours(1));
 }
 
-// Between fork and exec: nothing but calls that are safe there, for other threads may hold any lock.
+/// Runs between fork and exec. All its calls are safe there, since other threads may hold any lock.
 [[noreturn]] void become(const char* program, char* const* argv, char* const* environment, const char* folder,
                          int output, int report, pid_t parent) {
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
-  std::signal(SIGXFSZ, SIG_DFL);  // this program hears of a file too large otherwise; a foreign one may not listen
+  std::signal(SIGXFSZ, SIG_DFL);  // a write beyond the limit is an error in this program; other programs may not check
   system_process::end_with_parent();
   const int nothing = ::open("/dev/null", O_RDONLY);
   // The parent may have died before the request above.
@@ -68,8 +68,8 @@ void stay_if_stopping() {
   ::_exit(127);
 }
 
-/// The program's path, looked for in the absolute folders of PATH only: the folder that a child runs in may come from
-/// anybody.
+/// Returns the program's path. Only absolute folders of PATH count, because anybody may have made the folder that a
+/// child runs in.
 std::string program_path(const std::string& name) {
   if (name.find('/') != std::string::npos) return name;
   const char* const path = std::getenv("PATH");
@@ -79,7 +79,7 @@ std::string program_path(const std::string& name) {
     const std::string candidate = fmt::format("{}/{}", folder, name);
     if (folder.starts_with('/') && ::access(candidate.c_str(), X_OK) == 0) return candidate;
   }
-  return fmt::format("/{}", name);  // starting it tells that it is not there
+  return fmt::format("/{}", name);  // starting it reports that it is not there
 }
 
 struct Pipe {
@@ -101,7 +101,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std:
   std::vector<char*> argv;
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
-  // Some, such as Blender, believe PWD rather than the system.
+  // Some programs, such as Blender, take their folder from PWD rather than from the system.
   std::string working_folder = "PWD=" + std::filesystem::absolute(folder).lexically_normal().string();
   std::vector<char*> environment{working_folder.data()};
   for (char** variable = environ; *variable; ++variable)
@@ -113,7 +113,8 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std:
     // A stop waits for the start to be whole, so that no child escapes it; afterwards there is none.
     const std::lock_guard lock(registry().mutex);
     stay_if_stopping();
-    registry().running.reserve(registry().running.size() + 1);  // nothing may fail between the start and the note of it
+    registry().running.reserve(registry().running.size() +
+                               1);  // nothing may fail between the start and its registration
     const pid_t parent = ::getpid();
     pid_ = ::fork();
     if (pid_ == 0)
@@ -193,7 +194,7 @@ std::string signal_text(int code) {
 int signal_exit_code(int code) { return code == kSignalCode + SIGKILL ? kExitCapacity : kExitInternal; }
 
 void stop_children() {
-  // A second call would wait for the lock, which who waits for a child may hold until the program ends.
+  // A second call would wait for the lock, which the thread that waits for a child may hold until the program ends.
   static std::atomic<bool> is_begun = false;
   if (is_begun.exchange(true)) return;
   std::vector<pid_t> children;

@@ -12,8 +12,8 @@
 
 namespace meniscus {
 
-/// One child. Made and used by one thread that outlives it, since Linux ends a child when the *thread* that started it
-/// ends; even kill -9 of this process leaves none behind there.
+/// A child process. One thread makes and uses it and outlives it, since Linux ends a child when the *thread* that
+/// started it ends; even kill -9 of this process leaves no child behind there.
 class ChildProcess {
  public:
   /// arguments[0] is the program, looked for in the absolute folders of PATH unless it has a slash; it runs in
@@ -23,17 +23,17 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// The next line it writes, to standard output or error; nothing at their end. A line without
-  /// end comes in pieces of 64 KiB.
+  /// Returns the next line that the child writes, to standard output or error; nothing at their end. A line without end
+  /// comes in pieces of 64 KiB.
   std::optional<std::string> next_line();
 
-  /// Whether it wrote something, or has come to its end, within this time.
+  /// True if the child wrote something, or ended, within this time.
   bool has_news(std::chrono::milliseconds patience) const;
 
-  /// Asks it to end, by SIGTERM.
+  /// Sends SIGTERM to the child.
   void stop() const;
 
-  /// Waits for its end, once: its exit code, or 128 + the signal that ended it.
+  /// Waits for the end of the child and returns its exit code, or 128 + the signal that ended it. Call it once.
   int wait();
 
  private:
@@ -42,21 +42,21 @@ class ChildProcess {
   std::string pending_;
 };
 
-/// Codes of wait() above this one: a signal ended the child.
+/// If a code of wait() is above this one, a signal ended the child.
 constexpr int kSignalCode = 128;
 
-/// What such a code means: "the process was killed, as when memory runs out", and the program's own exit code for it:
-/// kExitCapacity for SIGKILL, else kExitInternal.
+/// Returns the words for such a code, "the process that made it was killed, as when memory runs out", and this
+/// program's own exit code for it: kExitCapacity for SIGKILL, else kExitInternal.
 std::string signal_text(int code);
 int signal_exit_code(int code);
 
 /// Ends all children, at once with SIGTERM and after two seconds with SIGKILL, and lets none be started from then on.
-/// For the thread that ends the program; the main thread may be anywhere.
+/// The thread that ends the program calls it; the main thread may be anywhere.
 void stop_children();
 
-/// While it lives, stop_children() waits. Once that has begun, the constructor never returns. For the main thread when
-/// it writes files that the thread that ends the program removes: without it one could be written after the removal.
-/// Not while a child is started or waited for.
+/// While a StopBarrier lives, stop_children() waits; once stop_children() has begun, the constructor never returns. The
+/// main thread holds one when it writes files that the thread that ends the program removes, because a file could
+/// otherwise be written after the removal. No child may be started or waited for meanwhile.
 class StopBarrier {
  public:
   StopBarrier();

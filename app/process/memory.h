@@ -8,32 +8,34 @@
 
 namespace meniscus {
 
-/// Bytes: what the machine has, or less where a control group, as batch systems and containers set them, allows less.
+/// Returns the memory of the machine in bytes, or less where a control group of a batch system or container allows
+/// less.
 std::uint64_t memory_size();
 
-/// The smallest limit of the control groups that lines of /proc/PID/cgroup name (NUMBER:CONTROLLERS:/GROUP, cgroups(7))
-/// and of those that these lie in, below the folder that groups are mounted in; UINT64_MAX without one.
+/// Returns the smallest limit, in bytes, of control groups and of the groups around them; UINT64_MAX if there is no
+/// limit. Lines of /proc/PID/cgroup name the groups (NUMBER:CONTROLLERS:/GROUP, cgroups(7)), which are mounted below
+/// the given folder.
 std::uint64_t memory_limit(std::istream& groups, const std::filesystem::path& mounted);
 
-/// Libraries do not survive that they get no memory or thread: they crash, some while they are loaded, others wait for
-/// ever for a thread that could not be started. Under such a limit, and only then, this is a line on standard error and
-/// exit code 5, from before their initialisation on. Call at the beginning of main(): nothing waits any more.
+/// Says that all libraries are loaded. Libraries do not survive a limit of memory or threads: some crash while they are
+/// loaded, others wait for ever for a thread that could not be started. Under such a limit, and only then, either ends
+/// in a line on standard error and exit code 5; the wait is watched until this call at the beginning of main().
 void libraries_are_loaded();
 
-/// Is there such a limit?
+/// True if there is such a limit.
 bool memory_is_limited();
 
-/// Call at the beginning of main(): from then on `new` that gets no memory is remembered, and throws std::bad_alloc as
-/// ever.
+/// From this call on, a `new` that gets no memory is remembered; it throws std::bad_alloc as ever. Call it at the
+/// beginning of main().
 void remember_failed_allocations();
 
-/// Has `new` got no memory since? What C libraries ask for is not counted.
+/// True if a `new` got no memory since then. Requests of C libraries are not counted.
 bool memory_ran_out() noexcept;
 
-/// From here on tables of less than 32 MiB are taken from memory that was freed before, which stays with the process;
-/// larger ones go back to the system at once, so that what the process uses at its peak grows by a few per cent only.
-/// New memory costs a page fault for each 4 KiB, a tenth of a small surface. Without effect on C libraries that know no
-/// such setting.
+/// After this call freed memory stays with the process, and tables of less than 32 MiB are taken from it. Larger tables
+/// go back to the system at once, so that the memory at the peak grows by a few per cent only. New memory costs a page
+/// fault for each 4 KiB, a tenth of the time of a small surface. The call has no effect with C libraries that lack such
+/// a setting.
 void keep_freed_memory();
 
 }  // namespace meniscus

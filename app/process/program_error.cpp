@@ -15,7 +15,8 @@ bool is(const std::exception& error) {
   return dynamic_cast<const Kind*>(&error) != nullptr;
 }
 
-/// What the system refused: memory or another thread, or one of the folders that are made, renamed and removed.
+/// Returns the code for something that the system refused: memory or another thread, or to make, rename or remove a
+/// folder.
 ExitCode code_of_system(const std::system_error& error) {
   if (error.code() == std::errc::not_enough_memory || error.code() == std::errc::resource_unavailable_try_again)
     return kExitCapacity;
@@ -32,7 +33,8 @@ ExitCode exit_code_of(const std::exception& error) {
   if (is<CapacityError>(error) || is<std::bad_alloc>(error)) return kExitCapacity;
   if (is<OutputError>(error)) return kExitOutput;
   if (is<OpenSurfaceError>(error)) return kExitNotClosed;
-  if (std::string_view(error.what()).starts_with("pthread_create")) return kExitCapacity;  // so oneTBB tells of it
+  if (std::string_view(error.what()).starts_with("pthread_create"))
+    return kExitCapacity;  // oneTBB reports it in these words
   if (const auto* system = dynamic_cast<const std::system_error*>(&error)) return code_of_system(*system);
   return kExitInternal;
 }

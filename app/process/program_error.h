@@ -8,7 +8,7 @@
 
 namespace meniscus {
 
-/// What the shell sees; documented in the help of `meniscus` and stable.
+/// The exit codes of the program. They are documented in the help of `meniscus` and stable.
 enum ExitCode : int {
   kExitOk = 0,
   kExitInternal = 1,
@@ -19,13 +19,13 @@ enum ExitCode : int {
   kExitOutput = 6,
   kExitNotClosed = 7,
   kExitIncomplete = 8,  ///< a run of frames is done, but its trajectory ends in mid-frame
-  kExitStopped = 9,     ///< a worker was asked to stop; the same command goes on where it stopped
+  kExitStopped = 9,     ///< a worker was stopped; the same command continues where it stopped
 };
 
-/// The code a program ends with because of this error.
+/// Returns the code that a program ends with because of this error.
 ExitCode exit_code_of(const std::exception& error);
 
-/// A run of frames of which some failed, or whose trajectory was cut short.
+/// The error of a run of frames if some failed, or if its trajectory was cut short.
 class RunError : public Error {
  public:
   RunError(ExitCode code, const std::string& message) : Error(message), code_(code) {}
@@ -35,7 +35,7 @@ class RunError : public Error {
   ExitCode code_;
 };
 
-/// Options that are wrong, alone or together.
+/// The error of options that are wrong, alone or together.
 class UsageError : public RequestError {
  public:
   using RequestError::RequestError;

@@ -32,7 +32,7 @@ ExitCode say(ExitCode code, const std::string& message) {
   return code;
 }
 
-/// The lines of a selection with its caret.
+/// Prints an error of a selection, with the lines that show its place.
 ExitCode say(const SelectionError& error) {
   std::istringstream picture(error.picture());
   std::string lines = escaped(error.sentence());
@@ -78,7 +78,7 @@ ExitCode report_unnamed_error() noexcept {
   return kExitInternal;
 }
 
-/// Says what the exception that is being handled means, or, when there is no memory left to say it with, that.
+/// Reports the exception that is being handled, or the lack of memory if there is none left to report it with.
 ExitCode report_current_error() noexcept {
   try {
     return report_with_memory();
@@ -89,11 +89,11 @@ ExitCode report_current_error() noexcept {
   }
 }
 
-/// For exceptions that nobody catches: a thread of a library may run out of memory where no try block is ours.
-/// Unfinished files are removed.
+/// Ends the program by an exception that was not caught: a thread of a library may run out of memory outside of all our
+/// try blocks. Unfinished files are removed.
 [[noreturn]] void end_by_uncaught_error() {
   static std::atomic_flag ending;
-  while (ending.test_and_set()) system_file::wait_a_millisecond();  // another thread says it already
+  while (ending.test_and_set()) system_file::wait_a_millisecond();  // another thread reports it already
   const ExitCode code = std::current_exception() ? report_current_error() : report_unnamed_error();
   remove_unfinished_outputs();
   system_process::end(code);
@@ -123,8 +123,8 @@ int program_main(const char* name, const std::function<ExitCode()>& work) {
   } catch (...) {
     code = report_current_error();
   }
-  // Without memory no destructor of a library can be relied on: a thread of OpenBLAS that gets none asks again for
-  // ever, and its destructor waits for it.
+  // Destructors of libraries cannot be relied on if there is no memory: a thread of OpenBLAS that gets none tries again
+  // for ever, and its destructor waits for it.
   if (memory_is_limited() || code == kExitCapacity) {
     std::cout.flush();
     system_process::end(code);

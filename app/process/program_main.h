@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What each of our programs does before and after its own work, with its standard streams among that.
+// The first and the last steps of each of our programs, among them the care for its standard streams.
 #pragma once
 
 #include <functional>
@@ -8,13 +8,13 @@
 
 namespace meniscus {
 
-/// Throws OutputError unless all that was printed has been taken. (What is said on standard error is no result: if it
-/// cannot be said, the program goes on.)
+/// Throws OutputError unless all that was printed has been taken. (Lines on standard error are no result: the program
+/// continues if they cannot be written.)
 void finish_standard_output();
 
-/// For main(): makes ready for what may go wrong (memory, streams, signals), does the work, and gives the exit code:
-/// that of the work, or that of the exception which left it, after a line on standard error that begins with `name`. A
-/// name that lives as long as the program.
+/// Does the work of main() with memory, streams and signals prepared for errors, and returns its exit code. If an
+/// exception leaves the work, its line on standard error begins with `name`, and the exit code is that of the
+/// exception. The text of `name` must live as long as the program.
 int program_main(const char* name, const std::function<ExitCode()>& work);
 
 }  // namespace meniscus

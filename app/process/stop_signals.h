@@ -8,13 +8,13 @@
 
 namespace meniscus {
 
-/// From now on SIGINT, SIGTERM, SIGHUP and SIGUSR1 remove unfinished files before the program ends, as the signal would
-/// have ended it; SIGXFSZ is ignored, so that a file too large is an OutputError. Call once, before other threads are
-/// started.
+/// From this call on, SIGINT, SIGTERM, SIGHUP and SIGUSR1 remove unfinished files before the program ends, as the
+/// signal would have ended it. SIGXFSZ is ignored, so that a file too large is an OutputError. Call it once, before
+/// other threads are started.
 void clean_up_on_signals();
 
-/// While this lives, these signals call `stop` first, on a thread of its own, and the program ends with `exit_code`,
-/// if there is one. Of several the youngest is called first, and the youngest exit code counts.
+/// While a StopHandler lives, these signals call its `stop` first, on a separate thread, and the program ends with its
+/// `exit_code`, if that is given. Younger handlers are called first, and the exit code of the youngest counts.
 class StopHandler {
  public:
   StopHandler(std::function<void()> stop, std::optional<int> exit_code);
@@ -23,8 +23,8 @@ class StopHandler {
   StopHandler& operator=(const StopHandler&) = delete;
 };
 
-/// While the lock is held no handler is called, so that what a handler looks at changes as a whole. From a signal on it
-/// is never given again.
+/// Returns a lock. While it is held no handler is called, so that the data of a handler changes as a whole. After a
+/// signal the lock is never given again.
 std::unique_lock<std::mutex> hold_stops();
 
 }  // namespace meniscus

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The process as the operating system has it: system_process_posix.cpp (Linux, macOS) and system_process_windows.cpp
-// implement it.
+// Functions of the operating system for this process: system_process_posix.cpp (Linux, macOS) and
+// system_process_windows.cpp implement it.
 #pragma once
 
 #include <array>
@@ -12,48 +12,50 @@
 
 namespace meniscus::system_process {
 
-/// The words that main() got, that of the program first, in UTF-8. They live as long as the program.
+/// Returns the words that main() got, the program's first, in UTF-8. They live as long as the program.
 std::span<const char* const> words(int argc, char** argv);
 
-/// A standard stream that is closed gets a descriptor that nothing can be read from or written to, lest the next file
-/// opened takes its number and messages are written into it. What is printed has the same bytes on every system.
+/// Gives a standard stream that is closed a descriptor that nothing can be read from or written to. Otherwise the next
+/// file that is opened would take its number, and messages would be written into it. Printed text gets the same bytes
+/// on every system.
 void hold_standard_streams();
-/// Writes a line of ours on standard error. Needs no memory, so that a signal handler may call it.
+/// Writes a line on standard error. It needs no memory, so that a signal handler may call it.
 void say(std::string_view line) noexcept;
 /// Ends the program without its destructors. A signal handler may call it, too.
 [[noreturn]] void end(int code) noexcept;
 
-/// Under a limit of memory that libraries do not survive: memory.h says what happens, from when on, and until when.
+/// Watch libraries under a limit of memory, which they do not survive, as memory.h describes it.
 bool memory_is_limited();
 void libraries_are_loaded();
-/// The memory of the machine, in bytes.
+/// Returns the memory of the machine, in bytes.
 std::uint64_t physical_memory();
 
-/// Calls `stopped` on a thread of its own when the first of SIGINT, SIGTERM, SIGHUP and SIGUSR1 comes, or what is like
-/// one of them on Windows, with its number; and has a file that gets too large be an error of write(). Call once,
-/// before other threads are started. Throws CapacityError.
+/// Calls `stopped` with the number of the first of SIGINT, SIGTERM, SIGHUP and SIGUSR1, or of a like event of Windows,
+/// on a separate thread. Also makes a file that gets too large an error of write(). Call it once, before other threads
+/// are started. Throws CapacityError.
 void await_stop(void (*stopped)(int signal));
 
-/// Seconds of processors since the program began.
+/// The seconds of processors that the program has used.
 struct ProcessorTime {
   double user = 0, system = 0;
 };
 ProcessorTime processor_time();
 
-/// The name of this machine; empty where it has none.
+/// Returns the name of this machine; empty where it has none.
 std::string host();
 
-// What connects a child process, on Linux and macOS only. No other child inherits these; where one fails, `errno` says
-// why.
+// The functions below connect a child process, on Linux and macOS only. No other child inherits their descriptors;
+// where one fails, `errno` says why.
 
-/// The reading and the writing end.
+/// Makes a pipe: its reading and its writing end.
 bool make_pipe(std::array<int, 2>& ends);
-/// An end for this process and one for a child. To send() to a child that is gone is an error and no signal.
+/// Makes a connection: an end for this process and one for a child. A send() to a child that is gone is an error, not a
+/// signal.
 bool make_connection(std::array<int, 2>& ends);
 std::ptrdiff_t send(int end, std::span<const std::uint8_t> bytes);
-/// A file that has no name, to write and read; -1 if that fails.
+/// Returns a file without a name, to write and read; -1 if that fails.
 int make_nameless_file();
-/// In a child: has the system kill it when the thread that started it ends. macOS does not know that.
+/// A child calls it so that the system kills the child when the thread that started it ends. It does nothing on macOS.
 void end_with_parent() noexcept;
 
 }  // namespace meniscus::system_process

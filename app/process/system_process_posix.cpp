@@ -54,7 +54,7 @@ namespace {
 
 constexpr unsigned kSecondsToLoad = 60;
 
-/// Nothing but what a signal handler may do.
+/// All its calls are such that a signal handler may make them.
 [[noreturn]] void give_up() {
   say("meniscus: error: not enough memory under the limit on address space; raise it (ulimit -v), or use fewer "
       "--threads\n");
@@ -93,7 +93,7 @@ std::atomic<int> first_signal{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 std::array<int, 2> told{-1, -1};  // a pipe: macOS has no semaphores without names
 
-/// Nothing but what a signal handler may do.
+/// All its calls are such that a signal handler may make them.
 void tell(int signal) {
   const int before = errno;
   int none = 0;
@@ -105,8 +105,9 @@ void tell(int signal) {
 
 }  // namespace
 
-// All threads of ours but one block the signals, so that nothing of theirs is interrupted. That alone would not do:
-// libraries such as OpenBLAS start threads before main begins, and one of these would end the program at once.
+// Our threads, except one, block the signals, so that their calls are not interrupted. That alone is not enough:
+// libraries such as OpenBLAS start threads before main begins, and a signal to one of these would end the program at
+// once.
 void await_stop(void (*stopped)(int signal)) {
   std::signal(SIGXFSZ, SIG_IGN);
   if (!make_pipe(told))

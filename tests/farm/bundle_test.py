@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What farm bundle writes, and what it refuses."""
+"""Tests the files that farm bundle writes, and what it refuses."""
 
 import json
 import os
@@ -31,14 +31,21 @@ class Bundle(FarmCase):
             for word in (str(self.folder), os.uname().nodename):
                 self.assertNotIn(word.encode(), text)
 
-    def test_the_manifest_tells_everything(self):
-        manifest = json.loads((self.bundle("manifest", *self.render("--stride", "2")) / "bundle.json").read_text())
+    def test_the_manifest_says_everything(self):
+        """Options that say where the command is computed are the workers' default, and no part of the command."""
+        device = ["--device", "cpu", "--threads", "2", "--jobs", "3"]
+        folder = self.bundle("manifest", *self.render("--stride", "2", *device))
+        manifest = json.loads((folder / "bundle.json").read_text())
         self.assertEqual((manifest["schema"], manifest["schema_version"]), ("meniscus-farm-bundle", 2))
         self.assertEqual((manifest["frames"], manifest["frame_count"], manifest["size"]), ("0-4:2", 3, [40, 30]))
         self.assertEqual(manifest["command"][:2], ["render", "inputs/run.pdb"])
         self.assertEqual(manifest["command"][-2:], ["--camera", "inputs/camera.json"])
+        self.assertEqual(manifest["device"], device)
+        self.assertFalse({"--device", "--threads", "--jobs"} & set(manifest["command"]))
         listed = {entry["path"].split("/")[1]: entry["sha256"] for entry in manifest["inputs"]}
-        self.assertEqual(listed, sums(self.folder / "manifest" / "inputs", "*"))
+        self.assertEqual(listed, sums(folder / "inputs", "*"))
+        self.meniscus("work", folder)
+        self.meniscus("farm", "verify", folder)
 
     def test_what_aims_the_default_camera_is_in_its_file(self):
         cameras = []
@@ -49,16 +56,6 @@ class Bundle(FarmCase):
             self.assertFalse([word for word in command if word.startswith(("--view", "--turn", "--zoom-to", "-x"))])
             cameras.append((folder / "inputs" / "camera.json").read_text())
         self.assertEqual(len(set(cameras)), 3)
-
-    def test_where_and_with_how_much_is_the_workers_default_and_no_part_of_the_command(self):
-        words = ("--device", "cpu", "--threads", "2", "--jobs", "3")
-        folder = self.bundle("device", "render", sample_run(self.folder / "device.pdb", 2), "--frames", "all", "--size",
-                             "64x48", *words)
-        manifest = json.loads((folder / "bundle.json").read_text())
-        self.assertEqual(manifest["device"], list(words))
-        self.assertFalse(set(words) & {"--device", "--threads", "--jobs"} & set(manifest["command"]))
-        self.meniscus("work", folder)
-        self.meniscus("farm", "verify", folder)
 
     def test_another_bundle_is_kept_unless_forced(self):
         folder = self.bundle("kept", *self.render())
@@ -75,16 +72,13 @@ class Bundle(FarmCase):
         self.meniscus("farm", "bundle", foreign, "--force", "--chunk-frames", "5", "--", *self.render(), code=6)
         self.assertEqual((foreign / "thesis.tex").read_text(), "years")
 
-    def test_a_bundle_that_holds_an_input_is_not_replaced(self):
+    def test_inputs_are_not_replaced(self):
         folder = self.bundle("held", *self.render())
-        inner = folder / "inputs" / "run.pdb"
         before = self.files(folder)
-        result = self.meniscus("farm", "bundle", folder, "--force", "--chunk-frames", "5", "--", "render", inner, "--frames", "0-1",
-                               code=6)
+        result = self.meniscus("farm", "bundle", folder, "--force", "--chunk-frames", "5", "--", "render",
+                               folder / "inputs" / "run.pdb", "--frames", "0-1", code=6)
         self.assertIn("holds inputs/run.pdb, which this command reads", result.stderr)
         self.assertEqual(self.files(folder), before)
-
-    def test_a_legend_replaces_no_input(self):
         camera = self.folder / "camera.png"
         camera.write_text("{}")
         result = self.meniscus("farm", "bundle", self.folder / "legend", "--force", "--", *self.render(
@@ -103,11 +97,6 @@ class Bundle(FarmCase):
         self.assertEqual((result.returncode, result.stdout), (6, ""), result.stderr)
         self.assertIn("No space left on device", result.stderr)
 
-    def test_words_that_are_not_utf_8_are_refused(self):
-        result = self.meniscus("farm", "bundle", self.folder / "bytes", "--", *self.render("--title", b"\xff".decode(errors="surrogateescape")),
-                               code=2)
-        self.assertIn("is not UTF-8", result.stderr)
-
     def test_a_trial_frame_decides_the_chunks_and_leaves_no_trace(self):
         folder = self.bundle("trial", *self.render(), options=("--chunk-minutes", "0.01"))
         chunks = json.loads((folder / "bundle.json").read_text())["chunks"]
@@ -118,20 +107,17 @@ class Bundle(FarmCase):
         self.meniscus("farm", "bundle", folder, "--chunk-minutes", "0.01", "--", *self.render())
         self.assertEqual(self.files(folder), before)
 
-    def test_larger_tasks_than_were_asked_for_are_told(self):
+    def test_a_note_says_that_tasks_are_larger_than_was_wanted(self):
         molecule = self.folder / "many.pdb"
         molecule.write_text("".join(f"MODEL {n + 1:8d}\nHETATM    1  C   LIG A   1       0.000   0.000   0.000\nENDMDL\n"
                                     for n in range(2500)))
-        words = ("--", "render", molecule, "--frames", "all", "--size", "8x6", "--camera", self.camera())
+        camera = self.bundle("with_camera", *self.render()) / "inputs" / "camera.json"
+        words = ("--", "render", molecule, "--frames", "all", "--size", "8x6", "--camera", camera)
         for _ in range(2):
-            told = self.meniscus("farm", "bundle", self.folder / "many", "--chunk-frames", "1", *words)
-            self.assertIn("note: --chunk-frames 1 would make 2,500 tasks; queues accept 1,000, so a task has up to 3 frames", told.stderr)
+            notes = self.meniscus("farm", "bundle", self.folder / "many", "--chunk-frames", "1", *words).stderr
+            self.assertIn("note: 2,500 tasks were wanted; queues accept 1,000, so a task has up to 3 frames", notes)
         self.assertEqual(json.loads((self.folder / "many" / "bundle.json").read_text())["chunks"]["count"], 1000)
-        self.assertNotIn("would be", self.meniscus("farm", "bundle", self.folder / "few", "--chunk-frames", "3", *words).stderr)
-
-    def camera(self):
-        folder = self.bundle("with_camera", *self.render())
-        return folder / "inputs" / "camera.json"
+        self.assertNotIn("wanted", self.meniscus("farm", "bundle", self.folder / "few", "--chunk-frames", "3", *words).stderr)
 
     def test_hostile_names_become_plain(self):
         hostile = self.folder / "a $(touch x) `b` \"c\" 'd'; é.pdb"
@@ -145,22 +131,22 @@ class Bundle(FarmCase):
     def test_what_cannot_be_bundled_is_refused_before_any_work(self):
         cases = {
             ("surface", UBIQUITIN): "cannot be bundled",
-            ("render",): "no FILE",
-            ("render", "-"): "directly after",
-            ("render", "--frames", "all", UBIQUITIN): "directly after",
-            ("render", UBIQUITIN, "-o", "x.png"): "decide that",
-            ("render", UBIQUITIN, "--only=3"): "decide that",
+            ("render",): "FILE",
+            ("render", "-"): "standard input",
+            ("render", UBIQUITIN, "-o", "x.png"): "leave it out",
+            ("render", UBIQUITIN, "--only=3"): "leave it out",
             ("render", UBIQUITIN, "--nonsense"): "nonsense",
             ("render", UBIQUITIN, "--probe", "-1"): "negative",
             ("render", UBIQUITIN, "--frames", "0-9"): "asks for frame 9",
             ("export", "ply", UBIQUITIN): "cannot be bundled",
+            self.render("--title", b"\xff".decode(errors="surrogateescape")): "is not UTF-8",
         }
         for command, reason in cases.items():
             result = self.meniscus("farm", "bundle", self.folder / "no", "--chunk-frames", "1", "--", *command, code=2)
             self.assertIn(reason, result.stderr)
             self.assertFalse((self.folder / "no").exists())
-        self.meniscus("farm", "bundle", self.folder / "no", "--engine", "opencue", "--", *self.render(), code=2)
-        self.meniscus("farm", "bundle", self.folder / "no", "--engine", "abacus", "--", *self.render(), code=2)
+        for engine in ("opencue", "abacus"):
+            self.meniscus("farm", "bundle", self.folder / "no", "--engine", engine, "--", *self.render(), code=2)
         self.meniscus("farm", "bundle", self.folder / "no", "--", "render", self.folder / "missing.pdb", code=3)
         self.assertEqual([path for path in self.folder.iterdir() if path.name.endswith(".part")], [])
 

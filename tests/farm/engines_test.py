@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Job files of the engines: make and Snakemake run them themselves; for OpenJD, Flamenco, OpenCue and Kubernetes their tasks
-are run here as those engines would. scripts/check/schedulers.sh has OpenJD's own runner and Kubernetes' schema."""
+"""Tests job files of the engines. make and Snakemake run themselves; tasks of OpenJD, Flamenco, OpenCue and Kubernetes are
+run as those engines would. scripts/check/schedulers.sh has OpenJD's own runner and Kubernetes' schema."""
 
 import json
 import os
@@ -94,7 +94,7 @@ class Engines(FarmCase):
         self.meniscus("farm", "verify", folder)
         self.assert_film_is_done(folder)
 
-    def test_every_engine_is_told_of_cores_and_memory(self):
+    def test_every_engine_reserves_cores_and_memory(self):
         folder = self.engine_bundle("resources", "all", "--farm-path", "/mnt/film", "--task-cores", "3", "--task-memory", "1234")
         self.assertIn("#SBATCH --cpus-per-task=3\n#SBATCH --mem=1234M\n", (folder / "slurm" / "work.sbatch").read_text())
         work = json.loads((folder / "template.json").read_text())["steps"][0]
@@ -109,25 +109,20 @@ class Engines(FarmCase):
         self.assertIn("threads: 3\n    resources: mem_mb=1234\n", (folder / "Snakefile").read_text())
         self.assertIn("1234 MiB", (folder / "Makefile").read_text())
 
-    def test_a_trial_frame_tells_how_much_memory_tasks_need(self):
+    def test_a_trial_frame_measures_the_memory_of_tasks(self):
         folder = self.povray_bundle("measured", FRAMES, options=("--engine", "slurm"))
         peak = json.loads((folder / "bundle.json").read_text())["chunks"]["peak_memory"]
         self.assertTrue(10 < peak < 4000, peak)
-        asked = int(re.search(r"--mem=(\d+)M", (folder / "slurm" / "work.sbatch").read_text()).group(1))
-        self.assertTrue(1.5 * peak < asked <= 1.5 * peak + 513, (peak, asked))
+        memory = int(re.search(r"--mem=(\d+)M", (folder / "slurm" / "work.sbatch").read_text()).group(1))
+        self.assertTrue(1.5 * peak < memory <= 1.5 * peak + 513, (peak, memory))
 
     def test_make_divides_the_cores_among_its_jobs(self):
-        """-j2 on a machine of 12 cores gives each task six; THREADS is obeyed."""
+        """-j2 on a machine of 12 cores gives each task six."""
         folder = self.povray_bundle("jobs", FRAMES, options=("--chunk-frames", "2", "--engine", "make"))
-        shim = self.folder / "shim"
-        shim.mkdir()
-        (shim / "nproc").write_text("#!/bin/sh\necho 12\n")
-        (shim / "meniscus").write_text("#!/bin/sh\necho \"$@\"\n")
-        for program in shim.iterdir():
-            program.chmod(0o755)
+        path = self.programs("shim", nproc="#!/bin/sh\necho 12\n", meniscus='#!/bin/sh\necho "$@"\n')["PATH"]
         for words, threads in (((), 12), (("-j2",), 6), (("-k", "-j", "5"), 2), (("-j", "64"), 1), (("-j",), 1),
                                (("-j2", "THREADS=3"), 3)):
-            said = self.run_task(["make", "-C", folder, *words], PATH=f"{shim}:{os.environ['PATH']}").stdout
+            said = self.run_task(["make", "-C", folder, *words], PATH=path).stdout
             self.assertEqual(set(re.findall(r"^work .*--threads (\d+)", said, re.M)), {str(threads)}, words)
 
     def compiled(self, folder, settings):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the tests of the farm share: a made-up run of a real protein, bundles of it, and the program as users run it."""
+"""Shares among the tests of the farm a made-up run of a real protein, bundles of it, and the program as users run it."""
 
 import hashlib
 import math
@@ -89,6 +89,15 @@ class FarmCase(unittest.TestCase):
             sample_run(molecule, frames, bad_frame)
         return self.bundle(name, "export", "povray", molecule, "--frames", "all", "--size", "160x120", "--device",
                            "cpu", "--", "-A", options=options)
+
+    def programs(self, name, **scripts):
+        """An environment in which these programs are found first."""
+        folder = self.folder / name
+        folder.mkdir()
+        for program, text in scripts.items():
+            (folder / program).write_text(text)
+            (folder / program).chmod(0o755)
+        return dict(os.environ, PATH=f"{folder}:{os.environ['PATH']}")
 
     def start(self, folder, *more, **how):
         return subprocess.Popen([MENISCUS, "work", folder, "--progress", "none", *more], **how)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The small parts of a farm, each alone: checksums, chunks, templates, children, pictures without dates.
+// Tests small parts of a farm, each alone: checksums, chunks, templates, children, pictures without dates.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -13,14 +13,14 @@
 #include <gtest/gtest.h>
 
 #include "app/farm/bundle.h"
-#include "app/farm/checksum.h"
+#include "app/farm/bundle_folder.h"
 #include "app/farm/emit.h"
-#include "app/farm/make_frames.h"
-#include "app/farm/missing_frames.h"
 #include "app/farm/worker.h"
 #include "app/process/child_process.h"
 #include "app/process/program_error.h"
 #include "core/base/text.h"
+#include "core/base/text_file.h"
+#include "core/image/png_file.h"
 #include "tests/support/run_program.h"
 
 namespace meniscus::farm {
@@ -37,13 +37,13 @@ Bundle bundle_of(std::uint64_t frames) {
   return bundle;
 }
 
-// The examples of FIPS 180-4, and a file that takes several readings.
+// The examples are those of FIPS 180-4; the second file takes several readings.
 TEST(Checksum, IsSha256) {
   EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
   const TemporaryFolder folder;
-  const std::string million(1'000'000, 'a'), more(3'000'000, 'b');
-  EXPECT_EQ(sha256_of_file(folder.file("a", million)),
+  const std::string more(3'000'000, 'b');
+  EXPECT_EQ(sha256_of_file(folder.file("a", std::string(1'000'000, 'a'))),
             "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
   EXPECT_EQ(sha256_of_file(folder.file("b", more)), sha256(more));
   EXPECT_THROW(sha256_of_file(folder.path() / "missing"), InputError);
@@ -68,28 +68,20 @@ TEST(Chunks, AreTheRunCutIntoNearlyEqualParts) {
   }
 }
 
-TEST(Chunks, AreAsLongAsWishedAndNeverTooMany) {
-  const auto decided = [](std::uint64_t frames, double minutes, double seconds) {
-    Chunking chunking;
-    chunking.asked_minutes = minutes;
+TEST(Chunks, AreAsLongAsWanted) {
+  const struct {
+    std::uint64_t frames;
+    std::optional<std::uint64_t> wanted_frames;
+    double seconds;
+    std::uint64_t tasks;
+  } cases[]{{100, {}, 30, 10}, {100, {}, 1000, 100}, {100, {}, 0.001, 1},
+            {1, {}, 1e9, 1},   {3000, 1, 0, 3000},   {15, 7, 0, 3}};
+  for (const auto& [frames, wanted_frames, seconds, tasks] : cases) {
+    Chunking chunking;  // of five minutes
+    chunking.wanted_frames = wanted_frames;
     chunking.seconds_per_frame = seconds;
-    chunking.decide(frames);
-    return chunking.count;
-  };
-  EXPECT_EQ(decided(100, 5, 30), 10u);
-  EXPECT_EQ(decided(100, 5, 1000), 100u);
-  EXPECT_EQ(decided(100, 5, 0.001), 1u);
-  EXPECT_EQ(decided(100'000, 5, 1000), 1000u);
-  EXPECT_EQ(decided(1, 5, 1e9), 1u);
-  Chunking one_each;
-  one_each.asked_frames = 1;
-  one_each.decide(3000);
-  EXPECT_EQ(one_each.count, 1000u);
-  EXPECT_EQ(one_each.wanted_count(3000), 3000u);
-  Chunking by_frames;
-  by_frames.asked_frames = 7;
-  by_frames.decide(15);
-  EXPECT_EQ(by_frames.count, 3u);
+    EXPECT_EQ(chunking.wanted_count(frames), tasks);
+  }
 }
 
 TEST(Tasks, AreGivenMemoryByWhatWasMeasured) {
@@ -99,7 +91,7 @@ TEST(Tasks, AreGivenMemoryByWhatWasMeasured) {
   EXPECT_EQ(chunking.memory(), 512u);
   chunking.peak_memory = 1024;
   EXPECT_EQ(chunking.memory(), 1792u);
-  chunking.asked_memory = 77;
+  chunking.wanted_memory = 77;
   EXPECT_EQ(chunking.memory(), 77u);
 }
 
@@ -107,51 +99,43 @@ TEST(Manifest, ComesBackAsItWas) {
   const TemporaryFolder folder;
   Bundle bundle = bundle_of(5);
   bundle.inputs = {{"inputs/a.pdb", 12, sha256("a")}};
-  bundle.film = Film{"film.mov", 23.976, {"prores4444", {}, 10, 444}};
+  bundle.film = Film{"film.mov", {"prores4444", {}, 10, 444, 23.976}};
   bundle.chunking.seconds_per_frame = 0.1;
-  bundle.chunking.decide(5);
   folder.file("bundle.json", bundle_json(bundle));
-  const Bundle read = read_bundle(folder.path());
-  EXPECT_EQ(bundle_json(read), bundle_json(bundle));
-  // What was measured is not what was asked for; everything else is.
-  Bundle other = bundle;
-  other.chunking.seconds_per_frame = 7.0;
-  EXPECT_TRUE(same_but_for_measurement(bundle, other));
-  other.inputs[0].sha256 = sha256("b");
-  EXPECT_FALSE(same_but_for_measurement(bundle, other));
+  EXPECT_EQ(bundle_json(read_bundle(folder.path())), bundle_json(bundle));
 }
 
-// Checksums of what takes long to read are for `verify`; sizes are always looked at. The files are sparse.
+// Reading large files takes long, so their checksums are for `verify`; all sizes are checked. The files are sparse.
 TEST(Inputs, AreCheckedBySizeAndUpToAQuarterOfAGibibyteBySum) {
   constexpr std::uint64_t kQuick = std::uint64_t{256} << 20;
   const TemporaryFolder folder;
-  const auto refused = [&](std::uint64_t bytes, std::uint64_t said, const std::string& sum, bool thorough) {
-    Bundle bundle = bundle_of(1);
-    bundle.inputs = {{"a.xtc", said, sum}};
+  const std::string other = sha256("something else"), three = sha256(std::string(3, '\0'));
+  const struct {
+    std::uint64_t bytes, listed;
+    std::string sum;
+    bool thorough, refused;
+  } cases[]{{3, 3, three, false, false},
+            {3, 3, other, false, true},
+            {3, 4, three, false, true},
+            {kQuick, kQuick, other, false, true},
+            {kQuick + 1, kQuick + 1, other, false, false},
+            {kQuick + 1, kQuick + 1, other, true, true},
+            {kQuick + 1, kQuick + 2, other, false, true}};
+  Bundle bundle = bundle_of(1);
+  for (const auto& [bytes, listed, sum, thorough, refused] : cases) {
+    SCOPED_TRACE(std::to_string(bytes) + " bytes, " + std::to_string(listed) + " listed");
+    bundle.inputs = {{"a.xtc", listed, sum}};
     std::filesystem::resize_file(folder.file("a.xtc", ""), bytes);
-    try {
-      check_inputs(bundle, folder.path(), thorough);
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find("a.xtc"), std::string::npos) << error.what();
-      return true;
-    }
-    return false;
-  };
-  const std::string other = sha256("something else");
-  EXPECT_FALSE(refused(3, 3, sha256(std::string(3, '\0')), false));
-  EXPECT_TRUE(refused(3, 3, other, false));
-  EXPECT_TRUE(refused(3, 4, sha256(std::string(3, '\0')), false));
-  EXPECT_TRUE(refused(kQuick, kQuick, other, false)) << "this large is quick enough";
-  EXPECT_FALSE(refused(kQuick + 1, kQuick + 1, other, false)) << "larger files are not read at the start";
-  EXPECT_TRUE(refused(kQuick + 1, kQuick + 1, other, true)) << "but when one asks for all of it";
-  EXPECT_TRUE(refused(kQuick + 1, kQuick + 2, other, false)) << "their size is known at once";
-  EXPECT_TRUE(refused(2 * kQuick, kQuick + 1, other, false));
-  Bundle missing = bundle_of(1);
-  missing.inputs = {{"none.pdb", 0, sha256("")}};
-  EXPECT_THROW(check_inputs(missing, folder.path(), false), InputError);
+    if (refused)
+      EXPECT_THROW(check_inputs(bundle, folder.path(), thorough), InputError);
+    else
+      EXPECT_NO_THROW(check_inputs(bundle, folder.path(), thorough));
+  }
+  bundle.inputs = {{"none.pdb", 0, sha256("")}};
+  EXPECT_THROW(check_inputs(bundle, folder.path(), false), InputError);
 }
 
-// A picture is there if its end is; whether others see a file is asked of the folder.
+// A picture is there if its end is there.
 TEST(MissingFrames, AreThoseWithoutAWholePicture) {
   const TemporaryFolder folder;
   const std::string end("\0\0\0\0IEND\xae\x42\x60\x82", 12);
@@ -175,16 +159,18 @@ TEST(MissingFrames, OfScenesAreThoseWhoseFilesAreNotAsTheirMarkSays) {
   EXPECT_EQ(missing_frames(bundle, folder.path(), Step::surface, bundle.frames), (std::vector<std::uint64_t>{3, 6, 9}));
 }
 
-TEST(Engines, AreToldOfPlainPathsOnly) {
+TEST(Engines, AreGivenPlainPathsOnly) {
+  const TemporaryFolder folder;
   const Bundle bundle = bundle_of(3);
   for (const Engine& engine : engines()) {
     for (const char* bad :
          {"/mnt/it's", "/mnt/a b", "/mnt/\"x", "/mnt/$x", "/mnt/#IFRAME#", "/mnt/{{x}}", "-x", "a\nb", "\xc3\xa9"})
-      EXPECT_THROW(emit(engine, bundle, bad), RequestError) << bad;
-    for (const EngineFile& file : emit(engine, bundle, "/mnt/film-1/a_b.c")) {
+      EXPECT_THROW(write_job_files(engine, bundle, bad, folder.path()), RequestError) << bad;
+    write_job_files(engine, bundle, "/mnt/film-1/a_b.c", folder.path());
+    for (const char* file : engine.files)
       for (const char* unknown : {"@COUNT@", "@CORES@", "@MEMORY@", "@GPUS@", "@MINUTES@", "@PATH@"})
-        EXPECT_EQ(file.text.find(unknown), std::string::npos) << file.path << unknown;
-    }
+        EXPECT_EQ(read_text_file((folder.path() / file).string()).text.find(unknown), std::string::npos)
+            << file << unknown;
   }
 }
 
@@ -205,10 +191,10 @@ TEST(Pictures, LoseTheirDatesAndNothingElse) {
             signature + header + pixels + chunk("gAMA", "gama") + end);
   for (const std::string& broken : {std::string(), std::string("GIF89a"), signature, signature + header + pixels,
                                     signature + header + pixels.substr(0, 10)})
-    EXPECT_THROW(png_without_time(broken), RunError);
+    EXPECT_EQ(png_without_time(broken), std::nullopt);
 }
 
-// A program that makes several frames at once dies of one of them before it has told the earlier ones.
+// A program that makes several frames at once dies of one of them before it has reported earlier ones.
 TEST(Makers, FindTheFrameThatKillsAProgramWhichMakesSeveralAtOnce) {
   const TemporaryFolder folder;
   const std::string script = folder.file("program", R"(alone=$1; shift
@@ -235,7 +221,7 @@ done
   EXPECT_EQ(failed, (std::vector<std::uint64_t>{7}));
 }
 
-TEST(Children, AreHeardAndWaitedFor) {
+TEST(Children, AreReadAndWaitedFor) {
   const TemporaryFolder folder;
   ChildProcess child({"sh", "-c", "echo one; echo two >&2; printf '%s' \"$PWD\"; exit 7"}, folder.path());
   EXPECT_EQ(child.next_line(), "one");
@@ -249,7 +235,7 @@ TEST(Children, AreHeardAndWaitedFor) {
   EXPECT_THROW(ChildProcess({"sh"}, folder.path() / "missing"), InputError);
 }
 
-// A worker and its own folder both stop children when the program is told to end.
+// A worker and its hidden folder both stop children when the program is stopped.
 TEST(Children, MayBeStoppedTwice) {
   EXPECT_EXIT(
       {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bundles on a real Slurm: arrays, a task killed, one preempted, requeued and resumed, and a frame that fails."""
+"""Tests bundles on a real Slurm: arrays, a task killed, one preempted, requeued and resumed, and a frame that fails."""
 
 import os
 import pathlib
@@ -49,14 +49,10 @@ class Slurm(FarmCase):
         return "\n".join(f"{path.name}:\n{path.read_text()}" for path in sorted((folder / "logs").glob("*.log")))
 
     def path_of_slow_requeues(self):
-        """A search path whose scontrol ends two seconds late, so that a requeued task is told to end before it does."""
-        shim = self.folder / "slow"
-        shim.mkdir()
-        found = self.cluster.environment["PATH"]
-        (shim / "scontrol").write_text(f'#!/bin/sh\ntrap "" TERM\n"{shutil.which("scontrol", path=found)}" "$@"\ncode=$?\n'
-                                       '[ "$1" != requeue ] || sleep 2\nexit $code\n')
-        (shim / "scontrol").chmod(0o755)
-        return f"{shim}:{found}"
+        """Returns a search path whose scontrol ends two seconds late, so that a requeued task is stopped before it ends."""
+        real = shutil.which("scontrol", path=self.cluster.environment["PATH"])
+        return self.programs("slow", scontrol=f'#!/bin/sh\ntrap "" TERM\n"{real}" "$@"\ncode=$?\n'
+                                              '[ "$1" != requeue ] || sleep 2\nexit $code\n')["PATH"] + ":/usr/sbin"
 
     def test_an_array_survives_a_kill_and_a_preemption(self):
         options = ("--chunk-frames", "5", "--film", "film.mp4", "--engine", "slurm", "--task-cores", "1")
@@ -124,12 +120,8 @@ class Slurm(FarmCase):
 
     def test_arrays_beyond_the_limit_are_refused_with_a_reason(self):
         folder = self.povray_bundle("many", 8, options=("--chunk-frames", "2", "--engine", "slurm"))
-        shim = self.folder / "shim"
-        shim.mkdir()
-        (shim / "scontrol").write_text("#!/bin/sh\necho 'MaxArraySize            = 4'\n")
-        (shim / "scontrol").chmod(0o755)
-        result = self.cluster.run(folder / "submit.sh", MENISCUS=MENISCUS,
-                                  PATH=f"{shim}:{self.cluster.environment['PATH']}")
+        path = self.programs("shim", scontrol="#!/bin/sh\necho 'MaxArraySize            = 4'\n")["PATH"]
+        result = self.cluster.run(folder / "submit.sh", MENISCUS=MENISCUS, PATH=path)
         self.assertEqual(result.returncode, 2)
         self.assertIn("larger chunks", result.stderr)
 

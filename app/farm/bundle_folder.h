@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The folder of a bundle on the disk: checksums of its inputs, the frames that it lacks, and unfinished files.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "app/farm/bundle.h"
+#include "app/process/child_process.h"
+#include "app/process/stop_signals.h"
+
+namespace meniscus::farm {
+
+/// A hidden folder for what is not finished, made by the main thread. It vanishes with this object, and when the
+/// program is stopped.
+class HiddenFolder {
+ public:
+  /// Makes PARENT/.NAME.RANDOM.part, which no other process on any machine has. Throws OutputError.
+  HiddenFolder(const std::filesystem::path& parent, std::string_view name);
+  ~HiddenFolder() { remove(); }
+  HiddenFolder(const HiddenFolder&) = delete;
+  HiddenFolder& operator=(const HiddenFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  /// StopBarrier and stop_children() see to it that nothing is written into the folder at this time.
+  void remove() const {
+    std::error_code failed;
+    std::filesystem::remove_all(path_, failed);
+  }
+
+  std::filesystem::path path_;
+  StopHandler stop_{[this] {
+                      stop_children();
+                      remove();
+                    },
+                    std::nullopt};
+};
+
+/// Writes a file whole or not at all, and the folders that it lies in; an older file is replaced. The main thread calls
+/// it, and a program that is being stopped writes nothing more. Throws OutputError.
+void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// Return the SHA-256 of a text or of a file's content, as 64 hexadecimal digits (FIPS 180-4, by OpenSSL). The second
+/// one throws InputError if the file cannot be read.
+std::string sha256(std::string_view bytes);
+std::string sha256_of_file(const std::filesystem::path& path);
+
+/// Returns the places, in order, of paths whose files are not there. A PNG file without its end counts as missing:
+/// frames are written whole or not at all, but a machine that loses its power may cut them. Folders are listed, because
+/// a network's file system answers questions about single names from memory.
+std::vector<std::size_t> missing_files(const std::vector<std::string>& paths);
+
+/// Returns those frames, in order, that have no result of the step. A scene is there if its files have the sizes that
+/// its result, a list of these files, says.
+std::vector<std::uint64_t> missing_frames(const Bundle& bundle, const std::filesystem::path& folder, Step step,
+                                          const std::vector<std::uint64_t>& frames);
+
+/// Checks the sizes of the bundle's inputs, and the checksums of those up to 256 MiB, or of all if `thorough`. Throws
+/// InputError.
+void check_inputs(const Bundle& bundle, const std::filesystem::path& folder, bool thorough);
+
+/// Removes the unfinished files that killed workers left in a bundle.
+void remove_leftovers(const std::filesystem::path& folder);
+
+}  // namespace meniscus::farm
