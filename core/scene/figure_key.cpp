@@ -100,7 +100,7 @@ ColorKey key_of(const FrameRun& run, const Scene& scene) {
   ColorScheme color = color_of(scene.molecule);
   DrawnAtoms drawn{std::vector<bool>(structure.atoms.size(), true), {}, true};
   if (scene.molecule.show) {
-    drawn.atoms = scene.molecule.show->reach(shown_atoms(structure)).selected;
+    drawn.atoms = scene.molecule.show->possible(shown_atoms(structure)).selected;
     drawn.atoms.resize(structure.atoms.size());
   }
   if (!scene.legend.asked() && !scene.figure.objects.empty())
