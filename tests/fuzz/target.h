@@ -19,7 +19,7 @@ struct Target {
 /// The targets linked into this program, by name.
 std::span<const Target> targets();
 
-/// Makes a target known: `const Registration registration{"pdb", run};` in its file.
+/// Makes a target known: `const Registration registered_pdb{"pdb", run_pdb};` in its file.
 struct Registration {
   Registration(const char* name, void (*run)(std::string_view bytes));
 };

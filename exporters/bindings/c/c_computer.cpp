@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::int32_t kMostThreads = 4096;
 
-const meniscus_options kDefaults{
+const meniscus_options kDefaultOptions{
     sizeof(meniscus_options), SurfaceRequest{}.probe_radius, MENISCUS_SES, MENISCUS_CPU, 0, 0};
 
 void check_probe(double radius) {
@@ -32,12 +32,12 @@ void check_probe(double radius) {
   if (radius == 0.0)
     refuse(MENISCUS_INPUT,
            "probe_radius is 0; set it (MENISCUS_OPTIONS_INIT has {} Å), or choose MENISCUS_VDW, which has no probe",
-           kDefaults.probe_radius);
+           kDefaultOptions.probe_radius);
 }
 
 /// Returns the options of a caller, or the defaults for NULL. Refuses impossible options.
 meniscus_options checked(const meniscus_options* given) {
-  const meniscus_options options = read_options(given, kDefaults, "meniscus_options");
+  const meniscus_options options = read_options(given, kDefaultOptions, "meniscus_options");
   if (options.kind < MENISCUS_SES || options.kind > MENISCUS_VDW)
     refuse(MENISCUS_USAGE, "kind is {}, none of MENISCUS_SES, _SAS, _VDW", static_cast<std::int32_t>(options.kind));
   check_device(options.device);
@@ -105,7 +105,7 @@ struct meniscus_computer : meniscus::c_api::Counted {
 
 meniscus_status meniscus_default_options(meniscus_options* options) {
   using namespace meniscus::c_api;
-  return guarded([&] { write_struct(options, kDefaults, "meniscus_options"); });
+  return guarded([&] { write_struct(options, kDefaultOptions, "meniscus_options"); });
 }
 
 meniscus_status meniscus_computer_new(const meniscus_options* options, meniscus_computer** computer) {

@@ -32,26 +32,26 @@ namespace meniscus::c_api {
 
 namespace {
 
-const meniscus_mesh_options kDefaults{sizeof(meniscus_mesh_options), MENISCUS_MESH_BY_PATCH, 1, MeshOutput{}.tolerance,
-                                      MeshOutput{}.density};
+const meniscus_mesh_options kDefaultMeshOptions{sizeof(meniscus_mesh_options), MENISCUS_MESH_BY_PATCH, 1,
+                                                MeshOutput{}.tolerance, MeshOutput{}.density};
 
 /// Returns the options of a caller, or the defaults for NULL. Refuses impossible options.
 meniscus_mesh_options checked(const meniscus_mesh_options* given) {
-  const meniscus_mesh_options options = read_options(given, kDefaults, "meniscus_mesh_options");
+  const meniscus_mesh_options options = read_options(given, kDefaultMeshOptions, "meniscus_mesh_options");
   switch (options.method) {
     case MENISCUS_MESH_BY_PATCH:
     case MENISCUS_MESH_EVEN:
       check_number("mesh.tolerance", "tolerance", options.tolerance, "Å");
-      if (options.density != kDefaults.density)
+      if (options.density != kDefaultMeshOptions.density)
         refuse(MENISCUS_USAGE,
                "density is {}, which is only for MENISCUS_MESH_BY_DENSITY; choose that, or leave it at {}",
-               options.density, kDefaults.density);
+               options.density, kDefaultMeshOptions.density);
       break;
     case MENISCUS_MESH_BY_DENSITY:
       check_number("mesh.density", "density", options.density, "vertices per Å²");
-      if (options.tolerance != kDefaults.tolerance)
+      if (options.tolerance != kDefaultMeshOptions.tolerance)
         refuse(MENISCUS_USAGE, "tolerance is {} Å, which MENISCUS_MESH_BY_DENSITY does not keep to; leave it at {}",
-               options.tolerance, kDefaults.tolerance);
+               options.tolerance, kDefaultMeshOptions.tolerance);
       break;
     default:
       refuse(MENISCUS_USAGE, "method is {}, none of MENISCUS_MESH_BY_PATCH, _EVEN, _BY_DENSITY",
@@ -163,7 +163,7 @@ void save(const meniscus_mesh& mesh, const char* path, const meniscus_mesh_file&
 
 meniscus_status meniscus_default_mesh_options(meniscus_mesh_options* options) {
   using namespace meniscus::c_api;
-  return guarded([&] { write_struct(options, kDefaults, "meniscus_mesh_options"); });
+  return guarded([&] { write_struct(options, kDefaultMeshOptions, "meniscus_mesh_options"); });
 }
 
 meniscus_status meniscus_surface_mesh(const meniscus_surface* surface, const meniscus_mesh_options* options,

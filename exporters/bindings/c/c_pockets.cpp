@@ -22,14 +22,15 @@ struct meniscus_pockets : meniscus::c_api::Counted {
 namespace meniscus::c_api {
 namespace {
 
-const meniscus_pocket_options kDefaults{sizeof(meniscus_pocket_options), PocketRequest{}.large_probe_radius,
-                                        PocketRequest{}.trim, PocketRequest{}.min_volume, PocketRequest{}.tolerance};
+const meniscus_pocket_options kDefaultPocketOptions{sizeof(meniscus_pocket_options), PocketRequest{}.large_probe_radius,
+                                                    PocketRequest{}.trim, PocketRequest{}.min_volume,
+                                                    PocketRequest{}.tolerance};
 
 /// Returns the request for pockets. Refuses a surface without a probe, and impossible options.
 PocketRequest request_of(const FinishedSurface& finished, const meniscus_pocket_options* given) {
   if (finished.kind != SurfaceKind::ses || !(finished.probe_radius > 0.0))
     refuse(MENISCUS_USAGE, "pockets need a probe above 0 and a surface of MENISCUS_SES");
-  const meniscus_pocket_options options = read_options(given, kDefaults, "meniscus_pocket_options");
+  const meniscus_pocket_options options = read_options(given, kDefaultPocketOptions, "meniscus_pocket_options");
   check_number("pockets.large_probe", "large_probe_radius", options.large_probe_radius, "Å");
   check_number("pockets.trim", "trim", options.trim, "Å");
   check_number("pockets.min_volume", "min_volume", options.min_volume, "Å³");
@@ -89,7 +90,7 @@ meniscus_array find_table(const meniscus_pockets& pockets, std::int32_t table) {
 
 meniscus_status meniscus_default_pocket_options(meniscus_pocket_options* options) {
   using namespace meniscus::c_api;
-  return guarded([&] { write_struct(options, kDefaults, "meniscus_pocket_options"); });
+  return guarded([&] { write_struct(options, kDefaultPocketOptions, "meniscus_pocket_options"); });
 }
 
 meniscus_status meniscus_surface_pockets(const meniscus_surface* surface, const meniscus_pocket_options* options,

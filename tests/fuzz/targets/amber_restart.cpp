@@ -5,12 +5,12 @@
 namespace meniscus::fuzz {
 namespace {
 
-void run(std::string_view bytes) {
+void run_amber_restart(std::string_view bytes) {
   static const ScratchFile file("input.rst7");
   check_trajectory(kAmberRestartFormat, file, bytes);
 }
 
-const Registration registration{"amber_restart", run};
+const Registration registered_amber_restart{"amber_restart", run_amber_restart};
 
 }  // namespace
 }  // namespace meniscus::fuzz

@@ -61,14 +61,14 @@ void check_file(std::string_view bytes, std::vector<Assembly> (*read)(const Text
   }
 }
 
-void run(std::string_view bytes) {
+void run_assembly(std::string_view bytes) {
   if (bytes.find('\0') != std::string_view::npos) return;  // never in a text that was read
   check_expression(bytes);
   check_file(bytes, read_pdb_assemblies);
   check_file(bytes, read_mmcif_assemblies);
 }
 
-const Registration registration{"assembly", run};
+const Registration registered_assembly{"assembly", run_assembly};
 
 }  // namespace
 }  // namespace meniscus::fuzz

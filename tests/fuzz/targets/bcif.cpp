@@ -5,12 +5,12 @@
 namespace meniscus::fuzz {
 namespace {
 
-void run(std::string_view bytes) {
+void run_bcif(std::string_view bytes) {
   static const ScratchFile file("input.bcif");
   check_reader(kBinaryCifReader, file, bytes);
 }
 
-const Registration registration{"bcif", run};
+const Registration registered_bcif{"bcif", run_bcif};
 
 }  // namespace
 }  // namespace meniscus::fuzz

@@ -7,7 +7,7 @@
 namespace meniscus::fuzz {
 namespace {
 
-void run(std::string_view bytes) {
+void run_bundle(std::string_view bytes) {
   static const ScratchFile file("bundle.json");
   file.write(bytes);
   try {
@@ -19,7 +19,7 @@ void run(std::string_view bytes) {
   }
 }
 
-const Registration registration{"bundle", run};
+const Registration registered_bundle{"bundle", run_bundle};
 
 }  // namespace
 }  // namespace meniscus::fuzz

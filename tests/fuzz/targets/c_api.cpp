@@ -367,9 +367,9 @@ const Caller::Call Caller::kCalls[20] = {&Caller::make_computer,   &Caller::comp
                                          &Caller::let_go,          &Caller::make_scene,
                                          &Caller::set_value,       &Caller::look_at_scene};
 
-void run(std::string_view bytes) { Caller(bytes).run(); }
+void run_c_api(std::string_view bytes) { Caller(bytes).run(); }
 
-const Registration registration{"c_api", run};
+const Registration registered_c_api{"c_api", run_c_api};
 
 }  // namespace
 }  // namespace meniscus::fuzz

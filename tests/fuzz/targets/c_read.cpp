@@ -64,7 +64,7 @@ void look_at(const meniscus_structure* structure, std::size_t atoms) {
   }
 }
 
-void run(std::string_view bytes) {
+void run_c_read(std::string_view bytes) {
   static const ScratchFile scratch("molecule");
   const std::string_view line = bytes.substr(0, bytes.find('\n'));
   const meniscus_read_options options = options_of(line);
@@ -81,7 +81,7 @@ void run(std::string_view bytes) {
   meniscus_structure_release(structure);
 }
 
-const Registration registration{"c_read", run};
+const Registration registered_c_read{"c_read", run_c_read};
 
 }  // namespace
 }  // namespace meniscus::fuzz

@@ -8,7 +8,7 @@
 namespace meniscus::fuzz {
 namespace {
 
-void run(std::string_view bytes) {
+void run_camera(std::string_view bytes) {
   try {
     const Camera camera = parse_camera(bytes, "camera.json");
     check_camera(camera);
@@ -18,7 +18,7 @@ void run(std::string_view bytes) {
   }
 }
 
-const Registration registration{"camera", run};
+const Registration registered_camera{"camera", run_camera};
 
 }  // namespace
 }  // namespace meniscus::fuzz

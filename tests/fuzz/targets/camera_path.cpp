@@ -9,7 +9,7 @@
 namespace meniscus::fuzz {
 namespace {
 
-void run(std::string_view bytes) {
+void run_camera_path(std::string_view bytes) {
   try {
     const CameraPath path = parse_camera_path(bytes, "path.json");
     for (const double frame : {-1.0, 0.0, 0.25, 1.0, 7.5, 10.0, 33.3, 1e6}) check_camera(path.at(frame));
@@ -18,7 +18,7 @@ void run(std::string_view bytes) {
   }
 }
 
-const Registration registration{"camera_path", run};
+const Registration registered_camera_path{"camera_path", run_camera_path};
 
 }  // namespace
 }  // namespace meniscus::fuzz

@@ -5,12 +5,12 @@
 namespace meniscus::fuzz {
 namespace {
 
-void run(std::string_view bytes) {
+void run_charmm_crd(std::string_view bytes) {
   static const ScratchFile file("input.crd");
   check_reader(kCharmmCrdReader, file, bytes);
 }
 
-const Registration registration{"charmm_crd", run};
+const Registration registered_charmm_crd{"charmm_crd", run_charmm_crd};
 
 }  // namespace
 }  // namespace meniscus::fuzz

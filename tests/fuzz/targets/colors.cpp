@@ -59,7 +59,7 @@ void check_numbers(NumberFile file) {
   }
 }
 
-void run(std::string_view bytes) {
+void run_colors(std::string_view bytes) {
   static const ScratchFile scratch("numbers.txt");
   check_words(bytes);
   try {
@@ -73,7 +73,7 @@ void run(std::string_view bytes) {
   }
 }
 
-const Registration registration{"colors", run};
+const Registration registered_colors{"colors", run_colors};
 
 }  // namespace
 }  // namespace meniscus::fuzz

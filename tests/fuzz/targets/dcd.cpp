@@ -5,12 +5,12 @@
 namespace meniscus::fuzz {
 namespace {
 
-void run(std::string_view bytes) {
+void run_dcd(std::string_view bytes) {
   static const ScratchFile file("input.dcd");
   check_trajectory(kDcdFormat, file, bytes);
 }
 
-const Registration registration{"dcd", run};
+const Registration registered_dcd{"dcd", run_dcd};
 
 }  // namespace
 }  // namespace meniscus::fuzz

@@ -21,11 +21,11 @@ void check(std::string_view text, std::uint64_t count) {
   }
 }
 
-void run(std::string_view bytes) {
+void run_frame_list(std::string_view bytes) {
   for (const std::uint64_t count : {1, 100, 20'000}) check(bytes, count);
 }
 
-const Registration registration{"frame_list", run};
+const Registration registered_frame_list{"frame_list", run_frame_list};
 
 }  // namespace
 }  // namespace meniscus::fuzz

@@ -5,12 +5,12 @@
 namespace meniscus::fuzz {
 namespace {
 
-void run(std::string_view bytes) {
+void run_gro(std::string_view bytes) {
   static const ScratchFile file("input.gro");
   check_reader(kGroReader, file, bytes);
 }
 
-const Registration registration{"gro", run};
+const Registration registered_gro{"gro", run_gro};
 
 }  // namespace
 }  // namespace meniscus::fuzz

@@ -7,7 +7,7 @@
 namespace meniscus::fuzz {
 namespace {
 
-void run(std::string_view bytes) {
+void run_gzip(std::string_view bytes) {
   constexpr std::size_t kLargest = std::size_t{1} << 20;
   static const ScratchFile scratch("input.gz");
   try {
@@ -25,7 +25,7 @@ void run(std::string_view bytes) {
   }
 }
 
-const Registration registration{"gzip", run};
+const Registration registered_gzip{"gzip", run_gzip};
 
 }  // namespace
 }  // namespace meniscus::fuzz

@@ -5,12 +5,12 @@
 namespace meniscus::fuzz {
 namespace {
 
-void run(std::string_view bytes) {
+void run_lammps(std::string_view bytes) {
   static const ScratchFile file("input.lammpstrj");
   check_trajectory(kLammpsFormat, file, bytes);
 }
 
-const Registration registration{"lammps", run};
+const Registration registered_lammps{"lammps", run_lammps};
 
 }  // namespace
 }  // namespace meniscus::fuzz

@@ -13,13 +13,13 @@ std::unique_ptr<Trajectory> open(const std::string& path, const TrajectoryOption
 }
 
 /// The first letter of the title is the number of atoms.
-void run(std::string_view bytes) {
+void run_mdcrd(std::string_view bytes) {
   static const ScratchFile file("input.mdcrd");
   atoms = bytes.empty() ? 1 : static_cast<unsigned char>(bytes.front()) % 32 + 1;
   check_trajectory({kMdcrdFormat.metadata, kMdcrdFormat.recognizes, open}, file, bytes);
 }
 
-const Registration registration{"mdcrd", run};
+const Registration registered_mdcrd{"mdcrd", run_mdcrd};
 
 }  // namespace
 }  // namespace meniscus::fuzz

@@ -5,12 +5,12 @@
 namespace meniscus::fuzz {
 namespace {
 
-void run(std::string_view bytes) {
+void run_mmcif(std::string_view bytes) {
   static const ScratchFile file("input.cif");
   check_reader(kMmcifReader, file, bytes);
 }
 
-const Registration registration{"mmcif", run};
+const Registration registered_mmcif{"mmcif", run_mmcif};
 
 }  // namespace
 }  // namespace meniscus::fuzz

@@ -5,12 +5,12 @@
 namespace meniscus::fuzz {
 namespace {
 
-void run(std::string_view bytes) {
+void run_mol2(std::string_view bytes) {
   static const ScratchFile file("input.mol2");
   check_reader(kMol2Reader, file, bytes);
 }
 
-const Registration registration{"mol2", run};
+const Registration registered_mol2{"mol2", run_mol2};
 
 }  // namespace
 }  // namespace meniscus::fuzz

@@ -5,12 +5,12 @@
 namespace meniscus::fuzz {
 namespace {
 
-void run(std::string_view bytes) {
+void run_namd_coordinates(std::string_view bytes) {
   static const ScratchFile file("input.coor");
   check_trajectory(kNamdCoordinatesFormat, file, bytes);
 }
 
-const Registration registration{"namd_coordinates", run};
+const Registration registered_namd_coordinates{"namd_coordinates", run_namd_coordinates};
 
 }  // namespace
 }  // namespace meniscus::fuzz

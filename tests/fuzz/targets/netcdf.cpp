@@ -5,12 +5,12 @@
 namespace meniscus::fuzz {
 namespace {
 
-void run(std::string_view bytes) {
+void run_netcdf(std::string_view bytes) {
   static const ScratchFile file("input.nc");
   check_trajectory(kAmberNetcdfFormat, file, bytes);
 }
 
-const Registration registration{"netcdf", run};
+const Registration registered_netcdf{"netcdf", run_netcdf};
 
 }  // namespace
 }  // namespace meniscus::fuzz

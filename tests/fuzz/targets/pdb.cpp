@@ -5,12 +5,12 @@
 namespace meniscus::fuzz {
 namespace {
 
-void run(std::string_view bytes) {
+void run_pdb(std::string_view bytes) {
   static const ScratchFile file("input.pdb");
   check_reader(kPdbReader, file, bytes);
 }
 
-const Registration registration{"pdb", run};
+const Registration registered_pdb{"pdb", run_pdb};
 
 }  // namespace
 }  // namespace meniscus::fuzz

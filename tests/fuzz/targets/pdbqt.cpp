@@ -5,12 +5,12 @@
 namespace meniscus::fuzz {
 namespace {
 
-void run(std::string_view bytes) {
+void run_pdbqt(std::string_view bytes) {
   static const ScratchFile file("input.pdbqt");
   check_reader(kPdbqtReader, file, bytes);
 }
 
-const Registration registration{"pdbqt", run};
+const Registration registered_pdbqt{"pdbqt", run_pdbqt};
 
 }  // namespace
 }  // namespace meniscus::fuzz

@@ -5,12 +5,12 @@
 namespace meniscus::fuzz {
 namespace {
 
-void run(std::string_view bytes) {
+void run_pqr(std::string_view bytes) {
   static const ScratchFile file("input.pqr");
   check_reader(kPqrReader, file, bytes);
 }
 
-const Registration registration{"pqr", run};
+const Registration registered_pqr{"pqr", run_pqr};
 
 }  // namespace
 }  // namespace meniscus::fuzz

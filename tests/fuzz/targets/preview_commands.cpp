@@ -77,7 +77,7 @@ void check_mailbox(const std::vector<WrittenCommand>& commands) {
   require(taken == put, "no command is lost");
 }
 
-void run(std::string_view bytes) {
+void run_preview_commands(std::string_view bytes) {
   static const ScratchFile scratch("session.jsonl");
   std::vector<WrittenCommand> commands;
   attempt([&] { commands = read_commands(scratch.write(bytes)); });
@@ -89,7 +89,7 @@ void run(std::string_view bytes) {
   check_mailbox(commands);
 }
 
-const Registration registration{"preview_commands", run};
+const Registration registered_preview_commands{"preview_commands", run_preview_commands};
 
 }  // namespace
 }  // namespace meniscus::fuzz

@@ -48,7 +48,7 @@ std::array<std::string_view, 2> parts_of(std::string_view bytes) {
   return {bytes.substr(0, cut), bytes.substr(cut)};
 }
 
-void run(std::string_view bytes) {
+void run_preview_server(std::string_view bytes) {
   constexpr std::size_t kMost = 100'000;  // what a socket's buffer holds
   const auto [request, rest] = parts_of(bytes.substr(0, kMost));
   const Ends ends;
@@ -69,7 +69,7 @@ void run(std::string_view bytes) {
   require(clients->connections == 0 && clients->sockets.empty(), "a connection that ended leaves nothing behind");
 }
 
-const Registration registration{"preview_server", run};
+const Registration registered_preview_server{"preview_server", run_preview_server};
 
 }  // namespace
 }  // namespace meniscus::fuzz

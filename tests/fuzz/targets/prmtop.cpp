@@ -5,12 +5,12 @@
 namespace meniscus::fuzz {
 namespace {
 
-void run(std::string_view bytes) {
+void run_prmtop(std::string_view bytes) {
   static const ScratchFile file("input.prmtop");
   check_reader(kPrmtopReader, file, bytes);
 }
 
-const Registration registration{"prmtop", run};
+const Registration registered_prmtop{"prmtop", run_prmtop};
 
 }  // namespace
 }  // namespace meniscus::fuzz

@@ -5,12 +5,12 @@
 namespace meniscus::fuzz {
 namespace {
 
-void run(std::string_view bytes) {
+void run_psf(std::string_view bytes) {
   static const ScratchFile file("input.psf");
   check_reader(kPsfReader, file, bytes);
 }
 
-const Registration registration{"psf", run};
+const Registration registered_psf{"psf", run_psf};
 
 }  // namespace
 }  // namespace meniscus::fuzz

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kCut = "\n====\n";
 
-void run(std::string_view bytes) {
+void run_radii(std::string_view bytes) {
   static const ScratchFile first("first.rtf"), second("second.prm");
   const std::size_t cut = bytes.find(kCut);
   std::vector<std::string> paths{first.write(bytes.substr(0, cut))};
@@ -34,7 +34,7 @@ void run(std::string_view bytes) {
   }
 }
 
-const Registration registration{"radii", run};
+const Registration registered_radii{"radii", run_radii};
 
 }  // namespace
 }  // namespace meniscus::fuzz

@@ -5,12 +5,12 @@
 namespace meniscus::fuzz {
 namespace {
 
-void run(std::string_view bytes) {
+void run_sdf(std::string_view bytes) {
   static const ScratchFile file("input.sdf");
   check_reader(kSdfReader, file, bytes);
 }
 
-const Registration registration{"sdf", run};
+const Registration registered_sdf{"sdf", run_sdf};
 
 }  // namespace
 }  // namespace meniscus::fuzz

@@ -39,7 +39,7 @@ void check_laws(const std::string& text, const std::vector<Atom>& atoms, const s
   require(!twice || *twice == set, "a set or itself is the set");
 }
 
-void run(std::string_view bytes) {
+void run_selection(std::string_view bytes) {
   const std::string text(bytes);
   if (const std::optional<Selection> selection = parsed(text)) {
     const std::vector<Atom> atoms = sample_atoms();
@@ -56,7 +56,7 @@ void run(std::string_view bytes) {
   }
 }
 
-const Registration registration{"selection", run};
+const Registration registered_selection{"selection", run_selection};
 
 }  // namespace
 }  // namespace meniscus::fuzz

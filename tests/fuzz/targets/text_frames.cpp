@@ -53,13 +53,13 @@ void check_against_reader(const std::string& path) {
   }
 }
 
-void run(std::string_view bytes) {
+void run_text_frames(std::string_view bytes) {
   static const ScratchFile file("input.models");
   check_trajectory(kModelsFormat, file, bytes);
   check_against_reader(file.write(bytes));
 }
 
-const Registration registration{"text_frames", run};
+const Registration registered_text_frames{"text_frames", run_text_frames};
 
 }  // namespace
 }  // namespace meniscus::fuzz

@@ -5,12 +5,12 @@
 namespace meniscus::fuzz {
 namespace {
 
-void run(std::string_view bytes) {
+void run_trr(std::string_view bytes) {
   static const ScratchFile file("input.trr");
   check_trajectory(kTrrFormat, file, bytes);
 }
 
-const Registration registration{"trr", run};
+const Registration registered_trr{"trr", run_trr};
 
 }  // namespace
 }  // namespace meniscus::fuzz

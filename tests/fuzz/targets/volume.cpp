@@ -10,7 +10,7 @@
 namespace meniscus::fuzz {
 namespace {
 
-void run(std::string_view bytes) {
+void run_volume(std::string_view bytes) {
   static const ScratchFile scratch("map");
   try {
     const VolumeGrid grid = read_volume(scratch.write(bytes));
@@ -33,7 +33,7 @@ void run(std::string_view bytes) {
   }
 }
 
-const Registration registration{"volume", run};
+const Registration registered_volume{"volume", run_volume};
 
 }  // namespace
 }  // namespace meniscus::fuzz

@@ -5,12 +5,12 @@
 namespace meniscus::fuzz {
 namespace {
 
-void run(std::string_view bytes) {
+void run_xtc(std::string_view bytes) {
   static const ScratchFile file("input.xtc");
   check_trajectory(kXtcFormat, file, bytes);
 }
 
-const Registration registration{"xtc", run};
+const Registration registered_xtc{"xtc", run_xtc};
 
 }  // namespace
 }  // namespace meniscus::fuzz

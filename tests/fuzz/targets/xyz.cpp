@@ -5,12 +5,12 @@
 namespace meniscus::fuzz {
 namespace {
 
-void run(std::string_view bytes) {
+void run_xyz(std::string_view bytes) {
   static const ScratchFile file("input.xyz");
   check_reader(kXyzReader, file, bytes);
 }
 
-const Registration registration{"xyz", run};
+const Registration registered_xyz{"xyz", run_xyz};
 
 }  // namespace
 }  // namespace meniscus::fuzz

@@ -5,12 +5,12 @@
 namespace meniscus::fuzz {
 namespace {
 
-void run(std::string_view bytes) {
+void run_xyzr(std::string_view bytes) {
   static const ScratchFile file("input.xyzr");
   check_reader(kXyzrReader, file, bytes);
 }
 
-const Registration registration{"xyzr", run};
+const Registration registered_xyzr{"xyzr", run_xyzr};
 
 }  // namespace
 }  // namespace meniscus::fuzz
