@@ -317,18 +317,18 @@ class Sequence(unittest.TestCase):
         item = sequence.stream(MANIFEST)
         scene, reads = bpy.context.scene, []
         self.assertTrue(scene.render.use_lock_interface)
-        original, ask = sequence_reader.Sequence.read, sequence._ahead.process.ask
+        original, submit = sequence_reader.Sequence.read, sequence._ahead.process.submit
 
         def counted(self, scene_frame):
             reads.append(scene_frame)
             return original(self, scene_frame)
 
-        def counted_ask(owner, key, kind, about):
+        def counted_submit(owner, key, kind, about):
             reads.append((kind, about["scene_frame"]))
-            return ask(owner, key, kind, about)
+            return submit(owner, key, kind, about)
 
         with unittest.mock.patch.object(sequence_reader.Sequence, "read", counted), \
-                unittest.mock.patch.object(sequence._ahead.process, "ask", counted_ask):
+                unittest.mock.patch.object(sequence._ahead.process, "submit", counted_submit):
             for frame, part in ((2, 0.0), (1, 0.75), (2, 0.25), (2, 0.0), (3, 0.0)):
                 scene.frame_set(frame, subframe=part)
         self.assertEqual(reads, [2, ("frame", 3)])
